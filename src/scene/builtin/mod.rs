@@ -1,0 +1,57 @@
+//! Generated scenes. A generator is one file here and one line in [`BUILTINS`].
+
+use super::SceneParts;
+
+/// A scene generator.
+pub struct Builtin {
+    /// Name on the command line and in lists.
+    pub name: &'static str,
+    /// One sentence: what it shows.
+    pub about: &'static str,
+    /// The size that the paper used.
+    pub default_size: u32,
+    /// The sizes allowed.
+    pub sizes: std::ops::RangeInclusive<u32>,
+    /// Makes the scene of this size.
+    pub generate: fn(u32) -> SceneParts,
+}
+
+/// All generators.
+pub static BUILTINS: &[Builtin] = &[];
+
+/// Why a generator gave no scene.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BuiltinError {
+    #[error("no generator is called '{0}'")]
+    Unknown(String),
+    #[error("{name} takes sizes {lowest} to {highest}, found {found}")]
+    Size {
+        name: &'static str,
+        lowest: u32,
+        highest: u32,
+        found: u32,
+    },
+}
+
+/// The generator of this name.
+pub fn find(name: &str) -> Option<&'static Builtin> {
+    BUILTINS.iter().find(|b| b.name == name)
+}
+
+/// Generates a scene; without a size, the paper's.
+///
+/// # Errors
+/// An unknown name or a size out of range.
+pub fn generate(name: &str, size: Option<u32>) -> Result<SceneParts, BuiltinError> {
+    let builtin = find(name).ok_or_else(|| BuiltinError::Unknown(name.to_owned()))?;
+    let size = size.unwrap_or(builtin.default_size);
+    if !builtin.sizes.contains(&size) {
+        return Err(BuiltinError::Size {
+            name: builtin.name,
+            lowest: *builtin.sizes.start(),
+            highest: *builtin.sizes.end(),
+            found: size,
+        });
+    }
+    Ok((builtin.generate)(size))
+}
