@@ -1,6 +1,9 @@
 //! bspscope: see, measure and compare the BSP trees that make ray tracing fast.
 
 pub mod geometry;
+pub mod measure;
 pub mod primitive;
 pub mod progress;
 pub mod scene;
+pub mod trace;
+pub mod tree;

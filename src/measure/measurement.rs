@@ -1,0 +1,152 @@
+//! One scene, one tree, one picture: everything the parameters are computed from.
+
+use super::{SceneFacts, TreeFacts};
+use crate::progress::{Cancelled, Progress};
+use crate::scene::Scene;
+use crate::trace::{
+    CountedPass, RayKind, RenderError, RenderSettings, Tally, TimedPass, counted_pass, thread_pool,
+    timed_pass,
+};
+use crate::tree::{BuildError, BuildSettings, MaxDepth, Tree, build};
+use cpu_time::ThreadTime;
+use std::time::{Duration, Instant};
+
+/// Why there is no measurement.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeasureError {
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    #[error(transparent)]
+    Render(#[from] RenderError),
+}
+
+impl MeasureError {
+    /// Whether nothing is wrong but that the task was told to stop.
+    pub fn is_cancelled(&self) -> bool {
+        matches!(
+            self,
+            MeasureError::Build(BuildError::Cancelled(Cancelled))
+                | MeasureError::Render(RenderError::Cancelled(Cancelled))
+        )
+    }
+}
+
+/// CPU time and time on the wall of one task.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Times {
+    pub cpu: Duration,
+    pub wall: Duration,
+}
+
+impl Times {
+    /// Times a task that runs on the calling thread alone.
+    pub fn of<R>(task: impl FnOnce() -> R) -> (R, Times) {
+        let (cpu, wall) = (ThreadTime::now(), Instant::now());
+        let result = task();
+        let times = Times {
+            cpu: cpu.elapsed(),
+            wall: wall.elapsed(),
+        };
+        (result, times)
+    }
+}
+
+/// Everything that was specified, counted and timed. What is not measured yet is `None`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measurement {
+    pub build: BuildSettings,
+    pub render: RenderSettings,
+    /// The greatest depth allowed, resolved.
+    pub depth_limit: u32,
+    pub scene: SceneFacts,
+    pub tree: TreeFacts,
+    /// Construction of the tree.
+    pub building: Times,
+    /// The timed pass.
+    pub rendering: Option<TimedPass>,
+    /// The counted pass.
+    pub counted: Option<CountedPass>,
+}
+
+impl Measurement {
+    /// What is known once the tree stands.
+    pub fn of_tree(
+        scene: &Scene,
+        tree: &Tree,
+        building: Times,
+        render: &RenderSettings,
+    ) -> Measurement {
+        Measurement {
+            build: tree.settings().clone(),
+            render: *render,
+            depth_limit: tree.depth_limit(),
+            scene: SceneFacts::of(scene),
+            tree: TreeFacts::of(tree),
+            building,
+            rendering: None,
+            counted: None,
+        }
+    }
+
+    /// What rays of a kind did; `None` before they were counted.
+    pub fn tally(&self, kind: RayKind) -> Option<Tally> {
+        Some(self.counted.as_ref()?.tallies[kind as usize])
+    }
+
+    /// What secondary (reflected and refracted) rays did.
+    pub fn secondary(&self) -> Option<Tally> {
+        Some(
+            [RayKind::Reflected, RayKind::Refracted]
+                .into_iter()
+                .filter_map(|kind| self.tally(kind))
+                .sum(),
+        )
+        .filter(|_| self.counted.is_some())
+    }
+
+    /// What all rays did.
+    pub fn all_rays(&self) -> Option<Tally> {
+        Some(self.counted.as_ref()?.tallies.iter().copied().sum())
+    }
+
+    /// `D_MAX` in words, with how it was chosen.
+    pub fn depth_in_words(&self) -> String {
+        match self.build.d_max {
+            MaxDepth::Fixed(depth) => depth.to_string(),
+            MaxDepth::Automatic => format!("{} (automatic)", self.depth_limit),
+        }
+    }
+}
+
+/// Builds a tree and takes every measurement of it: the timed pass first, then the counted one.
+///
+/// # Errors
+/// Settings out of range, a tree beyond the memory limit, no view, or cancellation.
+pub fn measure(
+    scene: &Scene,
+    build_settings: &BuildSettings,
+    render_settings: &RenderSettings,
+    progress: &Progress,
+) -> Result<(Tree, Measurement), MeasureError> {
+    let (tree, building) = Times::of(|| build(scene, build_settings, progress));
+    let tree = tree?;
+    let mut measurement = Measurement::of_tree(scene, &tree, building, render_settings);
+    let pool = thread_pool(render_settings.threads)?;
+    measurement.rendering = Some(timed_pass(
+        scene,
+        &tree,
+        render_settings,
+        0,
+        &pool,
+        progress,
+        |_, _| (),
+    )?);
+    measurement.counted = Some(counted_pass(
+        scene,
+        &tree,
+        render_settings,
+        &pool,
+        progress,
+    )?);
+    Ok((tree, measurement))
+}

@@ -1,0 +1,313 @@
+//! Kernels over batches of rays: closest hit and any hit, timed or counted.
+
+use super::shapes::{Objects, with_objects};
+use super::{LeafVisitor, Probe, RayCounts, Scratch, Shapes, Tally, traverse};
+use crate::geometry::Ray;
+use crate::progress::Progress;
+use crate::tree::Tree;
+use cpu_time::ThreadTime;
+use std::time::Duration;
+
+/// The nearest hit of a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Where on the ray; infinite for a miss.
+    pub t: f64,
+    /// Number of the object; [`Hit::MISS`]'s is no object.
+    pub object: u32,
+}
+
+impl Hit {
+    /// Nothing is hit.
+    pub const MISS: Hit = Hit {
+        t: f64::INFINITY,
+        object: u32::MAX,
+    };
+
+    pub fn is_hit(&self) -> bool {
+        self.object != u32::MAX
+    }
+}
+
+/// The kinds of ray that the paper's Table 3 tells apart; reflected and refracted rays are its
+/// secondary rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RayKind {
+    Primary = 0,
+    Shadow = 1,
+    Reflected = 2,
+    Refracted = 3,
+}
+
+impl RayKind {
+    pub const ALL: [RayKind; 4] = [
+        RayKind::Primary,
+        RayKind::Shadow,
+        RayKind::Reflected,
+        RayKind::Refracted,
+    ];
+
+    pub const fn name(self) -> &'static str {
+        ["primary", "shadow", "reflected", "refracted"][self as usize]
+    }
+}
+
+/// Rays of one kind, with the pixel of the tile that each belongs to.
+#[derive(Clone, Copy)]
+pub struct Batch<'a> {
+    pub kind: RayKind,
+    pub rays: &'a [Ray],
+    pub pixels: &'a [u32],
+}
+
+/// How many rays are traced between two looks at whether the task was cancelled: even against
+/// 50,000 objects each, they take a few milliseconds.
+const RAYS_PER_LOOK: usize = 16;
+
+/// What the renderer asks for, a batch at a time. A cancelled task leaves the rest of a batch
+/// untraced, as misses.
+pub trait RayTracer {
+    /// The nearest hit of every ray; of equal distances the lower object number. `hits` is
+    /// overwritten and gets the length of the batch.
+    fn closest_hits(&mut self, batch: Batch<'_>, hits: &mut Vec<Hit>);
+
+    /// Whether anything lies on every ray before its end. `blocked` is overwritten likewise.
+    fn any_hits(&mut self, batch: Batch<'_>, blocked: &mut Vec<bool>);
+}
+
+struct Closest<'a, O: ?Sized> {
+    objects: &'a O,
+    best: Hit,
+}
+
+impl<O: Objects + ?Sized> LeafVisitor for Closest<'_, O> {
+    #[inline(always)]
+    fn visit<P: Probe>(&mut self, ray: &Ray, objects: &[u32], probe: &mut P) -> f64 {
+        for &object in objects {
+            let hit = self.objects.intersect(object, ray, self.best.t);
+            probe.test(object, hit);
+            if let Some(t) = hit
+                && (t < self.best.t || object < self.best.object)
+            {
+                self.best = Hit { t, object };
+            }
+        }
+        self.best.t
+    }
+}
+
+struct Any<'a, O: ?Sized> {
+    objects: &'a O,
+    blocked: bool,
+}
+
+impl<O: Objects + ?Sized> LeafVisitor for Any<'_, O> {
+    #[inline(always)]
+    fn visit<P: Probe>(&mut self, ray: &Ray, objects: &[u32], probe: &mut P) -> f64 {
+        for &object in objects {
+            let hit = self.objects.intersect(object, ray, ray.t_max);
+            probe.test(object, hit);
+            if hit.is_some() {
+                self.blocked = true;
+                return f64::NEG_INFINITY;
+            }
+        }
+        ray.t_max
+    }
+}
+
+/// Walks to the known end of a ray: through as many leaves as it visited, testing nothing.
+struct Walk {
+    leaves: u32,
+}
+
+impl LeafVisitor for Walk {
+    #[inline(always)]
+    fn visit<P: Probe>(&mut self, _: &Ray, _: &[u32], _: &mut P) -> f64 {
+        self.leaves -= 1;
+        if self.leaves == 0 {
+            f64::NEG_INFINITY
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+#[inline(always)]
+fn closest<O: Objects + ?Sized, P: Probe>(
+    tree: &Tree,
+    objects: &O,
+    ray: &Ray,
+    scratch: &mut Scratch,
+    probe: &mut P,
+) -> Hit {
+    let best = Hit {
+        t: ray.t_max,
+        object: u32::MAX,
+    };
+    let mut visitor = Closest { objects, best };
+    traverse(tree, ray, scratch, &mut visitor, probe);
+    if visitor.best.is_hit() {
+        visitor.best
+    } else {
+        Hit::MISS
+    }
+}
+
+#[inline(always)]
+fn any<O: Objects + ?Sized, P: Probe>(
+    tree: &Tree,
+    objects: &O,
+    ray: &Ray,
+    scratch: &mut Scratch,
+    probe: &mut P,
+) -> bool {
+    let mut visitor = Any {
+        objects,
+        blocked: false,
+    };
+    traverse(tree, ray, scratch, &mut visitor, probe);
+    visitor.blocked
+}
+
+/// The kernel whose time counts: it counts nothing.
+pub struct Timed<'a> {
+    tree: &'a Tree,
+    shapes: &'a Shapes<'a>,
+    progress: &'a Progress,
+    scratch: Scratch,
+}
+
+impl<'a> Timed<'a> {
+    pub fn new(tree: &'a Tree, shapes: &'a Shapes<'a>, progress: &'a Progress) -> Self {
+        Timed {
+            tree,
+            shapes,
+            progress,
+            scratch: Scratch::default(),
+        }
+    }
+}
+
+impl RayTracer for Timed<'_> {
+    fn closest_hits(&mut self, batch: Batch<'_>, hits: &mut Vec<Hit>) {
+        hits.clear();
+        with_objects!(self.shapes, objects => {
+            for rays in batch.rays.chunks(RAYS_PER_LOOK) {
+                if self.progress.is_cancelled() {
+                    break;
+                }
+                hits.extend(rays.iter().map(|ray| {
+                    closest(self.tree, objects, ray, &mut self.scratch, &mut ())
+                }));
+            }
+        });
+        hits.resize(batch.rays.len(), Hit::MISS);
+    }
+
+    fn any_hits(&mut self, batch: Batch<'_>, blocked: &mut Vec<bool>) {
+        blocked.clear();
+        with_objects!(self.shapes, objects => {
+            for rays in batch.rays.chunks(RAYS_PER_LOOK) {
+                if self.progress.is_cancelled() {
+                    break;
+                }
+                blocked.extend(rays.iter().map(|ray| {
+                    any(self.tree, objects, ray, &mut self.scratch, &mut ())
+                }));
+            }
+        });
+        blocked.resize(batch.rays.len(), false);
+    }
+}
+
+/// The kernel whose counts count: its own time means nothing. Between its batches it walks the same
+/// rays through the tree once more, by the timed traversal without tests, and takes that time.
+pub struct Counting<'a> {
+    tree: &'a Tree,
+    shapes: &'a Shapes<'a>,
+    progress: &'a Progress,
+    scratch: Scratch,
+    counts: Vec<RayCounts>,
+    /// What the rays of each kind did, by [`RayKind`].
+    pub tallies: [Tally; 4],
+    /// CPU time of walking all rays to their known ends, without tests and shading.
+    pub walking: Duration,
+    /// Told the pixel, kind and counts of every ray, if anything wants to know.
+    pub observer: Option<&'a mut dyn FnMut(u32, RayKind, &RayCounts, bool)>,
+}
+
+impl<'a> Counting<'a> {
+    pub fn new(tree: &'a Tree, shapes: &'a Shapes<'a>, progress: &'a Progress) -> Self {
+        Counting {
+            tree,
+            shapes,
+            progress,
+            scratch: Scratch::default(),
+            counts: Vec::new(),
+            tallies: Default::default(),
+            walking: Duration::ZERO,
+            observer: None,
+        }
+    }
+
+    fn finish(&mut self, batch: Batch<'_>, hit: impl Fn(usize) -> bool) {
+        for (i, counts) in self.counts.iter().enumerate() {
+            self.tallies[batch.kind as usize].add(counts, hit(i));
+            if let Some(observer) = &mut self.observer {
+                observer(batch.pixels[i], batch.kind, counts, hit(i));
+            }
+        }
+        let start = ThreadTime::now();
+        for (ray, counts) in batch.rays.iter().zip(&self.counts) {
+            let leaves = counts.leaves.max(1);
+            let mut walk = Walk { leaves };
+            traverse(self.tree, ray, &mut self.scratch, &mut walk, &mut ());
+            std::hint::black_box(&walk.leaves);
+        }
+        self.walking += start.elapsed();
+    }
+}
+
+impl RayTracer for Counting<'_> {
+    fn closest_hits(&mut self, batch: Batch<'_>, hits: &mut Vec<Hit>) {
+        hits.clear();
+        self.counts.clear();
+        with_objects!(self.shapes, objects => {
+            for rays in batch.rays.chunks(RAYS_PER_LOOK) {
+                if self.progress.is_cancelled() {
+                    break;
+                }
+                for ray in rays {
+                    let mut counts = RayCounts::default();
+                    let hit = closest(self.tree, objects, ray, &mut self.scratch, &mut counts);
+                    hits.push(hit);
+                    self.counts.push(counts);
+                }
+            }
+        });
+        hits.resize(batch.rays.len(), Hit::MISS);
+        self.finish(batch, |i| hits[i].is_hit());
+    }
+
+    fn any_hits(&mut self, batch: Batch<'_>, blocked: &mut Vec<bool>) {
+        blocked.clear();
+        self.counts.clear();
+        with_objects!(self.shapes, objects => {
+            for rays in batch.rays.chunks(RAYS_PER_LOOK) {
+                if self.progress.is_cancelled() {
+                    break;
+                }
+                for ray in rays {
+                    let mut counts = RayCounts::default();
+                    let hit = any(self.tree, objects, ray, &mut self.scratch, &mut counts);
+                    blocked.push(hit);
+                    self.counts.push(counts);
+                }
+            }
+        });
+        blocked.resize(batch.rays.len(), false);
+        self.finish(batch, |i| blocked[i]);
+    }
+}

@@ -1,0 +1,25 @@
+//! Rays through trees: traversal, kernels that time and kernels that count, shading, pictures.
+//!
+//! Counting is a type parameter ([`Probe`]): with `()` nothing is counted and nothing is paid.
+
+mod any_order;
+mod kernel;
+mod picture;
+mod probe;
+mod render;
+mod settings;
+mod shapes;
+mod traverse;
+mod whitted;
+
+pub use any_order::objects_along;
+pub use kernel::{Batch, Counting, Hit, RayKind, RayTracer, Timed};
+pub use picture::{Picture, TILE, Tile, tiles};
+pub use probe::{Probe, RayCounts, Tally};
+pub use render::{
+    CountedPass, RenderError, TimedPass, counted_pass, preview, thread_pool, timed_pass,
+};
+pub use settings::RenderSettings;
+pub use shapes::Shapes;
+pub use traverse::{LeafVisitor, Scratch, traverse};
+pub use whitted::trace_samples;

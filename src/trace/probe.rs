@@ -1,0 +1,103 @@
+//! What a traversal can be watched with. A probe is a type parameter: `()` costs nothing.
+
+use serde::Serialize;
+
+/// Is told of everything a traversal does.
+pub trait Probe {
+    /// An inner node is traversed.
+    fn inner(&mut self, node: u32);
+    /// A leaf is visited, while the ray is between `t_enter` and `t_exit`.
+    fn leaf(&mut self, node: u32, objects: &[u32], t_enter: f64, t_exit: f64);
+    /// An object is tested; `hit` is where the ray meets it before the nearest hit so far.
+    fn test(&mut self, object: u32, hit: Option<f64>);
+}
+
+/// Watches nothing: the probe of timed kernels.
+impl Probe for () {
+    #[inline(always)]
+    fn inner(&mut self, _: u32) {}
+    #[inline(always)]
+    fn leaf(&mut self, _: u32, _: &[u32], _: f64, _: f64) {}
+    #[inline(always)]
+    fn test(&mut self, _: u32, _: Option<f64>) {}
+}
+
+/// What one ray did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCounts {
+    /// Inner nodes traversed.
+    pub inner_nodes: u32,
+    /// Leaves visited, empty ones included.
+    pub leaves: u32,
+    /// Empty leaves visited.
+    pub empty_leaves: u32,
+    /// Intersection tests.
+    pub tests: u32,
+}
+
+impl Probe for RayCounts {
+    #[inline(always)]
+    fn inner(&mut self, _: u32) {
+        self.inner_nodes += 1;
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, _: u32, objects: &[u32], _: f64, _: f64) {
+        self.leaves += 1;
+        self.empty_leaves += u32::from(objects.is_empty());
+    }
+
+    #[inline(always)]
+    fn test(&mut self, _: u32, _: Option<f64>) {
+        self.tests += 1;
+    }
+}
+
+/// What all rays of one kind did. Adding tallies in any order gives the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Tally {
+    /// Rays formed.
+    pub rays: u64,
+    /// Rays that hit an object (before the light, for shadow rays).
+    pub hits: u64,
+    /// Intersection tests.
+    pub tests: u64,
+    /// Inner nodes traversed.
+    pub inner_nodes: u64,
+    /// Leaves visited, empty ones included.
+    pub leaves: u64,
+    /// Empty leaves visited.
+    pub empty_leaves: u64,
+}
+
+impl Tally {
+    /// Adds one ray.
+    pub fn add(&mut self, counts: &RayCounts, hit: bool) {
+        self.rays += 1;
+        self.hits += u64::from(hit);
+        self.tests += u64::from(counts.tests);
+        self.inner_nodes += u64::from(counts.inner_nodes);
+        self.leaves += u64::from(counts.leaves);
+        self.empty_leaves += u64::from(counts.empty_leaves);
+    }
+}
+
+impl std::ops::AddAssign for Tally {
+    fn add_assign(&mut self, other: Tally) {
+        self.rays += other.rays;
+        self.hits += other.hits;
+        self.tests += other.tests;
+        self.inner_nodes += other.inner_nodes;
+        self.leaves += other.leaves;
+        self.empty_leaves += other.empty_leaves;
+    }
+}
+
+impl std::iter::Sum for Tally {
+    fn sum<I: Iterator<Item = Tally>>(tallies: I) -> Tally {
+        tallies.fold(Tally::default(), |mut sum, tally| {
+            sum += tally;
+            sum
+        })
+    }
+}

@@ -1,0 +1,276 @@
+//! Whole passes over a picture: a coarse preview, the timed pass, the counted pass.
+
+use super::{
+    Counting, RayKind, RenderSettings, Scratch, Shapes, Tally, Tile, Timed, objects_along, tiles,
+    trace_samples,
+};
+use crate::geometry::Vec3;
+use crate::progress::{Cancelled, Progress};
+use crate::scene::{CameraError, Scene, View};
+use crate::tree::Tree;
+use cpu_time::ThreadTime;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// Why there is no picture.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RenderError {
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    #[error("a picture of {width} × {height} pixels: both must be from 1 to {limit}")]
+    Resolution { width: u32, height: u32, limit: u32 },
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    #[error("the threads could not be started: {0}")]
+    Threads(String),
+}
+
+/// The most pixels a picture can have on a side.
+const RESOLUTION_LIMIT: u32 = 16_384;
+
+impl RenderSettings {
+    /// The camera's view for these settings.
+    ///
+    /// # Errors
+    /// A camera without a view or a resolution out of range.
+    pub fn view(&self) -> Result<View, RenderError> {
+        let range = 1..=RESOLUTION_LIMIT;
+        if !range.contains(&self.width) || !range.contains(&self.height) {
+            return Err(RenderError::Resolution {
+                width: self.width,
+                height: self.height,
+                limit: RESOLUTION_LIMIT,
+            });
+        }
+        Ok(self.camera.view(self.width, self.height, self.sampling)?)
+    }
+}
+
+/// Threads to trace on; 0 takes as many as the machine has cores.
+///
+/// # Errors
+/// The system gives no threads.
+pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, RenderError> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .thread_name(|i| format!("trace-{i}"))
+        .build()
+        .map_err(|error| RenderError::Threads(error.to_string()))
+}
+
+/// What one timed pass took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TimedPass {
+    /// CPU time of all threads together, `T_TR`.
+    pub cpu: Duration,
+    /// Time on the clock on the wall.
+    pub wall: Duration,
+}
+
+/// What one counted pass counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CountedPass {
+    /// By [`RayKind`].
+    pub tallies: [Tally; 4],
+    /// CPU time of walking all rays to their known ends without tests and shading, `T_TT`.
+    pub walking: Duration,
+    /// Objects met by all primary rays together: `D_COMPX` times the number of primary rays.
+    pub objects_met: u64,
+}
+
+impl CountedPass {
+    fn merge(mut self, other: CountedPass) -> CountedPass {
+        for kind in RayKind::ALL {
+            self.tallies[kind as usize] += other.tallies[kind as usize];
+        }
+        self.walking += other.walking;
+        self.objects_met += other.objects_met;
+        self
+    }
+}
+
+/// A pass's tiles in parallel; every tile is given to `work` once.
+fn over_tiles<R: Send>(
+    settings: &RenderSettings,
+    pool: &rayon::ThreadPool,
+    progress: &Progress,
+    work: impl Fn(&Tile, &[(u32, u32)]) -> R + Sync,
+    merge: impl Fn(R, R) -> R + Sync + Send,
+    nothing: impl Fn() -> R + Sync + Send,
+) -> Result<R, Cancelled> {
+    let tiles = tiles(settings.width, settings.height);
+    let done = AtomicUsize::new(0);
+    pool.install(|| {
+        tiles
+            .par_iter()
+            .with_max_len(1)
+            .map(|tile| {
+                progress.check()?;
+                let pixels: Vec<_> = (0..tile.len() as u32).map(|i| tile.pixel(i)).collect();
+                let result = work(tile, &pixels);
+                progress.check()?;
+                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+                progress.set(done as f64 / tiles.len() as f64);
+                Ok(result)
+            })
+            .try_reduce(nothing, |a, b| Ok(merge(a, b)))
+    })
+}
+
+/// Traces sample number `sample` of every pixel with the timed kernel. `on_tile` gets every
+/// finished tile's linear colours, from any thread and in any order; its time is not counted.
+///
+/// # Errors
+/// A camera without a view, a resolution out of range, or cancellation.
+pub fn timed_pass(
+    scene: &Scene,
+    tree: &Tree,
+    settings: &RenderSettings,
+    sample: u32,
+    pool: &rayon::ThreadPool,
+    progress: &Progress,
+    on_tile: impl Fn(&Tile, &[Vec3]) + Sync,
+) -> Result<TimedPass, RenderError> {
+    let view = settings.view()?;
+    let shapes = Shapes::of(scene);
+    let start = Instant::now();
+    let cpu = over_tiles(
+        settings,
+        pool,
+        progress,
+        |tile, pixels| {
+            let start = ThreadTime::now();
+            let mut tracer = Timed::new(tree, &shapes, progress);
+            let mut colors = Vec::new();
+            trace_samples(
+                scene,
+                &view,
+                settings.d_arec,
+                pixels,
+                sample,
+                &mut tracer,
+                &mut colors,
+            );
+            let time = start.elapsed();
+            if !progress.is_cancelled() {
+                on_tile(tile, &colors);
+            }
+            time
+        },
+        |a, b| a + b,
+        || Duration::ZERO,
+    )?;
+    Ok(TimedPass {
+        cpu,
+        wall: start.elapsed(),
+    })
+}
+
+/// Traces sample 0 of every pixel with the counting kernel.
+///
+/// # Errors
+/// As [`timed_pass`].
+pub fn counted_pass(
+    scene: &Scene,
+    tree: &Tree,
+    settings: &RenderSettings,
+    pool: &rayon::ThreadPool,
+    progress: &Progress,
+) -> Result<CountedPass, RenderError> {
+    let view = settings.view()?;
+    let shapes = Shapes::of(scene);
+    let pass = over_tiles(
+        settings,
+        pool,
+        progress,
+        |_, pixels| {
+            let mut tracer = Counting::new(tree, &shapes, progress);
+            trace_samples(
+                scene,
+                &view,
+                settings.d_arec,
+                pixels,
+                0,
+                &mut tracer,
+                &mut Vec::new(),
+            );
+            let (mut scratch, mut found) = (Scratch::default(), Vec::new());
+            let mut objects_met = 0;
+            for &(x, y) in pixels {
+                if progress.is_cancelled() {
+                    break;
+                }
+                let ray = view.primary_ray(x, y, 0);
+                objects_along(tree, &shapes, &ray, &mut scratch, &mut found);
+                objects_met += found.len() as u64;
+            }
+            CountedPass {
+                tallies: tracer.tallies,
+                walking: tracer.walking,
+                objects_met,
+            }
+        },
+        CountedPass::merge,
+        CountedPass::default,
+    )?;
+    Ok(pass)
+}
+
+/// Traces one pixel of every square of `step` × `step` pixels and gives the whole square its
+/// colour: a coarse first picture. `on_tile` gets the squares, from any thread.
+///
+/// # Errors
+/// As [`timed_pass`].
+pub fn preview(
+    scene: &Scene,
+    tree: &Tree,
+    settings: &RenderSettings,
+    step: u32,
+    pool: &rayon::ThreadPool,
+    progress: &Progress,
+    on_tile: impl Fn(&Tile, &[Vec3]) + Sync,
+) -> Result<(), RenderError> {
+    let view = settings.view()?;
+    let shapes = Shapes::of(scene);
+    over_tiles(
+        settings,
+        pool,
+        progress,
+        |tile, _| {
+            let columns = tile.width.div_ceil(step);
+            let rows = tile.height.div_ceil(step);
+            let centers: Vec<_> = (0..rows)
+                .flat_map(|row| (0..columns).map(move |column| (column, row)))
+                .map(|(column, row)| {
+                    let x = tile.x + (column * step + step / 2).min(tile.width - 1);
+                    let y = tile.y + (row * step + step / 2).min(tile.height - 1);
+                    (x, y)
+                })
+                .collect();
+            let mut tracer = Timed::new(tree, &shapes, progress);
+            let mut coarse = Vec::new();
+            trace_samples(
+                scene,
+                &view,
+                settings.d_arec,
+                &centers,
+                0,
+                &mut tracer,
+                &mut coarse,
+            );
+            if !progress.is_cancelled() {
+                let fine: Vec<_> = (0..tile.len() as u32)
+                    .map(|i| {
+                        let (column, row) = (i % tile.width / step, i / tile.width / step);
+                        coarse[(row * columns + column) as usize]
+                    })
+                    .collect();
+                on_tile(tile, &fine);
+            }
+        },
+        |(), ()| (),
+        || (),
+    )?;
+    Ok(())
+}

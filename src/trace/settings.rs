@@ -1,0 +1,37 @@
+//! How a picture is traced.
+
+use crate::scene::{Camera, Sampling};
+use serde::{Deserialize, Serialize};
+
+/// Everything that, with a scene, decides the picture (class S of the paper's parameters).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RenderSettings {
+    pub camera: Camera,
+    /// Width in pixels, `N_X`; at least 1.
+    pub width: u32,
+    /// Height in pixels, `N_Y`; at least 1.
+    pub height: u32,
+    /// How deep secondary rays go, `D_AREC`; 0 traces none.
+    pub d_arec: u32,
+    /// Where in a pixel the first sample lies.
+    pub sampling: Sampling,
+    /// Samples a pixel in the finished picture, at least 1. Measurements always take one.
+    pub samples: u32,
+    /// Threads; 0 takes as many as the machine has cores.
+    pub threads: usize,
+}
+
+impl RenderSettings {
+    /// The paper's settings for a camera: 512 × 512, `D_AREC` 4, one sample at the centre.
+    pub fn for_camera(camera: Camera) -> Self {
+        RenderSettings {
+            camera,
+            width: 512,
+            height: 512,
+            d_arec: 4,
+            sampling: Sampling::Center,
+            samples: 1,
+            threads: 0,
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! One traversal for everything: closest hit, any hit, timing without tests, recording.
+//!
+//! The order of visits is that of K. Sung and P. Shirley (Graphics Gems III, 1992): front to back
+//! with a stack. Decisions are conservative: the distance to a plane carries a few roundings, so an
+//! interval is widened by more than that whenever a plane bounds it, and a comparison that NaN
+//! could reach is written so that NaN visits both children. Objects within rounding of a plane are
+//! in the leaves of both sides ([`crate::tree::Frame::slack`]).
+
+use super::Probe;
+use crate::geometry::Ray;
+use crate::tree::Tree;
+
+/// What is done in the leaves a ray visits.
+pub trait LeafVisitor {
+    /// Visits a leaf and says beyond which `t` nothing matters any more; −∞ ends the walk.
+    fn visit<P: Probe>(&mut self, ray: &Ray, objects: &[u32], probe: &mut P) -> f64;
+}
+
+/// Memory that traversals reuse from ray to ray.
+#[derive(Debug, Default)]
+pub struct Scratch {
+    stack: Vec<Waiting>,
+}
+
+/// A far child that waits for its turn.
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    node: u32,
+    t_enter: f64,
+    t_exit: f64,
+}
+
+/// Relative bound on the rounding of a distance to a plane, with room to spare: the subtraction,
+/// the division and both conversions into the coordinates of the root cell round once each.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+#[inline(always)]
+fn later(t: f64) -> f64 {
+    t + t.abs() * ROUNDING
+}
+
+#[inline(always)]
+fn earlier(t: f64) -> f64 {
+    t - t.abs() * ROUNDING
+}
+
+/// Walks a ray through the leaves of a tree, front to back, between `ray.t_min` and `ray.t_max`.
+///
+/// A ray that misses the root cell visits nothing.
+#[inline]
+pub fn traverse<V: LeafVisitor, P: Probe>(
+    tree: &Tree,
+    ray: &Ray,
+    scratch: &mut Scratch,
+    visitor: &mut V,
+    probe: &mut P,
+) {
+    let origin = tree.frame().point_to_local(ray.origin).to_array();
+    let direction = tree.frame().direction_to_local(ray.direction).to_array();
+    let inverse = direction.map(|d| 1.0 / d);
+    let (mut t_enter, mut t_exit) = (ray.t_min, ray.t_max);
+    for k in 0..3 {
+        const SIDE: f64 = 1.0 + ROUNDING;
+        if inverse[k].is_finite() {
+            let (a, b) = (
+                (-SIDE - origin[k]) * inverse[k],
+                (SIDE - origin[k]) * inverse[k],
+            );
+            t_enter = t_enter.max(earlier(a.min(b)));
+            t_exit = t_exit.min(later(a.max(b)));
+        } else if origin[k].abs() > SIDE {
+            return;
+        }
+    }
+    if t_enter > t_exit {
+        return;
+    }
+    let nodes = tree.nodes();
+    let references = tree.references();
+    let stack = &mut scratch.stack;
+    stack.clear();
+    let mut at = 0u32;
+    loop {
+        let mut node = nodes[at as usize];
+        while !node.is_leaf() {
+            probe.inner(at);
+            let (axis, plane, above) = node.as_inner();
+            let t = (f64::from(plane) - origin[axis]) * inverse[axis];
+            let (near, far) = if direction[axis].is_sign_negative() {
+                (above, at + 1)
+            } else {
+                (at + 1, above)
+            };
+            at = if t > t_exit {
+                near
+            } else if t < t_enter {
+                far
+            } else {
+                stack.push(Waiting {
+                    node: far,
+                    t_enter: t_enter.max(earlier(t)),
+                    t_exit,
+                });
+                t_exit = t_exit.min(later(t));
+                near
+            };
+            node = nodes[at as usize];
+        }
+        let (first, count) = node.as_leaf();
+        let objects = &references[first..first + count];
+        probe.leaf(at, objects, t_enter, t_exit);
+        let limit = visitor.visit(ray, objects, probe);
+        match stack.pop() {
+            // What waits below lies farther still.
+            Some(next) if next.t_enter <= limit => {
+                (at, t_enter, t_exit) = (next.node, next.t_enter, next.t_exit);
+            }
+            _ => return,
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! Whitted's tree of rays with NFF's shading, traced by wavefronts: all rays of one kind and depth
+//! of a set of pixels are one batch.
+//!
+//! T. Whitted, An improved illumination model for shaded display, 1980. At a hit the surface is
+//! turned to the side the ray came from. Every light that this side faces gets a shadow ray. The
+//! reflected ray has the weight `Ks`; a transparent surface adds what Fresnel's law in Schlick's
+//! approximation (1994) reflects of `T`, and passes the rest on by Snell's law. On total internal
+//! reflection all of `T` is reflected.
+
+use super::{Batch, RayKind, RayTracer};
+use crate::geometry::{Ray, Vec3};
+use crate::primitive::{Shape, SurfacePoint};
+use crate::scene::{Material, Scene, View};
+
+/// Rays of one kind on their way, with what their radiance counts for in which pixel.
+#[derive(Default)]
+struct Wave {
+    rays: Vec<Ray>,
+    pixels: Vec<u32>,
+    weights: Vec<Vec3>,
+}
+
+impl Wave {
+    fn push(&mut self, ray: Ray, pixel: u32, weight: Vec3) {
+        if weight.max_element() > 0.0 {
+            self.rays.push(ray);
+            self.pixels.push(pixel);
+            self.weights.push(weight);
+        }
+    }
+
+    fn batch(&self, kind: RayKind) -> Batch<'_> {
+        Batch {
+            kind,
+            rays: &self.rays,
+            pixels: &self.pixels,
+        }
+    }
+
+    fn clear(&mut self) {
+        self.rays.clear();
+        self.pixels.clear();
+        self.weights.clear();
+    }
+}
+
+/// Traces sample number `sample` of pixels given by their place in the picture; `colors` is
+/// overwritten with their linear colours. Secondary rays go `d_arec` deep.
+pub fn trace_samples<T: RayTracer>(
+    scene: &Scene,
+    view: &View,
+    d_arec: u32,
+    pixels: &[(u32, u32)],
+    sample: u32,
+    tracer: &mut T,
+    colors: &mut Vec<Vec3>,
+) {
+    colors.clear();
+    colors.resize(pixels.len(), Vec3::ZERO);
+    let secondary_depth = scene.requirements().secondary_depth(d_arec);
+    let light_color = Vec3::splat(1.0 / (scene.lights().len() as f64).sqrt());
+    let mut now = [RayKind::Primary, RayKind::Reflected, RayKind::Refracted]
+        .map(|kind| (kind, Wave::default()));
+    let mut next_reflected = Wave::default();
+    let mut next_refracted = Wave::default();
+    let mut shadow = Wave::default();
+    let (mut hits, mut blocked) = (Vec::new(), Vec::new());
+
+    for (i, &(x, y)) in pixels.iter().enumerate() {
+        now[0]
+            .1
+            .push(view.primary_ray(x, y, sample), i as u32, Vec3::ONE);
+    }
+    for depth in 0..=secondary_depth {
+        for (kind, wave) in &mut now {
+            if wave.rays.is_empty() {
+                continue;
+            }
+            tracer.closest_hits(wave.batch(*kind), &mut hits);
+            for (i, hit) in hits.iter().enumerate() {
+                let (ray, pixel, weight) = (&wave.rays[i], wave.pixels[i], wave.weights[i]);
+                if !hit.is_hit() {
+                    colors[pixel as usize] += weight * scene.background();
+                    continue;
+                }
+                let material = scene.material(hit.object);
+                let surface = scene.objects()[hit.object as usize].surface(ray, hit.t);
+                let surface = Facing::new(surface, ray.direction);
+                if scene.requirements().casts_shadows {
+                    for light in scene.lights() {
+                        let color = light.color.unwrap_or(light_color);
+                        if let Some((ray, reflected)) =
+                            surface.lit_by(light.position, material, ray.direction)
+                        {
+                            shadow.push(ray, pixel, weight * color * reflected);
+                        }
+                    }
+                }
+                if depth < secondary_depth {
+                    let (mirrored, passed) = surface.secondary(material, ray.direction);
+                    if let Some((ray, share)) = mirrored {
+                        next_reflected.push(ray, pixel, weight * share);
+                    }
+                    if let Some((ray, share)) = passed {
+                        next_refracted.push(ray, pixel, weight * share);
+                    }
+                }
+            }
+            if !shadow.rays.is_empty() {
+                tracer.any_hits(shadow.batch(RayKind::Shadow), &mut blocked);
+                for (i, _) in blocked.iter().enumerate().filter(|(_, blocked)| !**blocked) {
+                    colors[shadow.pixels[i] as usize] += shadow.weights[i];
+                }
+                shadow.clear();
+            }
+            wave.clear();
+        }
+        std::mem::swap(&mut now[1].1, &mut next_reflected);
+        std::mem::swap(&mut now[2].1, &mut next_refracted);
+    }
+}
+
+/// A point of a surface turned to the side a ray came from.
+struct Facing {
+    point: Vec3,
+    /// Geometric unit normal on the ray's side.
+    side: Vec3,
+    /// Unit normal for shading on the ray's side.
+    normal: Vec3,
+    /// The ray comes from where the primitive's own normal points.
+    entering: bool,
+    /// How far from the point, a length, a ray must start to be clear of the surface.
+    clear: f64,
+}
+
+impl Facing {
+    fn new(surface: SurfacePoint, direction: Vec3) -> Self {
+        let entering = surface.normal.dot(direction) < 0.0;
+        let turn = if entering { 1.0 } else { -1.0 };
+        let side = surface.normal * turn;
+        let normal = surface.shading_normal * turn;
+        // Bounds on the values at hand, not on the scene: twice the error of the point, and what
+        // adding the offset itself can lose.
+        let clear = 2.0 * surface.error + 8.0 * f64::EPSILON * surface.point.abs().max_element();
+        Facing {
+            point: surface.point,
+            side,
+            // An interpolated normal may lean over the edge; then the surface's own is the better.
+            normal: if normal.dot(direction) < 0.0 {
+                normal
+            } else {
+                side
+            },
+            entering,
+            clear,
+        }
+    }
+
+    /// The shadow ray to a light this side faces, and the share of its light that goes back along
+    /// `direction`.
+    fn lit_by(&self, light: Vec3, material: &Material, direction: Vec3) -> Option<(Ray, Vec3)> {
+        let origin = self.point + self.side * self.clear;
+        let to_light = light - origin;
+        let distance = to_light.length();
+        let to_light = to_light / distance;
+        let cosine = self.normal.dot(to_light);
+        if !(cosine > 0.0 && self.side.dot(to_light) > 0.0) {
+            return None;
+        }
+        let mut reflected = material.color * (material.diffuse * cosine);
+        if material.specular > 0.0 {
+            let mirrored = direction - 2.0 * direction.dot(self.normal) * self.normal;
+            let highlight = mirrored.dot(to_light).max(0.0);
+            reflected += material.specular * libm::pow(highlight, material.shine);
+        }
+        let end = distance * (1.0 - 8.0 * f64::EPSILON);
+        Some((Ray::to(origin, to_light, end), reflected))
+    }
+
+    /// The reflected and the refracted ray, each with the share of its radiance that counts.
+    fn secondary(
+        &self,
+        material: &Material,
+        direction: Vec3,
+    ) -> (Option<(Ray, f64)>, Option<(Ray, f64)>) {
+        if !(material.specular > 0.0 || material.transmittance > 0.0) {
+            return (None, None);
+        }
+        let cosine = -direction.dot(self.normal);
+        let mut mirrored = direction + 2.0 * cosine * self.normal;
+        if mirrored.dot(self.side) <= 0.0 {
+            mirrored = direction - 2.0 * direction.dot(self.side) * self.side;
+        }
+        let start = |towards: f64| self.point + self.side * (towards * self.clear);
+        let (mut reflects, mut refracted) = (material.specular, None);
+        if material.transmittance > 0.0 {
+            let index = material.index_of_refraction;
+            let ratio = if self.entering { 1.0 / index } else { index };
+            let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+            if squared > 0.0 {
+                let inner_cosine = squared.sqrt();
+                let passed = ratio * direction + (ratio * cosine - inner_cosine) * self.normal;
+                let mirrors = schlick(index, cosine.min(inner_cosine));
+                reflects += material.transmittance * mirrors;
+                refracted = Some((
+                    Ray::new(start(-1.0), passed.normalize()),
+                    material.transmittance * (1.0 - mirrors),
+                ));
+            } else {
+                reflects += material.transmittance;
+            }
+        }
+        let reflected = Ray::new(start(1.0), mirrored.normalize());
+        (Some((reflected, reflects)), refracted)
+    }
+}
+
+/// What a boundary between media reflects, by the cosine on the thinner medium's side.
+fn schlick(index: f64, cosine: f64) -> f64 {
+    let normal = ((index - 1.0) / (index + 1.0)).powi(2);
+    normal + (1.0 - normal) * (1.0 - cosine).max(0.0).powi(5)
+}

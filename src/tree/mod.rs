@@ -1,0 +1,149 @@
+//! BSP trees (axis-aligned bintrees): nodes, the build driver, validation.
+//!
+//! One driver ([`build`]) owns termination, the distribution of objects and the arrays; a build
+//! method ([`split`]) only says where, if anywhere, a cell is split.
+
+mod build;
+mod frame;
+mod node;
+mod settings;
+pub mod split;
+mod validate;
+
+pub use build::{BuildError, build};
+pub use frame::Frame;
+pub use node::{Node, NodeKind, StopReason};
+pub use settings::{BuildSettings, Constants, MaxDepth, Method, OverlapRule, SettingsError};
+pub use validate::{Invalid, validate};
+
+use crate::geometry::{Aabb, Axis};
+
+/// A finished tree; immutable. Node 0 is the root, at depth 0.
+///
+/// Nodes lie in depth-first order: the lower child of an inner node follows it at once, so the
+/// subtree of a node is one contiguous stretch of the array.
+#[derive(Debug)]
+pub struct Tree {
+    nodes: Vec<Node>,
+    references: Vec<u32>,
+    frame: Frame,
+    settings: BuildSettings,
+    depth_limit: u32,
+    depth_reached: u32,
+}
+
+/// A cell of the tree, as [`Tree::cells`] meets it.
+#[derive(Clone, Copy, Debug)]
+pub struct CellOfNode {
+    /// Index of the node.
+    pub node: u32,
+    pub depth: u32,
+    pub bounds: Aabb,
+}
+
+impl Tree {
+    /// All nodes, 8 bytes each; there is at least one.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// What a node is.
+    pub fn kind(&self, node: u32) -> NodeKind {
+        self.nodes[node as usize].kind(node)
+    }
+
+    /// The objects a leaf refers to, ascending; none for inner nodes.
+    pub fn leaf_objects(&self, node: u32) -> &[u32] {
+        match self.kind(node) {
+            NodeKind::Leaf { first, count, .. } => {
+                &self.references[first as usize..(first + count) as usize]
+            }
+            NodeKind::Inner { .. } => &[],
+        }
+    }
+
+    /// The object numbers of all leaves, one leaf after the other.
+    pub fn references(&self) -> &[u32] {
+        &self.references
+    }
+
+    /// The root cell and the coordinates in which split planes are stored.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// The root cell: the scene's bounds and the root margin.
+    pub fn root_cell(&self) -> Aabb {
+        self.frame.cell()
+    }
+
+    /// What the tree was built with.
+    pub fn settings(&self) -> &BuildSettings {
+        &self.settings
+    }
+
+    /// The greatest depth that was allowed, `D_MAX`, automatic or not.
+    pub fn depth_limit(&self) -> u32 {
+        self.depth_limit
+    }
+
+    /// The greatest depth of any leaf, `D_REACH`.
+    pub fn depth_reached(&self) -> u32 {
+        self.depth_reached
+    }
+
+    /// Bytes held by nodes and references.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.nodes.as_slice()) + size_of_val(self.references.as_slice())
+    }
+
+    /// Every node with its depth and cell, in the order of the array.
+    pub fn cells(&self) -> impl Iterator<Item = CellOfNode> + '_ {
+        let mut stack = vec![CellOfNode {
+            node: 0,
+            depth: 0,
+            bounds: self.root_cell(),
+        }];
+        std::iter::from_fn(move || {
+            let cell = stack.pop()?;
+            if let Some([below, above]) = self.children(&cell) {
+                stack.push(above);
+                stack.push(below);
+            }
+            Some(cell)
+        })
+    }
+
+    /// The cells of the two children of an inner node, below and above its plane; `None` for a leaf.
+    pub fn children(&self, cell: &CellOfNode) -> Option<[CellOfNode; 2]> {
+        let NodeKind::Inner {
+            axis,
+            plane,
+            below,
+            above,
+        } = self.kind(cell.node)
+        else {
+            return None;
+        };
+        let (lower, upper) = cell
+            .bounds
+            .split(axis, self.frame.to_world(axis, f64::from(plane)));
+        Some(
+            [(below, lower), (above, upper)].map(|(node, bounds)| CellOfNode {
+                node,
+                depth: cell.depth + 1,
+                bounds,
+            }),
+        )
+    }
+
+    /// The world coordinate of an inner node's plane with its axis; `None` for a leaf.
+    pub fn plane(&self, node: u32) -> Option<(Axis, f64)> {
+        match self.kind(node) {
+            NodeKind::Inner { axis, plane, .. } => {
+                Some((axis, self.frame.to_world(axis, f64::from(plane))))
+            }
+            NodeKind::Leaf { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! The 8-byte node.
+
+use crate::geometry::Axis;
+
+/// A node in 8 bytes. Read it through [`Node::kind`].
+///
+/// Word 0, lowest two bits: the axis of an inner node, or 3 for a leaf. Above them, for an inner
+/// node: the index of its upper child (the lower child follows the node); for a leaf: four bits
+/// of [`StopReason`], then the number of its references. Word 1: the plane in the coordinates of
+/// the root cell ([`super::Frame`]) as `f32`, or the place of the leaf's first reference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub struct Node {
+    word: u32,
+    payload: u32,
+}
+
+/// What a node is, unpacked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NodeKind {
+    Inner {
+        axis: Axis,
+        /// In the coordinates of the root cell, −1 to 1.
+        plane: f32,
+        /// Index of the child below the plane.
+        below: u32,
+        /// Index of the child above the plane.
+        above: u32,
+    },
+    Leaf {
+        /// Place of the first reference.
+        first: u32,
+        /// Number of references; 0 is an empty leaf.
+        count: u32,
+        stop: StopReason,
+    },
+}
+
+/// Why a cell became a leaf.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StopReason {
+    /// It holds no object.
+    Empty,
+    /// It holds at most `N_OILF` objects.
+    FewObjects,
+    /// It lies at depth `D_MAX`.
+    MaxDepth,
+    /// No split costs less than the leaf.
+    NoSplitPays,
+    /// The method has no plane to offer.
+    NoCandidate,
+    /// The plane would not divide the cell: it is as thin as planes can be told apart.
+    TooThin,
+    /// The method never splits.
+    NotSplit,
+}
+
+impl StopReason {
+    pub const ALL: [StopReason; 7] = [
+        StopReason::Empty,
+        StopReason::FewObjects,
+        StopReason::MaxDepth,
+        StopReason::NoSplitPays,
+        StopReason::NoCandidate,
+        StopReason::TooThin,
+        StopReason::NotSplit,
+    ];
+
+    /// One short phrase for people.
+    pub const fn text(self) -> &'static str {
+        match self {
+            StopReason::Empty => "empty",
+            StopReason::FewObjects => "at most N_OILF objects",
+            StopReason::MaxDepth => "depth D_MAX reached",
+            StopReason::NoSplitPays => "no split pays",
+            StopReason::NoCandidate => "no plane to split at",
+            StopReason::TooThin => "too thin to split",
+            StopReason::NotSplit => "the method does not split",
+        }
+    }
+}
+
+const LEAF: u32 = 3;
+
+impl Node {
+    /// The most nodes and the most references a leaf can have.
+    pub(super) const MAX_NODES: usize = 1 << 30;
+    pub(super) const MAX_LEAF: usize = 1 << 26;
+
+    pub(super) fn inner(axis: Axis, plane: f32, above: u32) -> Self {
+        debug_assert!((above as usize) < Self::MAX_NODES);
+        Node {
+            word: above << 2 | axis as u32,
+            payload: plane.to_bits(),
+        }
+    }
+
+    pub(super) fn leaf(first: u32, count: u32, stop: StopReason) -> Self {
+        debug_assert!((count as usize) < Self::MAX_LEAF);
+        Node {
+            word: count << 6 | (stop as u32) << 2 | LEAF,
+            payload: first,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn is_leaf(self) -> bool {
+        self.word & 3 == LEAF
+    }
+
+    /// Axis (0 to 2), plane and upper child of an inner node; nonsense for a leaf.
+    #[inline]
+    pub(crate) fn as_inner(self) -> (usize, f32, u32) {
+        (
+            (self.word & 3) as usize,
+            f32::from_bits(self.payload),
+            self.word >> 2,
+        )
+    }
+
+    /// First reference and number of references of a leaf; nonsense for an inner node.
+    #[inline]
+    pub(crate) fn as_leaf(self) -> (usize, usize) {
+        (self.payload as usize, (self.word >> 6) as usize)
+    }
+
+    /// The node unpacked; `index` is its own place in the array.
+    pub fn kind(self, index: u32) -> NodeKind {
+        if self.is_leaf() {
+            NodeKind::Leaf {
+                first: self.payload,
+                count: self.word >> 6,
+                stop: StopReason::ALL[(self.word >> 2 & 15) as usize],
+            }
+        } else {
+            let (axis, plane, above) = self.as_inner();
+            NodeKind::Inner {
+                axis: Axis::from_index(axis),
+                plane,
+                below: index + 1,
+                above,
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_node_takes_eight_bytes_and_gives_back_what_went_in() {
+        assert_eq!(size_of::<Node>(), 8);
+        for axis in Axis::ALL {
+            let node = Node::inner(axis, -0.3, (1 << 30) - 1);
+            let expected = NodeKind::Inner {
+                axis,
+                plane: -0.3,
+                below: 8,
+                above: (1 << 30) - 1,
+            };
+            assert_eq!(node.kind(7), expected);
+        }
+        for stop in StopReason::ALL {
+            let node = Node::leaf(u32::MAX, (1 << 26) - 1, stop);
+            let expected = NodeKind::Leaf {
+                first: u32::MAX,
+                count: (1 << 26) - 1,
+                stop,
+            };
+            assert_eq!(node.kind(0), expected);
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! What a tree is built with.
+
+use super::split::{MethodInfo, SPLIT_RULES};
+use crate::geometry::Axis;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::collections::BTreeMap;
+
+/// A build method: one of [`SPLIT_RULES`].
+#[derive(Clone, Copy)]
+pub struct Method(&'static MethodInfo);
+
+impl Method {
+    /// All methods in the order of the registry.
+    pub fn all() -> impl Iterator<Item = Method> {
+        SPLIT_RULES.iter().map(|info| Method(info))
+    }
+
+    /// The method of this name.
+    ///
+    /// # Errors
+    /// A name that is not in the registry.
+    pub fn named(name: &str) -> Result<Method, SettingsError> {
+        Method::all()
+            .find(|m| m.name == name)
+            .ok_or_else(|| SettingsError::UnknownMethod {
+                found: name.to_owned(),
+                known: Method::all().map(|m| m.name).collect::<Vec<_>>().join(", "),
+            })
+    }
+
+    /// The paper's two methods, 1 then 2.
+    pub fn of_the_paper() -> Vec<Method> {
+        Method::all().filter(|m| m.paper.is_some()).collect()
+    }
+}
+
+impl std::ops::Deref for Method {
+    type Target = MethodInfo;
+
+    fn deref(&self) -> &MethodInfo {
+        self.0
+    }
+}
+
+impl PartialEq for Method {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl std::fmt::Debug for Method {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+impl std::str::FromStr for Method {
+    type Err = SettingsError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Method::named(text)
+    }
+}
+
+impl Serialize for Method {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name)
+    }
+}
+
+impl<'de> Deserialize<'de> for Method {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        Method::named(&name).map_err(serde::de::Error::custom)
+    }
+}
+
+/// The greatest depth allowed, `D_MAX`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MaxDepth {
+    Fixed(u32),
+    /// 1.2 · log₂ `N_O` + 2, rounded to the nearest integer (V. Havran, "Heuristic ray shooting
+    /// algorithms", 2000, constants as commonly quoted).
+    Automatic,
+}
+
+impl MaxDepth {
+    /// The greatest depth that may be set; rays keep that many nodes on their stack at most.
+    pub const LIMIT: u32 = 100;
+
+    /// The depth for a scene of `objects` objects.
+    pub fn resolve(self, objects: usize) -> u32 {
+        match self {
+            MaxDepth::Fixed(depth) => depth,
+            MaxDepth::Automatic => {
+                let depth = 1.2 * libm::log2(objects.max(1) as f64) + 2.0;
+                (depth.round() as u32).min(Self::LIMIT)
+            }
+        }
+    }
+}
+
+impl std::str::FromStr for MaxDepth {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text.parse::<u32>() {
+            Ok(depth) if depth <= Self::LIMIT => Ok(MaxDepth::Fixed(depth)),
+            _ if text == "auto" => Ok(MaxDepth::Automatic),
+            _ => Err(format!(
+                "expected a depth from 0 to {} or 'auto', found '{text}'",
+                Self::LIMIT
+            )),
+        }
+    }
+}
+
+impl std::fmt::Display for MaxDepth {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            MaxDepth::Fixed(depth) => write!(f, "{depth}"),
+            MaxDepth::Automatic => f.write_str("auto"),
+        }
+    }
+}
+
+/// When an object belongs to a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum OverlapRule {
+    /// As the paper's figures show for the method at hand: for `midpoint` spheres exactly and all
+    /// others by bounds, for `sah-cut` all by bounds.
+    #[default]
+    Paper,
+    /// When its bounding box touches the closed cell.
+    Bounds,
+    /// When it shares a point with the closed cell (spheres, cylinders and cones as solids).
+    Exact,
+}
+
+impl OverlapRule {
+    pub const ALL: [OverlapRule; 3] = [OverlapRule::Paper, OverlapRule::Bounds, OverlapRule::Exact];
+
+    pub const fn name(self) -> &'static str {
+        match self {
+            OverlapRule::Paper => "paper",
+            OverlapRule::Bounds => "bounds",
+            OverlapRule::Exact => "exact",
+        }
+    }
+}
+
+impl std::str::FromStr for OverlapRule {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        OverlapRule::ALL
+            .into_iter()
+            .find(|rule| rule.name() == text)
+            .ok_or_else(|| format!("expected paper, bounds or exact, found '{text}'"))
+    }
+}
+
+/// Values of a method's own constants that differ from its defaults, by name.
+pub type Constants = BTreeMap<String, f64>;
+
+/// Everything that decides what tree results from a scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BuildSettings {
+    /// How planes are chosen.
+    pub method: Method,
+    /// Greatest depth of a leaf, `D_MAX`; the root has depth 0.
+    pub d_max: MaxDepth,
+    /// A cell with at most this many objects becomes a leaf, `N_OILF`.
+    pub n_oilf: u32,
+    /// How far the root cell reaches beyond the scene's bounds on every side, a length.
+    pub root_margin: f64,
+    /// When an object belongs to a cell.
+    pub overlap: OverlapRule,
+    /// The axis that methods in cyclic order split first.
+    pub first_axis: Axis,
+    /// The method's own constants that are not at their defaults.
+    pub constants: Constants,
+    /// The build stops with an error before it takes more than this many bytes.
+    pub memory_limit: u64,
+}
+
+impl Default for BuildSettings {
+    fn default() -> Self {
+        BuildSettings::for_method(Method(&SPLIT_RULES[0]))
+    }
+}
+
+/// Settings that no tree can be built with.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SettingsError {
+    #[error("no build method is called '{found}'; there are {known}")]
+    UnknownMethod { found: String, known: String },
+    #[error("D_MAX is {0}; it may be at most {limit}", limit = MaxDepth::LIMIT)]
+    Depth(u32),
+    #[error("the root margin is {0}; it must be finite and not negative")]
+    RootMargin(f64),
+    #[error("method {method} has no setting '{found}'; it has {known}")]
+    UnknownConstant {
+        method: &'static str,
+        found: String,
+        known: String,
+    },
+    #[error("{method}: {name} is {found}; it must lie between {lowest} and {highest}")]
+    ConstantRange {
+        method: &'static str,
+        name: &'static str,
+        found: f64,
+        lowest: f64,
+        highest: f64,
+    },
+}
+
+impl BuildSettings {
+    /// The paper's settings with this method: `D_MAX` 20, `N_OILF` 1, margin 0.001.
+    pub fn for_method(method: Method) -> Self {
+        BuildSettings {
+            method,
+            d_max: MaxDepth::Fixed(20),
+            n_oilf: 1,
+            root_margin: 0.001,
+            overlap: OverlapRule::Paper,
+            first_axis: Axis::X,
+            constants: Constants::new(),
+            memory_limit: 4 << 30,
+        }
+    }
+
+    /// The value of one of the method's own constants: as set, or its default.
+    ///
+    /// # Panics
+    /// If the method has no constant of this name.
+    pub fn constant(&self, name: &str) -> f64 {
+        self.constants.get(name).copied().unwrap_or_else(|| {
+            self.method
+                .constants
+                .iter()
+                .find(|c| c.name == name)
+                .unwrap_or_else(|| panic!("{} has no constant {name}", self.method.name))
+                .default
+        })
+    }
+
+    /// Checks ranges and names.
+    ///
+    /// # Errors
+    /// The first setting that is out of its range.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        if let MaxDepth::Fixed(depth) = self.d_max
+            && depth > MaxDepth::LIMIT
+        {
+            return Err(SettingsError::Depth(depth));
+        }
+        if !(self.root_margin >= 0.0 && self.root_margin.is_finite()) {
+            return Err(SettingsError::RootMargin(self.root_margin));
+        }
+        for (name, &value) in &self.constants {
+            let known = self.method.constants;
+            let Some(constant) = known.iter().find(|c| c.name == name) else {
+                return Err(SettingsError::UnknownConstant {
+                    method: self.method.name,
+                    found: name.clone(),
+                    known: if known.is_empty() {
+                        "none".into()
+                    } else {
+                        known.iter().map(|c| c.name).collect::<Vec<_>>().join(", ")
+                    },
+                });
+            };
+            if !(constant.lowest..=constant.highest).contains(&value) {
+                return Err(SettingsError::ConstantRange {
+                    method: self.method.name,
+                    name: constant.name,
+                    found: value,
+                    lowest: constant.lowest,
+                    highest: constant.highest,
+                });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,315 @@
+//! The paper's method 2: surface-area heuristic, and cutting off empty space.
+//!
+//! The paper gives no details. This is rule Q of the project's search for the rule that reproduces
+//! its figures; every switch of that search is a constant here.
+
+use super::{Cell, Constant, Decision, MethodInfo, SplitRule};
+use crate::geometry::{Aabb, Axis};
+use crate::tree::{BuildSettings, StopReason};
+
+pub(super) const METHOD: MethodInfo = MethodInfo {
+    name: "sah-cut",
+    title: "Surface area, empty space cut off (method 2)",
+    about: "Splits where the surface-area heuristic expects rays to cost least, and cuts off empty \
+            space outside and inside the node.",
+    source: "J. D. MacDonald and K. S. Booth, Heuristics for ray tracing using space subdivision, \
+             1990; the paper's method 2",
+    paper: Some(2),
+    paper_spheres_exactly: false,
+    constants: &[
+        Constant {
+            name: "epsilon",
+            default: 1e-6,
+            lowest: 0.0,
+            highest: 0.1,
+            step: 0.0,
+            unit: "length",
+            about: "How far planes are moved outwards from the bounds of an object.",
+            source: "search for method 2: 1e-7 to 1e-5 fit the paper's figures",
+        },
+        Constant {
+            name: "median-interval",
+            default: 0.3,
+            lowest: 0.0,
+            highest: 1.0,
+            step: 0.0,
+            unit: "of the cell's width",
+            about: "Planes are sought from the lower of the spatial and the object median less \
+                    this to the higher plus this; 1 allows all.",
+            source: "rule Q of the search; MacDonald and Booth 1990: the best plane lies between \
+                     the medians",
+        },
+        Constant {
+            name: "gap-fraction",
+            default: 0.2,
+            lowest: 0.0,
+            highest: 1.0,
+            step: 0.0,
+            unit: "of the cell's width",
+            about: "The widest gap between objects is cut out if it exceeds this; 1 cuts none.",
+            source: "rule Q of the search",
+        },
+        Constant {
+            name: "empty-factor",
+            default: 1.0,
+            lowest: 0.0,
+            highest: 1.0,
+            step: 0.0,
+            unit: "",
+            about: "Factor on the cost of a split with an empty side; below 1 favours cutting off \
+                    empty space.",
+            source: "1 in rule Q, 0.85 in rule R of the search",
+        },
+        Constant {
+            name: "cost-stop",
+            default: 1.0,
+            lowest: 0.0,
+            highest: 1.0,
+            step: 1.0,
+            unit: "",
+            about: "1 makes a leaf where no split costs less than the leaf, 0 splits on.",
+            source: "rule Q of the search: tetra ends by cost, not by depth",
+        },
+    ],
+    rule: |settings| Box::new(SahCut::new(settings)),
+};
+
+struct SahCut {
+    epsilon: f64,
+    median_interval: f64,
+    gap_fraction: f64,
+    empty_factor: f64,
+    cost_stop: bool,
+}
+
+/// A plane with what a ray is expected to cost if the cell is split there.
+#[derive(Clone, Copy)]
+struct Candidate {
+    axis: Axis,
+    plane: f32,
+    /// Objects below times area below, and the same above.
+    cost: f64,
+    /// Distance from the cell's middle as a share of its width.
+    off_center: f64,
+}
+
+impl SahCut {
+    fn new(settings: &BuildSettings) -> Self {
+        SahCut {
+            epsilon: settings.constant("epsilon"),
+            median_interval: settings.constant("median-interval"),
+            gap_fraction: settings.constant("gap-fraction"),
+            empty_factor: settings.constant("empty-factor"),
+            cost_stop: settings.constant("cost-stop") > 0.5,
+        }
+    }
+
+    /// The best candidate of an axis, and the widest gap as (share of the width, lower, upper end).
+    fn search(
+        &self,
+        cell: &Cell<'_>,
+        axis: Axis,
+        best: &mut Option<Candidate>,
+    ) -> Option<(f64, [f64; 2])> {
+        let k = axis.index();
+        let (cell_lo, cell_hi) = (cell.bounds.lo[k], cell.bounds.hi[k]);
+        let width = cell_hi - cell_lo;
+        let mut lows = Vec::with_capacity(cell.objects.len());
+        let mut highs = Vec::with_capacity(cell.objects.len());
+        for &object in cell.objects {
+            let [lo, hi] = cell.clipped(object, axis);
+            lows.push(lo);
+            highs.push(hi);
+        }
+        lows.sort_unstable_by(f64::total_cmp);
+        highs.sort_unstable_by(f64::total_cmp);
+
+        let spatial_median = cell_lo * 0.5 + cell_hi * 0.5;
+        let object_median = median_of_sorted(&lows, &highs);
+        let reach = self.median_interval * width;
+        let from = spatial_median.min(object_median) - reach;
+        let to = spatial_median.max(object_median) + reach;
+
+        let n = cell.objects.len();
+        let areas = Areas::new(&cell.bounds, axis);
+        let slack = cell.frame.slack();
+        let mut consider = |plane: f32, below: usize, above: usize| {
+            let world = cell.frame.to_world(axis, f64::from(plane));
+            if !cell.divides(axis, plane) || world < from || world > to {
+                return;
+            }
+            let mut cost = below as f64 * areas.below(world) + above as f64 * areas.above(world);
+            if below == 0 || above == 0 {
+                cost *= self.empty_factor;
+            }
+            let off_center = ((world - spatial_median) / width).abs();
+            let better =
+                best.is_none_or(|b| cost < b.cost || (cost == b.cost && off_center < b.off_center));
+            if better {
+                *best = Some(Candidate {
+                    axis,
+                    plane,
+                    cost,
+                    off_center,
+                });
+            }
+        };
+        // Planes just below lower bounds and just above upper bounds, in ascending order of either.
+        // Counts are those of the driver: an object within the slack of a plane is on both sides.
+        let (mut touching, mut passed) = (0, 0);
+        for i in 0..n {
+            if i == 0 || lows[i] != lows[i - 1] {
+                let plane = cell.frame.plane_below(axis, lows[i] - self.epsilon);
+                let world = cell.frame.to_world(axis, f64::from(plane));
+                while passed < n && highs[passed] < world - slack {
+                    passed += 1;
+                }
+                while touching > 0 && lows[touching - 1] > world + slack {
+                    touching -= 1;
+                }
+                while touching < n && lows[touching] <= world + slack {
+                    touching += 1;
+                }
+                while passed > 0 && highs[passed - 1] >= world - slack {
+                    passed -= 1;
+                }
+                consider(plane, touching, n - passed);
+            }
+        }
+        let (mut touching, mut passed) = (0, 0);
+        for i in 0..n {
+            if i == 0 || highs[i] != highs[i - 1] {
+                let plane = cell.frame.plane_above(axis, highs[i] + self.epsilon);
+                let world = cell.frame.to_world(axis, f64::from(plane));
+                while passed < n && highs[passed] < world - slack {
+                    passed += 1;
+                }
+                while touching < n && lows[touching] <= world + slack {
+                    touching += 1;
+                }
+                consider(plane, touching, n - passed);
+            }
+        }
+
+        // Gaps: stretches between objects that no object's extent covers.
+        let mut widest = None;
+        let mut covered = highs[0];
+        let mut upper_ends: Vec<(f64, f64)> = cell
+            .objects
+            .iter()
+            .map(|&object| {
+                let [lo, hi] = cell.clipped(object, axis);
+                (lo, hi)
+            })
+            .collect();
+        upper_ends.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        for (i, &(lo, hi)) in upper_ends.iter().enumerate() {
+            if i == 0 {
+                covered = hi;
+                continue;
+            }
+            let share = (lo - covered) / width;
+            if share > self.gap_fraction && widest.is_none_or(|(s, _)| share > s) {
+                widest = Some((share, [covered, lo]));
+            }
+            covered = covered.max(hi);
+        }
+        widest
+    }
+}
+
+impl SplitRule for SahCut {
+    fn decide(&self, cell: &Cell<'_>) -> Decision {
+        let mut best = None;
+        let mut gap: Option<(f64, Axis, [f64; 2])> = None;
+        for axis in Axis::ALL {
+            if let Some((share, ends)) = self.search(cell, axis, &mut best)
+                && gap.is_none_or(|(widest, ..)| share > widest)
+            {
+                gap = Some((share, axis, ends));
+            }
+        }
+        let Some(best) = best else {
+            return Decision::Leaf(StopReason::NoCandidate);
+        };
+        let leaf_cost = cell.objects.len() as f64 * cell.bounds.surface_area();
+        if self.cost_stop && best.cost >= leaf_cost {
+            return Decision::Leaf(StopReason::NoSplitPays);
+        }
+        if let Some((_, axis, [lower, upper])) = gap
+            && cell.depth + 2 <= cell.depth_limit
+        {
+            let slab = [
+                cell.frame.plane_above(axis, lower + self.epsilon),
+                cell.frame.plane_below(axis, upper - self.epsilon),
+            ];
+            if slab[0] < slab[1] && slab.iter().all(|&plane| cell.divides(axis, plane)) {
+                return Decision::Cut { axis, slab };
+            }
+        }
+        Decision::Split {
+            axis: best.axis,
+            plane: best.plane,
+        }
+    }
+}
+
+/// Surface areas of the two parts of a cell, as linear functions of the plane.
+struct Areas {
+    lo: f64,
+    hi: f64,
+    /// Area of the two faces parallel to the plane.
+    faces: f64,
+    /// Area of the other four faces a unit of length.
+    rim: f64,
+}
+
+impl Areas {
+    fn new(bounds: &Aabb, axis: Axis) -> Self {
+        let (k, size) = (axis.index(), bounds.size());
+        let (u, v) = (size[(k + 1) % 3], size[(k + 2) % 3]);
+        Areas {
+            lo: bounds.lo[k],
+            hi: bounds.hi[k],
+            faces: 2.0 * u * v,
+            rim: 2.0 * (u + v),
+        }
+    }
+
+    fn below(&self, plane: f64) -> f64 {
+        self.faces + self.rim * (plane - self.lo)
+    }
+
+    fn above(&self, plane: f64) -> f64 {
+        self.faces + self.rim * (self.hi - plane)
+    }
+}
+
+/// The median of all bounds: the mean of the two middle ones of two sorted lists of equal length.
+fn median_of_sorted(lows: &[f64], highs: &[f64]) -> f64 {
+    let (mut i, mut k) = (0, 0);
+    let (mut before, mut last) = (f64::NAN, f64::NAN);
+    for _ in 0..=lows.len() {
+        before = last;
+        last = if k >= highs.len() || (i < lows.len() && lows[i] <= highs[k]) {
+            i += 1;
+            lows[i - 1]
+        } else {
+            k += 1;
+            highs[k - 1]
+        };
+    }
+    before * 0.5 + last * 0.5
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_of_all_bounds_is_the_mean_of_the_middle_two() {
+        assert_eq!(median_of_sorted(&[0.0, 1.0], &[2.0, 3.0]), 1.5);
+        assert_eq!(median_of_sorted(&[0.0], &[4.0]), 2.0);
+        assert_eq!(median_of_sorted(&[0.0, 5.0, 6.0], &[1.0, 8.0, 9.0]), 5.5);
+    }
+}

@@ -1,0 +1,113 @@
+//! Whether a tree is what it says: checked on the finished arrays, independent of the driver.
+
+use super::{NodeKind, Tree};
+use crate::geometry::Vec3;
+use crate::primitive::Shape;
+use crate::scene::Scene;
+
+/// What is wrong with a tree.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Invalid {
+    #[error("node {0} has a child outside the array or before itself")]
+    Child(u32),
+    #[error("node {0}: the plane does not lie inside the cell")]
+    Plane(u32),
+    #[error("{reached} of {nodes} nodes can be reached from the root")]
+    Reach { reached: usize, nodes: usize },
+    #[error("leaf {0} refers outside the array, to no object, or to one object twice")]
+    Reference(u32),
+    #[error("leaf {node} lies at depth {depth}, beyond D_MAX")]
+    Depth { node: u32, depth: u32 },
+    #[error("the leaves fill {leaves} of the root's volume {root}")]
+    Volume { leaves: f64, root: f64 },
+    #[error("{leaves} leaves for {inner} inner nodes")]
+    Count { leaves: usize, inner: usize },
+    #[error("object {object} meets leaf {node}, which does not refer to it")]
+    Missing { node: u32, object: u32 },
+}
+
+/// Checks structure, depth, volumes and counts; for every leaf and a sample of objects also that
+/// no object is missing where it overlaps the inside of the leaf's cell.
+///
+/// # Errors
+/// The first thing found wrong.
+pub fn validate(scene: &Scene, tree: &Tree) -> Result<(), Invalid> {
+    let nodes = tree.nodes().len();
+    let (mut reached, mut leaves, mut inner, mut volume) = (0, 0, 0, 0.0);
+    // Every leaf against a stride of objects: exhaustive for small trees, about 10⁷ pairs for large.
+    let stride = (scene.objects().len() * nodes / 10_000_000).max(1);
+    for cell in tree.cells() {
+        reached += 1;
+        let node = cell.node;
+        match tree.kind(node) {
+            NodeKind::Inner {
+                axis, below, above, ..
+            } => {
+                inner += 1;
+                if below <= node || above <= below || above as usize >= nodes {
+                    return Err(Invalid::Child(node));
+                }
+                let k = axis.index();
+                let plane = tree.plane(node).map(|(_, plane)| plane);
+                if !plane.is_some_and(|p| cell.bounds.lo[k] < p && p < cell.bounds.hi[k]) {
+                    return Err(Invalid::Plane(node));
+                }
+            }
+            NodeKind::Leaf { first, count, .. } => {
+                leaves += 1;
+                volume += cell.bounds.volume();
+                if cell.depth > tree.depth_limit() {
+                    return Err(Invalid::Depth {
+                        node,
+                        depth: cell.depth,
+                    });
+                }
+                if (first as usize + count as usize) > tree.references().len() {
+                    return Err(Invalid::Reference(node));
+                }
+                let objects = tree.leaf_objects(node);
+                let ascending = objects.windows(2).all(|pair| pair[0] < pair[1]);
+                let exist = objects
+                    .iter()
+                    .all(|&object| (object as usize) < scene.objects().len());
+                if !ascending || !exist {
+                    return Err(Invalid::Reference(node));
+                }
+                let inside = crate::geometry::Aabb::new(
+                    cell.bounds.lo + shrink(cell.bounds.size()),
+                    cell.bounds.hi - shrink(cell.bounds.size()),
+                );
+                for object in (node as usize % stride..scene.objects().len()).step_by(stride) {
+                    let primitive = &scene.objects()[object];
+                    let object = object as u32;
+                    if primitive.bounds().touches(&inside)
+                        && objects.binary_search(&object).is_err()
+                        && primitive.overlaps(&inside)
+                    {
+                        return Err(Invalid::Missing { node, object });
+                    }
+                }
+            }
+        }
+    }
+    if reached != nodes {
+        return Err(Invalid::Reach { reached, nodes });
+    }
+    if leaves != inner + 1 {
+        return Err(Invalid::Count { leaves, inner });
+    }
+    let root = tree.root_cell().volume();
+    // Each volume is rounded a few times, and their sum once a leaf.
+    if (volume - root).abs() > root * f64::EPSILON * (16 + leaves) as f64 {
+        return Err(Invalid::Volume {
+            leaves: volume,
+            root,
+        });
+    }
+    Ok(())
+}
+
+/// A sliver of a cell's size that keeps mere touching and rounding out of the check.
+fn shrink(size: Vec3) -> Vec3 {
+    size * 1e-6
+}
