@@ -7,3 +7,4 @@ pub mod progress;
 pub mod scene;
 pub mod trace;
 pub mod tree;
+pub mod worker;

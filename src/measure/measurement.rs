@@ -147,6 +147,7 @@ pub fn measure(
         render_settings,
         &pool,
         progress,
+        |_| (),
     )?);
     Ok((tree, measurement))
 }

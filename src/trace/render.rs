@@ -80,7 +80,8 @@ pub struct CountedPass {
 }
 
 impl CountedPass {
-    fn merge(mut self, other: CountedPass) -> CountedPass {
+    /// Both together.
+    pub fn merge(mut self, other: CountedPass) -> CountedPass {
         for kind in RayKind::ALL {
             self.tallies[kind as usize] += other.tallies[kind as usize];
         }
@@ -167,7 +168,8 @@ pub fn timed_pass(
     })
 }
 
-/// Traces sample 0 of every pixel with the counting kernel.
+/// Traces sample 0 of every pixel with the counting kernel. `on_part` gets the counts of every
+/// finished tile, from any thread and in any order; they sum to the result.
 ///
 /// # Errors
 /// As [`timed_pass`].
@@ -177,6 +179,7 @@ pub fn counted_pass(
     settings: &RenderSettings,
     pool: &rayon::ThreadPool,
     progress: &Progress,
+    on_part: impl Fn(&CountedPass) + Sync,
 ) -> Result<CountedPass, RenderError> {
     let view = settings.view()?;
     let shapes = Shapes::of(scene);
@@ -205,11 +208,15 @@ pub fn counted_pass(
                 objects_along(tree, &shapes, &ray, &mut scratch, &mut found);
                 objects_met += found.len() as u64;
             }
-            CountedPass {
+            let part = CountedPass {
                 tallies: tracer.tallies,
                 walking: tracer.walking,
                 objects_met,
+            };
+            if !progress.is_cancelled() {
+                on_part(&part);
             }
+            part
         },
         CountedPass::merge,
         CountedPass::default,

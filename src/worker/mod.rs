@@ -1,0 +1,442 @@
+//! The background thread between the window and the library. Latest wins.
+//!
+//! The window sends the whole desired state ([`Request`]); there is one waiting slot, and a newer
+//! request cancels what an older one started. The worker redoes only what changed: a camera move
+//! builds no tree, a new `D_MAX` loads no scene. What comes back ([`Update`]) carries the number of
+//! its request. A picture, its tree and its figures arrive together, so that none is ever shown
+//! beside another's.
+
+use crate::geometry::Vec3;
+use crate::measure::{Measurement, Times};
+use crate::progress::{Cancelled, Progress};
+use crate::scene::{Camera, LoadError, Scene, SceneRequest, load};
+use crate::trace::{
+    CountedPass, Picture, RenderError, RenderSettings, Tile, TimedPass, counted_pass, preview,
+    thread_pool, timed_pass,
+};
+use crate::tree::{BuildError, BuildSettings, Tree, build};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Condvar, Mutex};
+use std::time::{Duration, Instant};
+
+/// Everything the window wants to see.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    pub scene: SceneRequest,
+    pub build: BuildSettings,
+    /// Its camera counts only if `own_camera`.
+    pub render: RenderSettings,
+    /// Whether the window moved the camera; if not, the scene's own is used.
+    pub own_camera: bool,
+    /// Raised by one to read the scene's file again.
+    pub reload: u64,
+}
+
+/// What the worker is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    Loading,
+    Building,
+    Previewing,
+    Tracing,
+    Counting,
+    /// Tracing this sample, of so many.
+    Refining(u32, u32),
+}
+
+impl Stage {
+    /// A few words for people.
+    pub fn text(self) -> String {
+        match self {
+            Stage::Loading => "loading the scene".into(),
+            Stage::Building => "building the tree".into(),
+            Stage::Previewing => "first picture".into(),
+            Stage::Tracing => "tracing (timed)".into(),
+            Stage::Counting => "counting".into(),
+            Stage::Refining(sample, of) => format!("sample {} of {of}", sample + 1),
+        }
+    }
+}
+
+/// A picture with everything that belongs to it.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    pub request: Request,
+    pub scene: Arc<Scene>,
+    pub tree: Arc<Tree>,
+    /// The settings with the camera that was used.
+    pub render: RenderSettings,
+    /// The coarse first picture.
+    pub picture: Picture,
+    /// What is known so far.
+    pub measurement: Measurement,
+}
+
+/// News from the worker.
+#[derive(Clone, Debug)]
+pub enum Update {
+    /// A stage began; `progress` goes on telling how far it is.
+    Stage(Stage, Progress),
+    /// A first picture with its tree and what is known of it.
+    Shown(Box<Shown>),
+    /// A tile of the picture: sample number `sample`, linear colours row by row.
+    Tile {
+        tile: Tile,
+        sample: u32,
+        colors: Vec<Vec3>,
+    },
+    /// More is known. Figures are provisional until `complete`.
+    Measured {
+        measurement: Box<Measurement>,
+        complete: bool,
+    },
+    /// All is done.
+    Done,
+    /// It could not be done; what was shown stays.
+    Failed(String),
+}
+
+/// An update with the number of the request it answers.
+#[derive(Clone, Debug)]
+pub struct Numbered {
+    pub request: u64,
+    pub update: Update,
+}
+
+/// The handle that the window holds. Dropping it ends the thread.
+pub struct Worker {
+    slot: Arc<Slot>,
+    updates: Receiver<Numbered>,
+    thread: Option<std::thread::JoinHandle<()>>,
+}
+
+#[derive(Default)]
+struct Slot {
+    state: Mutex<SlotState>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct SlotState {
+    waiting: Option<(u64, Request)>,
+    last_number: u64,
+    /// Cancels what is being done now.
+    current: Progress,
+    closed: bool,
+}
+
+impl Worker {
+    /// Starts the thread. `wake` is called, from any thread, whenever there is an update to fetch.
+    pub fn start(wake: impl Fn() + Send + Sync + 'static) -> Worker {
+        let slot = Arc::new(Slot::default());
+        let (sender, updates) = channel();
+        let job = Job {
+            slot: Arc::clone(&slot),
+            sender,
+            wake: Arc::new(wake),
+        };
+        let thread = std::thread::Builder::new()
+            .name("worker".into())
+            .spawn(move || job.run())
+            .expect("the system gives a thread");
+        Worker {
+            slot,
+            updates,
+            thread: Some(thread),
+        }
+    }
+
+    /// Asks for a new state, in place of whatever was asked for before; gives the request's number.
+    pub fn request(&self, request: Request) -> u64 {
+        let mut state = self.slot.lock();
+        state.current.cancel();
+        state.last_number += 1;
+        let number = state.last_number;
+        state.waiting = Some((number, request));
+        self.slot.changed.notify_all();
+        number
+    }
+
+    /// Stops what is being done; what is shown stays as it is.
+    pub fn cancel(&self) {
+        let mut state = self.slot.lock();
+        state.waiting = None;
+        state.current.cancel();
+    }
+
+    /// The updates that have come since the last call, in order.
+    pub fn updates(&self) -> impl Iterator<Item = Numbered> + '_ {
+        self.updates.try_iter()
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        {
+            let mut state = self.slot.lock();
+            state.closed = true;
+            state.current.cancel();
+            self.slot.changed.notify_all();
+        }
+        if let Some(thread) = self.thread.take() {
+            // A panic in the worker was reported when it happened.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Slot {
+    fn lock(&self) -> std::sync::MutexGuard<'_, SlotState> {
+        self.state
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+
+    /// Waits for a request; `None` once the window is gone.
+    fn take(&self) -> Option<(u64, Request, Progress)> {
+        let mut state = self.lock();
+        loop {
+            if state.closed {
+                return None;
+            }
+            if let Some((number, request)) = state.waiting.take() {
+                state.current = Progress::new();
+                return Some((number, request, state.current.clone()));
+            }
+            state = self
+                .changed
+                .wait(state)
+                .unwrap_or_else(std::sync::PoisonError::into_inner);
+        }
+    }
+}
+
+/// Why a request ended early.
+enum Stop {
+    Cancelled,
+    Failed(String),
+}
+
+impl From<Cancelled> for Stop {
+    fn from(_: Cancelled) -> Self {
+        Stop::Cancelled
+    }
+}
+
+impl From<LoadError> for Stop {
+    fn from(error: LoadError) -> Self {
+        match error {
+            LoadError::Cancelled(c) => c.into(),
+            error => Stop::Failed(error.to_string()),
+        }
+    }
+}
+
+impl From<BuildError> for Stop {
+    fn from(error: BuildError) -> Self {
+        match error {
+            BuildError::Cancelled(c) => c.into(),
+            error => Stop::Failed(error.to_string()),
+        }
+    }
+}
+
+impl From<RenderError> for Stop {
+    fn from(error: RenderError) -> Self {
+        match error {
+            RenderError::Cancelled(c) => c.into(),
+            error => Stop::Failed(error.to_string()),
+        }
+    }
+}
+
+/// What the thread keeps from one request to the next.
+#[derive(Default)]
+struct Kept {
+    scene: Option<(SceneRequest, u64, Arc<Scene>)>,
+    tree: Option<(BuildSettings, Arc<Tree>, Times)>,
+    pool: Option<(usize, Arc<rayon::ThreadPool>)>,
+}
+
+struct Job {
+    slot: Arc<Slot>,
+    sender: Sender<Numbered>,
+    wake: Arc<dyn Fn() + Send + Sync>,
+}
+
+/// Sends updates of one request.
+struct Reporter<'a> {
+    job: &'a Job,
+    request: u64,
+}
+
+impl Reporter<'_> {
+    fn send(&self, update: Update) {
+        // Without a window nobody needs the news.
+        let _ = self.job.sender.send(Numbered {
+            request: self.request,
+            update,
+        });
+        (self.job.wake)();
+    }
+
+    fn stage(&self, stage: Stage, progress: &Progress) {
+        progress.set(0.0);
+        self.send(Update::Stage(stage, progress.clone()));
+    }
+}
+
+/// Edge, in pixels, of the squares of the coarse first picture.
+const PREVIEW_STEP: u32 = 8;
+
+/// How often provisional figures are sent while counting.
+const FIGURES_EVERY: Duration = Duration::from_millis(150);
+
+impl Job {
+    fn run(&self) {
+        let mut kept = Kept::default();
+        while let Some((number, request, progress)) = self.slot.take() {
+            let reporter = Reporter {
+                job: self,
+                request: number,
+            };
+            match serve(&request, &mut kept, &progress, &reporter) {
+                Ok(()) => reporter.send(Update::Done),
+                Err(Stop::Cancelled) => {}
+                Err(Stop::Failed(reason)) => reporter.send(Update::Failed(reason)),
+            }
+        }
+    }
+}
+
+/// Does what a request asks for, from the first stage that differs from the last request.
+fn serve(
+    request: &Request,
+    kept: &mut Kept,
+    progress: &Progress,
+    reporter: &Reporter<'_>,
+) -> Result<(), Stop> {
+    let scene = match &kept.scene {
+        Some((source, reload, scene)) if *source == request.scene && *reload == request.reload => {
+            Arc::clone(scene)
+        }
+        _ => {
+            reporter.stage(Stage::Loading, progress);
+            let scene = Arc::new(load(&request.scene, progress)?);
+            kept.scene = Some((request.scene.clone(), request.reload, Arc::clone(&scene)));
+            kept.tree = None;
+            scene
+        }
+    };
+    let camera: Camera = if request.own_camera {
+        request.render.camera
+    } else {
+        *scene.camera()
+    };
+    let render = RenderSettings {
+        camera,
+        ..request.render
+    };
+    // A wrong camera or size is told before work is done for it.
+    render.view()?;
+
+    let (tree, building) = match &kept.tree {
+        Some((settings, tree, building)) if *settings == request.build => {
+            (Arc::clone(tree), *building)
+        }
+        _ => {
+            reporter.stage(Stage::Building, progress);
+            let (tree, building) = Times::of(|| build(&scene, &request.build, progress));
+            let tree = Arc::new(tree?);
+            kept.tree = Some((request.build.clone(), Arc::clone(&tree), building));
+            (tree, building)
+        }
+    };
+    let pool = match &kept.pool {
+        Some((threads, pool)) if *threads == render.threads => Arc::clone(pool),
+        _ => {
+            let pool = Arc::new(thread_pool(render.threads)?);
+            kept.pool = Some((render.threads, Arc::clone(&pool)));
+            pool
+        }
+    };
+
+    reporter.stage(Stage::Previewing, progress);
+    let mut measurement = Measurement::of_tree(&scene, &tree, building, &render);
+    let picture = Mutex::new(Picture::new(render.width, render.height));
+    preview(
+        &scene,
+        &tree,
+        &render,
+        PREVIEW_STEP,
+        &pool,
+        progress,
+        |tile, colors| lock(&picture).add_tile(tile, 0, colors),
+    )?;
+    reporter.send(Update::Shown(Box::new(Shown {
+        request: request.clone(),
+        scene: Arc::clone(&scene),
+        tree: Arc::clone(&tree),
+        render,
+        picture: picture
+            .into_inner()
+            .unwrap_or_else(std::sync::PoisonError::into_inner),
+        measurement: measurement.clone(),
+    })));
+
+    let trace = |sample: u32| -> Result<TimedPass, Stop> {
+        Ok(timed_pass(
+            &scene,
+            &tree,
+            &render,
+            sample,
+            &pool,
+            progress,
+            |&tile, colors| {
+                reporter.send(Update::Tile {
+                    tile,
+                    sample,
+                    colors: colors.to_vec(),
+                });
+            },
+        )?)
+    };
+    reporter.stage(Stage::Tracing, progress);
+    measurement.rendering = Some(trace(0)?);
+
+    reporter.stage(Stage::Counting, progress);
+    let so_far = Mutex::new((measurement.clone(), Instant::now()));
+    let counted = counted_pass(&scene, &tree, &render, &pool, progress, |part| {
+        let mut guard = lock(&so_far);
+        let (measurement, last) = &mut *guard;
+        let sum = measurement
+            .counted
+            .unwrap_or_else(CountedPass::default)
+            .merge(*part);
+        measurement.counted = Some(sum);
+        if last.elapsed() >= FIGURES_EVERY {
+            *last = Instant::now();
+            reporter.send(Update::Measured {
+                measurement: Box::new(measurement.clone()),
+                complete: false,
+            });
+        }
+    })?;
+    measurement.counted = Some(counted);
+    reporter.send(Update::Measured {
+        measurement: Box::new(measurement),
+        complete: true,
+    });
+
+    for sample in 1..render.samples {
+        reporter.stage(Stage::Refining(sample, render.samples), progress);
+        trace(sample)?;
+    }
+    Ok(())
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner)
+}
