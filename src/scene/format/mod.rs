@@ -55,7 +55,11 @@ pub fn for_path(path: &Path) -> &'static Format {
         .map(|e| e.to_string_lossy().to_ascii_lowercase());
     FORMATS
         .iter()
-        .find(|f| f.extensions.iter().any(|e| Some(*e) == extension.as_deref()))
+        .find(|f| {
+            f.extensions
+                .iter()
+                .any(|e| Some(*e) == extension.as_deref())
+        })
         .unwrap_or(&FORMATS[0])
 }
 
