@@ -2,6 +2,7 @@
 //! through the tree.
 
 use super::Builtin;
+use super::percent_g::round_point;
 use crate::geometry::Vec3;
 use crate::primitive::{Cone, Polygon, Primitive, Sphere, Triangle};
 use crate::scene::{Camera, Light, Material, SceneParts};
@@ -155,7 +156,7 @@ fn hexagon() -> Primitive {
         (-0.5, 0.0),
         (0.5, 0.0),
     ];
-    let place = |(along, z)| Vec3::new(3.3 + 0.8 * along, 0.2 + 0.6 * along, z);
+    let place = |(along, z)| round_point(Vec3::new(3.3 + 0.8 * along, 0.2 + 0.6 * along, z));
     polygon(outline.map(place).to_vec(), None)
 }
 
@@ -203,7 +204,7 @@ mod tests {
     use crate::primitive::{PrimitiveKind, Shape};
 
     /// Rounding that bounds of primitives may add.
-    const SLACK: f64 = 1e-9;
+    const SLACK: f64 = 1e-6;
 
     fn bounds() -> Vec<Aabb> {
         generate(1).objects.iter().map(Shape::bounds).collect()
