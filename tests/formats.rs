@@ -271,12 +271,16 @@ fn a_polygon_off_a_plane_becomes_triangles_with_its_normals() {
 }
 
 #[test]
-fn a_vertex_normal_without_length_leaves_the_polygon_flat() {
-    let parts = read_after_view("f 1 1 1 1 0 0 0 1\npp 3\n0 0 0 0 0 1\n1 0 0 0 0 0\n0 1 0 0 0 1\n");
-    assert!(matches!(&parts.objects[0], Primitive::Triangle(t) if t.normals.is_none()));
+fn a_vertex_normal_without_length_becomes_the_polygons_own() {
+    let parts = read_after_view("f 1 1 1 1 0 0 0 1\npp 3\n0 0 0 1 0 0\n1 0 0 0 0 0\n0 1 0 0 1 0\n");
+    let Primitive::Triangle(t) = &parts.objects[0] else {
+        panic!("{:?}", parts.objects)
+    };
+    let normals = t.normals.as_deref().unwrap();
+    assert_eq!(*normals, [Vec3::X, Vec3::Z, Vec3::Y]);
     assert_eq!(
         parts.notes,
-        ["line 10: vertex normal without length, polygon shaded flat"]
+        ["line 10: vertex normal without length, the polygon's own taken"]
     );
 }
 

@@ -51,9 +51,9 @@ const WORDS_PER_CHECK: u32 = 4096;
 /// - a second `v` or `b`: the last counts;
 /// - a polygon without area, a cylinder or cone without length: skipped;
 /// - vertices off a common plane: split into triangles, each vertex keeping its normal;
-/// - a vertex normal without length: the polygon loses its vertex normals and is shaded flat.
+/// - a vertex normal without length: the polygon's own normal takes its place.
 ///
-/// Vertex normals are scaled to unit length. Memory stays within a constant times the file's size,
+/// Memory stays within a constant times the file's size,
 /// whatever counts the file claims.
 ///
 /// # Errors
@@ -361,7 +361,7 @@ impl Remark {
             Remark::NoArea => "polygon without area skipped",
             Remark::NoLength => "cylinder or cone without length skipped",
             Remark::NotPlanar => "polygon off a common plane split into triangles",
-            Remark::NormalWithoutLength => "vertex normal without length, polygon shaded flat",
+            Remark::NormalWithoutLength => "vertex normal without length, the polygon's own taken",
         }
     }
 }
@@ -385,7 +385,7 @@ struct Reader<'a> {
     remarks: [usize; Remark::ALL.len()],
     /// Letter and line of the entity read last.
     last_entity: Option<(&'static str, usize)>,
-    /// Vertices and normals of the polygon being read, kept to be filled again.
+    /// Vertices and normals (none for `p`) of the polygon being read, kept to be filled again.
     vertices: Vec<Vec3>,
     normals: Vec<Vec3>,
 }
@@ -598,7 +598,7 @@ impl<'a> Reader<'a> {
             .ok_or_else(|| word.instead_of(expected))?;
         self.vertices.clear();
         self.normals.clear();
-        let mut flat = false;
+        let mut without_length = false;
         // The count is not trusted with memory: the lists grow as vertices are really found.
         for number in 1..=count {
             let vertex = self
@@ -607,43 +607,38 @@ impl<'a> Reader<'a> {
             self.vertices.push(vertex);
             if with_normals {
                 let of = format_args!("the normal at vertex {number} of {count}");
-                let normal = unit(self.words.point(of)?);
-                flat |= normal.is_none();
-                self.normals.push(normal.unwrap_or(Vec3::ZERO));
+                let normal = self.words.point(of)?;
+                without_length |= normal == Vec3::ZERO;
+                self.normals.push(normal);
             }
         }
-        if flat {
+        if without_length {
             self.remark(line, Remark::NormalWithoutLength);
         }
-        let smooth = with_normals && !flat;
         if let &[a, b, c] = self.vertices.as_slice() {
-            let triangle = self.triangle([0, 1, 2], [a, b, c], smooth);
+            let triangle = self.triangle([0, 1, 2], [a, b, c]);
             return self.add(line, "a triangle", triangle);
         }
-        let normals = smooth.then(|| self.normals.clone());
+        let normals = with_normals.then(|| self.normals.clone());
         match Polygon::new(self.vertices.clone(), normals) {
-            Err(ShapeError::NotPlanar(_)) => self.split_polygon(line, smooth),
+            Err(ShapeError::NotPlanar(_)) => self.split_polygon(line),
             polygon => self.add(line, "a polygon", polygon.map(Primitive::Polygon)),
         }
     }
 
     /// A triangle of the polygon being read, by the numbers of its vertices.
-    fn triangle(
-        &self,
-        numbers: [u32; 3],
-        vertices: [Vec3; 3],
-        smooth: bool,
-    ) -> Result<Primitive, ShapeError> {
+    fn triangle(&self, numbers: [u32; 3], vertices: [Vec3; 3]) -> Result<Primitive, ShapeError> {
+        let smooth = !self.normals.is_empty();
         let normals = smooth.then(|| numbers.map(|i| self.normals[i as usize]));
         Triangle::new(vertices, normals).map(Primitive::Triangle)
     }
 
     /// Adds the polygon being read as triangles; those without area are left out silently.
-    fn split_polygon(&mut self, line: usize, smooth: bool) -> Result<(), ReadError> {
+    fn split_polygon(&mut self, line: usize) -> Result<(), ReadError> {
         let before = self.objects.len();
         for numbers in Polygon::triangulate(&self.vertices) {
             let vertices = numbers.map(|i| self.vertices[i as usize]);
-            match self.triangle(numbers, vertices, smooth) {
+            match self.triangle(numbers, vertices) {
                 Err(ShapeError::ZeroArea) => {}
                 triangle => self.add(line, "a triangle", triangle)?,
             }
@@ -787,20 +782,6 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The unit vector along `v`; `None` for zero. One that has unit length but for rounding stays as
-/// it is, so that a file that was written reads back to the same bits.
-fn unit(v: Vec3) -> Option<Vec3> {
-    let scale = v.abs().max_element();
-    if scale == 0.0 {
-        None
-    } else if (v.length_squared() - 1.0).abs() <= 16.0 * f64::EPSILON {
-        Some(v)
-    } else {
-        // Scaled first, so that the square neither over- nor underflows.
-        Some((v / scale).normalize())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -825,20 +806,6 @@ mod tests {
         }
         assert_eq!(Number(0.930995).to_string(), "0.930995");
         assert_eq!(Number(1.22461e-16).to_string(), "1.22461e-16");
-    }
-
-    #[test]
-    fn a_unit_vector_is_kept_and_any_other_direction_is_scaled() {
-        for v in [
-            Vec3::new(1.0, 2.0, 3.0),
-            Vec3::splat(1e-200),
-            Vec3::splat(1e200),
-        ] {
-            let once = unit(v).unwrap();
-            assert!((once.length() - 1.0).abs() < 1e-15);
-            assert_eq!(unit(once), Some(once));
-        }
-        assert_eq!(unit(Vec3::ZERO), None);
     }
 
     #[test]
