@@ -70,6 +70,10 @@ pub(super) fn unit_normals(normals: &[Vec3], own: Vec3) -> Option<Vec<Vec3>> {
     normals
         .iter()
         .map(|n| {
+            // Unit length stays as it is: a scene that was written must read back the same.
+            if (n.length_squared() - 1.0).abs() <= 16.0 * f64::EPSILON {
+                return Some(*n);
+            }
             let scale = n.abs().max_element();
             n.is_finite().then(|| (n / scale).normalize_or(own))
         })

@@ -37,6 +37,7 @@ pub struct Tree {
 pub struct CellOfNode {
     /// Index of the node.
     pub node: u32,
+    /// Levels below the root; a cut that takes an empty slab out is one level, with two planes.
     pub depth: u32,
     pub bounds: Aabb,
 }
