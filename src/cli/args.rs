@@ -62,7 +62,6 @@ pub struct WindowArgs {
 pub struct MeasureArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
-    /// Without it: the paper's two methods
     #[command(flatten)]
     pub methods: MethodListArgs,
     #[command(flatten)]
@@ -72,10 +71,10 @@ pub struct MeasureArgs {
     #[command(flatten)]
     pub picture: PictureArgs,
     /// Form of the report; without it the extension of -o decides, or text
-    #[arg(long, value_name = "FORM", value_parser = writer_names())]
+    #[arg(long, value_name = "FORM", value_parser = writer_names(), help_heading = "Output")]
     pub format: Option<String>,
     /// Write to this file in place of standard output
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: Option<PathBuf>,
 }
 
@@ -87,7 +86,7 @@ pub struct RenderArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
     /// Build method
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), default_value = "midpoint")]
+    #[arg(long, value_name = "METHOD", value_parser = method_names(), default_value = "midpoint", help_heading = "Tree")]
     pub method: Method,
     #[command(flatten)]
     pub build: BuildArgs,
@@ -96,10 +95,10 @@ pub struct RenderArgs {
     #[command(flatten)]
     pub picture: PictureArgs,
     /// Samples a pixel, at least 1; the first lies where --sampling says
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..), help_heading = "Picture")]
     pub samples: u32,
     /// Picture file: .png is 8-bit sRGB, .exr is linear 32-bit float
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: PathBuf,
 }
 
@@ -146,7 +145,7 @@ pub struct VerifyArgs {
     #[arg(long, value_name = "N", default_value_t = 50_000, value_parser = clap::value_parser!(u32).range(1..))]
     pub rays: u32,
     /// Build method; may be given more than once [default: all but none]
-    #[arg(long, value_name = "METHOD", value_parser = method_names())]
+    #[arg(long, value_name = "METHOD", value_parser = method_names(), help_heading = "Tree")]
     pub method: Vec<Method>,
     #[command(flatten)]
     pub build: BuildArgs,
@@ -240,12 +239,12 @@ fn help(examples: &str) -> String {
     for builtin in BUILTINS {
         let sizes = &builtin.sizes;
         text += &format!(
-            "\n  {:<10} {} (sizes {} to {}, {} without one)",
+            "\n  {} (sizes {} to {}; {} without one)\n      {}",
             builtin.name,
-            builtin.about,
             sizes.start(),
             sizes.end(),
-            builtin.default_size
+            builtin.default_size,
+            builtin.about
         );
     }
     text

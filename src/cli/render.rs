@@ -13,7 +13,7 @@ use std::sync::{Mutex, PoisonError};
 
 pub fn run(args: &RenderArgs) -> Result<Outcome> {
     let format = format_of(&args.output)?;
-    let builds = resolve::builds(&[args.method], &args.build)?;
+    let settings = resolve::builds(&[args.method], &args.build)?.remove(0);
     let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
     let render = RenderSettings {
         samples: args.samples,
@@ -21,14 +21,12 @@ pub fn run(args: &RenderArgs) -> Result<Outcome> {
     };
     // A wrong size is told before a tree is built for it.
     render.view()?;
-    for settings in &builds {
-        let tree = bar::with_bar(
-            &format!("{}: building the tree", scene.name()),
-            |progress| build(&scene, settings, progress),
-        )?;
-        let bytes = encoded(&picture(&scene, &tree, &render)?, format)?;
-        output::write_file(&args.output, |out| out.write_all(&bytes))?;
-    }
+    let tree = bar::with_bar(
+        &format!("{}: building the tree", scene.name()),
+        |progress| build(&scene, &settings, progress),
+    )?;
+    let bytes = encoded(&picture(&scene, &tree, &render)?, format)?;
+    output::write_file(&args.output, |out| out.write_all(&bytes))?;
     Ok(Outcome::Done)
 }
 

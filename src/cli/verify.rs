@@ -42,11 +42,15 @@ pub fn run(args: &VerifyArgs) -> Result<Outcome> {
         findings.extend(findings_of(scene, &builds, args)?);
     }
     output::write_to(None, |out| write(&findings, out))?;
-    Ok(if findings.iter().all(Finding::passed) {
+    Ok(outcome(&findings))
+}
+
+fn outcome(findings: &[Finding]) -> Outcome {
+    if findings.iter().all(Finding::passed) {
         Outcome::Done
     } else {
         Outcome::CheckFailed
-    })
+    }
 }
 
 /// Holds every method's tree of a scene against the judge.
@@ -143,5 +147,45 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
         )
     } else {
         writeln!(out, "{wrong} of {} trees are wrong.", findings.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Ray, Vec3};
+
+    #[test]
+    fn a_wrong_tree_and_a_wrong_hit_fail_the_check_and_are_named() {
+        let right = || Finding {
+            scene: "teaching:1".into(),
+            method: Method::of_the_paper()[0],
+            tree: Ok(()),
+            rays: Verification {
+                rays: [10; 4],
+                ..Verification::default()
+            },
+        };
+        let wrong_tree = Finding {
+            tree: Err(Invalid::Plane(7)),
+            ..right()
+        };
+        let mut wrong_hit = right();
+        wrong_hit.rays.wrong[RayKind::Shadow as usize] = 3;
+        wrong_hit.rays.examples = vec![(RayKind::Shadow, Ray::new(Vec3::ZERO, Vec3::Y))];
+
+        assert_eq!(outcome(&[right(), right()]), Outcome::Done);
+        for (wrong, said) in [
+            (wrong_tree, "teaching:1, midpoint: node 7"),
+            (wrong_hit, "the shadow ray from [0, 0, 0] along [0, 1, 0]"),
+        ] {
+            let findings = [right(), wrong];
+            assert_eq!(outcome(&findings), Outcome::CheckFailed);
+            let mut text = Vec::new();
+            write(&findings, &mut text).unwrap();
+            let text = String::from_utf8(text).unwrap();
+            assert!(text.contains(said), "{text}");
+            assert!(text.contains("1 of 2 trees are wrong"), "{text}");
+        }
     }
 }

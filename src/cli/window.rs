@@ -12,29 +12,20 @@ use std::io::Write;
 const FIRST_SCENE: &str = "balls";
 
 pub fn run(args: &WindowArgs) -> Result<Outcome> {
-    match open(args)? {
-        Opened::Closed => Ok(Outcome::Done),
-        Opened::NoWindow(why) => {
-            // Without a standard error stream there is nobody to tell.
-            let _ = writeln!(
-                std::io::stderr(),
-                "bspscope: {why}; measuring and rendering to a file instead"
-            );
-            without_window(args)
-        }
-    }
+    let Some(why) = open(args)? else {
+        return Ok(Outcome::Done);
+    };
+    // Without a standard error stream there is nobody to tell.
+    let _ = writeln!(
+        std::io::stderr(),
+        "bspscope: {why}; measuring, and rendering to a file, without it"
+    );
+    without_window(args)
 }
 
-/// How the attempt at a window ended.
-enum Opened {
-    /// It was there, and the user closed it.
-    Closed,
-    /// There can be none, for this reason.
-    NoWindow(String),
-}
-
-fn open(_args: &WindowArgs) -> Result<Opened> {
-    Ok(Opened::NoWindow("this build has no window".into()))
+/// Opens the window and waits until it is closed; where there can be none, says why.
+fn open(_args: &WindowArgs) -> Result<Option<String>> {
+    Ok(Some("this build has no window".into()))
 }
 
 /// Δ and Λ of the methods, and the picture in a file of its own.

@@ -1,7 +1,7 @@
 //! The tables of a report, as all writers for people show them.
 
 use super::Report;
-use crate::measure::{DELTA, LAMBDA, PARAMETERS, Parameter, Table, Unit, parameter};
+use crate::measure::{Class, DELTA, LAMBDA, PARAMETERS, Parameter, Table, Unit, parameter};
 
 /// What stands where there is no value.
 const NO_VALUE: &str = "–";
@@ -58,6 +58,8 @@ pub fn rows(section: &Section, report: &Report) -> Vec<Row> {
             Row {
                 parameter,
                 second_to_first: match values[..] {
+                    // What is given is the same for both.
+                    [_, _] if parameter.class == Class::S => Some(String::new()),
                     [first, second] => Some(second_to_first(parameter.unit, first, second)),
                     _ => None,
                 },
@@ -88,14 +90,17 @@ pub fn value_titles(report: &Report) -> Vec<String> {
 fn second_to_first(unit: Unit, first: Option<f64>, second: Option<f64>) -> String {
     match (first, second) {
         (Some(first), Some(second)) if unit == Unit::Percent => {
-            format!("{:+.1} points", (second - first) * 100.0)
+            let points = (second - first) * 100.0;
+            let decimals = usize::from(points.abs() < 1000.0);
+            format!("{points:+.decimals$} points")
         }
         (Some(first), Some(second)) if first != 0.0 => {
             let percent = second / first * 100.0;
-            let decimals = match percent.abs() {
-                0.0..10.0 => 2,
-                10.0..100.0 => 1,
-                _ => 0,
+            // Three significant digits, as many as the paper gives.
+            let decimals = if percent == 0.0 {
+                0
+            } else {
+                (2.0 - percent.abs().log10().floor()).clamp(0.0, 9.0) as usize
             };
             format!("{percent:.decimals$} %")
         }
@@ -114,6 +119,9 @@ mod tests {
         assert_eq!(relation(Unit::Count, 96056.0, 11322.0), "11.8 %");
         assert_eq!(relation(Unit::Percent, 0.323, 0.254), "-6.9 points");
         assert_eq!(relation(Unit::Percent, 0.159, 0.256), "+9.7 points");
+        assert_eq!(relation(Unit::Percent, 45.05, 13.37), "-3168 points");
+        assert_eq!(relation(Unit::Count, 1e6, 1.5), "0.000150 %");
+        assert_eq!(relation(Unit::Count, 5.0, 0.0), "0 %");
         assert_eq!(relation(Unit::Count, 0.0, 1.0), NO_VALUE);
         assert_eq!(second_to_first(Unit::Ratio, None, Some(1.0)), NO_VALUE);
     }

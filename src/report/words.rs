@@ -31,10 +31,11 @@ pub fn scene(report: &Report) -> Vec<String> {
         ),
     ];
     if !scene.bounds.is_empty() {
+        let size = scene.bounds.size().max_element();
         lines.push(format!(
             "Bounds: {} to {}",
-            point(scene.bounds.lo),
-            point(scene.bounds.hi)
+            point(rounded(scene.bounds.lo, size)),
+            point(rounded(scene.bounds.hi, size))
         ));
     }
     let left_out = scene.requirements.left_out();
@@ -75,16 +76,14 @@ pub fn times(report: &Report) -> Vec<String> {
         .iter()
         .map(|run| {
             let mut line = format!(
-                "{}: tree built in {:.3} s ({:.3} s CPU) on 1 thread",
-                run.build.method.name,
-                run.building.wall.as_secs_f64(),
-                run.building.cpu.as_secs_f64(),
+                "{}: tree built in {:.1?} ({:.1?} CPU) on 1 thread",
+                run.build.method.name, run.building.wall, run.building.cpu,
             );
             if let Some(rendering) = run.rendering {
                 line += &format!(
-                    "; picture traced in {:.3} s ({:.3} s CPU) on {}",
-                    rendering.wall.as_secs_f64(),
-                    rendering.cpu.as_secs_f64(),
+                    "; picture traced in {:.1?} ({:.1?} CPU) on {}",
+                    rendering.wall,
+                    rendering.cpu,
                     threads(run.render.threads)
                 );
             }
@@ -120,6 +119,37 @@ fn threads(count: usize) -> String {
     }
 }
 
+/// The point to about six digits of a length, without the noise of rounding behind them.
+fn rounded(p: Vec3, size: f64) -> Vec3 {
+    if !(1e-100..1e100).contains(&size) {
+        return p;
+    }
+    let decimals = 5 - size.log10().floor() as i32;
+    let scale = 10f64.powi(decimals.abs());
+    // Adding zero makes -0 a 0.
+    if decimals >= 0 {
+        (p * scale).round() / scale + 0.0
+    } else {
+        (p / scale).round() * scale + 0.0
+    }
+}
+
 fn point(p: Vec3) -> String {
     format!("({}, {}, {})", p.x, p.y, p.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_are_rounded_to_their_size() {
+        let noisy = Vec3::new(-12.00000000000001, -2.7e-15, 0.78507160000000);
+        assert_eq!(point(rounded(noisy, 24.0)), "(-12, 0, 0.7851)");
+        assert_eq!(
+            point(rounded(Vec3::splat(123_456_789.0), 2e8)),
+            "(123457000, 123457000, 123457000)"
+        );
+        assert_eq!(rounded(noisy, 0.0), noisy);
+    }
 }
