@@ -115,6 +115,8 @@ fn wrong_use_is_told_with_exit_code_2() {
         ("measure tetra:5 --memory-limit 0", "memory limit of 0 MiB"),
         ("render teaching -o picture.jpg", ".png or .exr"),
         ("render teaching --resolution 16x16 -o no/a.png", "no/a.png"),
+        ("measure balls:1 --resolution 16x16 -o no/a.txt", "no/a.txt"),
+        ("generate balls:1 -o .", ".: is a folder"),
     ] {
         let errors = program.refused(arguments);
         assert!(errors.contains(part), "{arguments}: {errors}");

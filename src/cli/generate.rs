@@ -7,6 +7,7 @@ use anyhow::Result;
 use std::path::Path;
 
 pub fn run(args: &GenerateArgs) -> Result<Outcome> {
+    output::check_place(args.output.as_deref())?;
     let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
     let format = format::for_path(args.output.as_deref().unwrap_or(Path::new("-")));
     output::write_to(args.output.as_deref(), |out| {

@@ -2,7 +2,7 @@
 
 use super::args::MeasureArgs;
 use super::{Outcome, bar, output, resolve};
-use crate::measure::measure;
+use crate::measure::{Measurement, measure};
 use crate::report::Report;
 use crate::scene::Scene;
 use crate::trace::RenderSettings;
@@ -10,6 +10,7 @@ use crate::tree::{BuildSettings, Tree};
 use anyhow::Result;
 
 pub fn run(args: &MeasureArgs) -> Result<Outcome> {
+    output::check_place(args.output.as_deref())?;
     let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
     let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
     let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
@@ -30,7 +31,7 @@ pub fn run_of(
     scene: &Scene,
     build: &BuildSettings,
     render: &RenderSettings,
-) -> Result<(Tree, crate::measure::Measurement)> {
+) -> Result<(Tree, Measurement)> {
     let stage = format!(
         "{}, {}: building, tracing, counting",
         scene.name(),

@@ -1,9 +1,29 @@
 //! Where output goes: standard output, or a file that is complete or not touched at all.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+
+/// Refuses a place where no file can be written, before work is done for it.
+pub fn check_place(file: Option<&Path>) -> Result<()> {
+    let Some(path) = file.filter(|path| path.as_os_str() != "-") else {
+        return Ok(());
+    };
+    if path.is_dir() {
+        bail!("{}: is a folder", path.display());
+    }
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
+            bail!(
+                "{}: there is no folder {}",
+                path.display(),
+                folder.display()
+            )
+        }
+        _ => Ok(()),
+    }
+}
 
 /// Writes to a file, or to standard output for `-` and for nothing.
 pub fn write_to(

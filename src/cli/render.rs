@@ -13,6 +13,7 @@ use std::sync::{Mutex, PoisonError};
 
 pub fn run(args: &RenderArgs) -> Result<Outcome> {
     let format = format_of(&args.output)?;
+    output::check_place(Some(&args.output))?;
     let settings = resolve::builds(&[args.method], &args.build)?.remove(0);
     let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
     let render = RenderSettings {

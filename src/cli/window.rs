@@ -28,11 +28,15 @@ fn open(_args: &WindowArgs) -> Result<Option<String>> {
     Ok(Some("this build has no window".into()))
 }
 
+/// The scene asked for, or the first one.
+fn scene_text(args: &WindowArgs) -> &str {
+    args.scene.as_deref().unwrap_or(FIRST_SCENE)
+}
+
 /// Δ and Λ of the methods, and the picture in a file of its own.
 fn without_window(args: &WindowArgs) -> Result<Outcome> {
-    let text = args.scene.as_deref().unwrap_or(FIRST_SCENE);
     let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
-    let (request, scene) = resolve::scene(text, &args.cylinders)?;
+    let (request, scene) = resolve::scene(scene_text(args), &args.cylinders)?;
     let settings = resolve::render(*scene.camera(), &args.trace, &args.picture);
     settings.view()?;
     let mut runs = Vec::new();
