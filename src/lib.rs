@@ -57,10 +57,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod cli;
 pub mod geometry;
 pub mod measure;
 pub mod primitive;
 pub mod progress;
+pub mod report;
 pub mod scene;
 pub mod trace;
 pub mod tree;
