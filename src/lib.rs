@@ -1,7 +1,10 @@
 //! bspscope: see, measure and compare the BSP trees that make ray tracing fast.
 
 pub mod geometry;
+#[cfg(feature = "gui")]
+pub mod gui;
 pub mod measure;
+pub mod overlay;
 pub mod primitive;
 pub mod progress;
 pub mod scene;

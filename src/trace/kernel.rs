@@ -171,6 +171,17 @@ fn any<O: Objects + ?Sized, P: Probe>(
     visitor.blocked
 }
 
+/// The nearest hit of one ray, watched by a probe.
+pub fn closest_hit<P: Probe>(
+    tree: &Tree,
+    shapes: &Shapes<'_>,
+    ray: &Ray,
+    scratch: &mut Scratch,
+    probe: &mut P,
+) -> Hit {
+    with_objects!(shapes, objects => closest(tree, objects, ray, scratch, probe))
+}
+
 /// The kernel whose time counts: it counts nothing.
 pub struct Timed<'a> {
     tree: &'a Tree,

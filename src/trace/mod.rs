@@ -6,6 +6,7 @@ mod any_order;
 mod kernel;
 mod picture;
 mod probe;
+mod record;
 mod render;
 mod settings;
 mod shapes;
@@ -13,9 +14,10 @@ mod traverse;
 mod whitted;
 
 pub use any_order::objects_along;
-pub use kernel::{Batch, Counting, Hit, RayKind, RayTracer, Timed};
+pub use kernel::{Batch, Counting, Hit, RayKind, RayTracer, Timed, closest_hit};
 pub use picture::{Picture, TILE, Tile, tiles};
 pub use probe::{Probe, RayCounts, Tally};
+pub use record::{RayPath, VisitedLeaf, record};
 pub use render::{
     CountedPass, RenderError, TimedPass, counted_pass, preview, thread_pool, timed_pass,
 };
