@@ -1,50 +1,253 @@
 //! Cylinders and truncated cones: the open lateral surface between two circles.
 
-use super::{Shape, ShapeError, SurfacePoint};
+use super::{Polygon, Shape, ShapeError, SurfacePoint, gjk, numeric};
 use crate::geometry::{Aabb, Ray, Vec3};
 
 /// An open cylinder or truncated cone, without end caps; a cylinder where both radii are equal.
+/// Either radius may be 0, which makes that end a tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
-    pub base: Vec3,
-    pub base_radius: f64,
-    pub apex: Vec3,
-    pub apex_radius: f64,
+    base: Vec3,
+    base_radius: f64,
+    apex: Vec3,
+    apex_radius: f64,
+    /// From base to apex, of unit length.
+    axis: Vec3,
+    /// The middle of the axis, from which heights count.
+    middle: Vec3,
+    half_length: f64,
+    /// The radius at the middle, and by how much it grows per height.
+    middle_radius: f64,
+    slope: f64,
+    /// Square of the largest distance from the middle, rounding included.
+    squared_reach: f64,
 }
 
 impl Cone {
     /// # Errors
-    /// A number that is not finite, a negative radius, or an axis without length.
+    /// A number that is not finite, a negative radius, two radii 0, or an axis without length: no
+    /// longer than the rounding of its ends.
     pub fn new(
         base: Vec3,
         base_radius: f64,
         apex: Vec3,
         apex_radius: f64,
     ) -> Result<Self, ShapeError> {
+        let along = apex - base;
+        let length = along.length();
+        let finite = base.is_finite() && apex.is_finite() && length.is_finite();
+        if !finite || !base_radius.is_finite() || !apex_radius.is_finite() {
+            return Err(ShapeError::NotFinite);
+        }
+        if let Some(negative) = [base_radius, apex_radius].into_iter().find(|r| *r < 0.0) {
+            return Err(ShapeError::NegativeRadius(negative));
+        }
+        let radius = base_radius.max(apex_radius);
+        if radius == 0.0 {
+            return Err(ShapeError::ZeroArea);
+        }
+        let magnitude = base.abs().max(apex.abs()).max_element();
+        if length <= 4.0 * f64::EPSILON * magnitude {
+            return Err(ShapeError::NoLength);
+        }
+        let half_length = 0.5 * length;
         Ok(Cone {
             base,
             base_radius,
             apex,
             apex_radius,
+            axis: along / length,
+            middle: base + 0.5 * along,
+            half_length,
+            middle_radius: 0.5 * base_radius + 0.5 * apex_radius,
+            slope: (apex_radius - base_radius) / length,
+            squared_reach: (half_length * half_length + radius * radius) * (1.0 + 1e-12),
         })
+    }
+
+    /// The centre of the circle at the base.
+    pub fn base(&self) -> Vec3 {
+        self.base
+    }
+
+    pub fn base_radius(&self) -> f64 {
+        self.base_radius
+    }
+
+    /// The centre of the circle at the apex, the end of the axis.
+    pub fn apex(&self) -> Vec3 {
+        self.apex
+    }
+
+    pub fn apex_radius(&self) -> f64 {
+        self.apex_radius
+    }
+
+    /// The length of the axis.
+    pub fn length(&self) -> f64 {
+        2.0 * self.half_length
+    }
+
+    /// Whether both radii are equal.
+    pub fn is_cylinder(&self) -> bool {
+        self.base_radius == self.apex_radius
+    }
+
+    /// The open regular inscribed prism, or frustum, of `sides` planar polygons (at least 3):
+    /// quadrilaterals base i, base i+1, apex i+1, apex i, or triangles where a radius is 0.
+    ///
+    /// Vertices count by the right-hand rule about the axis from the direction axis × x, or from
+    /// axis × y where that vanishes. The same on every platform. A side too narrow for its
+    /// coordinates is left out.
+    pub fn prism(&self, sides: u32) -> Vec<Polygon> {
+        let u = self
+            .axis
+            .cross(Vec3::X)
+            .try_normalize()
+            .unwrap_or_else(|| self.axis.cross(Vec3::Y).normalize());
+        let v = self.axis.cross(u);
+        let vertex = |center: Vec3, radius: f64, i: u32| {
+            let angle = std::f64::consts::TAU * f64::from(i % sides) / f64::from(sides);
+            center + radius * (libm::cos(angle) * u + libm::sin(angle) * v)
+        };
+        let side = |i: u32| {
+            let mut corners = Vec::with_capacity(4);
+            if self.base_radius > 0.0 {
+                corners.push(vertex(self.base, self.base_radius, i));
+                corners.push(vertex(self.base, self.base_radius, i + 1));
+            } else {
+                corners.push(self.base);
+            }
+            if self.apex_radius > 0.0 {
+                corners.push(vertex(self.apex, self.apex_radius, i + 1));
+                corners.push(vertex(self.apex, self.apex_radius, i));
+            } else {
+                corners.push(self.apex);
+            }
+            Polygon::new(corners, None).ok()
+        };
+        (0..sides).filter_map(side).collect()
+    }
+
+    /// The farthest point of the solid in a direction: on the rim of one end or the other. `u` and
+    /// `v` span the plane across the axis, so that even the noise of a direction along the axis,
+    /// which is all that its part in that plane may be, points to the rim.
+    fn support(&self, direction: Vec3, (u, v): (Vec3, Vec3)) -> Vec3 {
+        let (x, y) = (direction.dot(u), direction.dot(v));
+        let length = (x * x + y * y).sqrt();
+        let outward = if length > 0.0 {
+            (x / length) * u + (y / length) * v
+        } else {
+            u
+        };
+        let on_base = self.base + self.base_radius * outward;
+        let on_apex = self.apex + self.apex_radius * outward;
+        if (on_apex - on_base).dot(direction) > 0.0 {
+            on_apex
+        } else {
+            on_base
+        }
     }
 }
 
 impl Shape for Cone {
+    /// The tight box of the two discs: one of radius r and unit normal n reaches r √(1 − nᵢ²) along
+    /// axis i, here by the other two components of n, which leave nothing to cancel.
     fn bounds(&self) -> Aabb {
-        let r = self.base_radius.max(self.apex_radius);
-        Aabb::around([self.base, self.apex]).enlarged(r)
+        let n = self.axis;
+        let squares = n * n;
+        let extent = Vec3::new(
+            (squares.y + squares.z).sqrt(),
+            (squares.z + squares.x).sqrt(),
+            (squares.x + squares.y).sqrt(),
+        );
+        let disc = |center: Vec3, radius: f64| {
+            Aabb::new(center - radius * extent, center + radius * extent)
+        };
+        let base = disc(self.base, self.base_radius);
+        numeric::grown(base.union(&disc(self.apex, self.apex_radius)))
     }
 
+    /// The solid between the two discs, its inside included.
     fn overlaps(&self, cell: &Aabb) -> bool {
-        self.bounds().touches(cell)
+        let bounds = self.bounds();
+        let across = self.axis.any_orthonormal_pair();
+        let difference = |direction: Vec3| {
+            let nearest = Vec3::select(direction.cmpgt(Vec3::ZERO), cell.lo, cell.hi);
+            self.support(direction, across) - nearest
+        };
+        let scale = bounds.magnitude().max(cell.magnitude());
+        bounds.touches(cell) && !gjk::excludes_origin(difference, scale)
     }
 
-    fn intersect(&self, _ray: &Ray, _t_max: f64) -> Option<f64> {
-        None
+    /// The quadratic of the infinite cone or cylinder, its roots kept where their height is that of
+    /// the surface; there the radius is not negative, so the cone's other half never counts.
+    ///
+    /// The ray starts at its point nearest the middle and the roots are no differences of nearly
+    /// equal numbers, for the reasons that Haines, Günther and Akenine-Möller give for spheres
+    /// (Ray Tracing Gems, 2019, ch. 7). A line that runs in the surface has no hit.
+    #[inline]
+    fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+        let direction = ray.direction;
+        let squared_length = direction.length_squared();
+        if !numeric::is_workable(squared_length) {
+            return numeric::with_direction_rescaled(ray, t_max, |r, t| self.intersect(r, t));
+        }
+        let from_middle = ray.origin - self.middle;
+        let t_nearest = -from_middle.dot(direction) / squared_length;
+        let nearest = from_middle + t_nearest * direction;
+        if nearest.length_squared() > self.squared_reach {
+            return None;
+        }
+        let (height, rise) = (nearest.dot(self.axis), direction.dot(self.axis));
+        let (radius, growth) = (self.middle_radius + self.slope * height, self.slope * rise);
+        let across = nearest - height * self.axis;
+        let drift = direction - rise * self.axis;
+
+        let a = drift.length_squared() - growth * growth;
+        let b = across.dot(drift) - radius * growth;
+        let c = across.length_squared() - radius * radius;
+        let discriminant = b * b - a * c;
+        if discriminant < 0.0 {
+            return None;
+        }
+        // Parallel to the side, a is 0 and the first root infinite or no number: it fails the
+        // comparisons, and the second is that of the linear equation.
+        let q = -(b + discriminant.sqrt().copysign(b));
+        let (s0, s1) = (q / a, c / q);
+        let (near, far) = if s0 < s1 { (s0, s1) } else { (s1, s0) };
+        let hit = |s: f64| {
+            let t = t_nearest + s;
+            let on_surface = (height + s * rise).abs() <= self.half_length;
+            (on_surface && ray.t_min <= t && t <= t_max && t.is_finite()).then_some(t)
+        };
+        hit(near).or_else(|| hit(far))
     }
 
-    fn surface(&self, _ray: &Ray, _t: f64) -> SurfacePoint {
-        unreachable!()
+    fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
+        let met = ray.at(t) - self.middle;
+        let height = met.dot(self.axis);
+        let across = met - height * self.axis;
+        let distance = across.length();
+        let outward = across
+            .try_normalize()
+            .unwrap_or_else(|| self.axis.any_orthonormal_vector());
+
+        // In the half-plane through the axis and the point, the surface is a straight segment.
+        let slant = (1.0 + self.slope * self.slope).sqrt();
+        let (along_radius, along_axis) = (self.slope / slant, 1.0 / slant);
+        let along = (distance - self.middle_radius) * along_radius + height * along_axis;
+        let half = self.half_length * slant;
+        let along = along.clamp(-half, half);
+        let radius = (self.middle_radius + along * along_radius).max(0.0);
+        let bounds = self.bounds();
+        let point = self.middle + along * along_axis * self.axis + radius * outward;
+        let normal = (along_axis * outward - along_radius * self.axis).normalize();
+        SurfacePoint {
+            point: point.clamp(bounds.lo, bounds.hi),
+            normal,
+            shading_normal: normal,
+            error: 16.0 * f64::EPSILON * bounds.magnitude().max(self.half_length),
+        }
     }
 }

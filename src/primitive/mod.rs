@@ -4,6 +4,8 @@
 //! a cell, spheres, cylinders and cones count as solid bodies, as in the paper's method 1.
 
 mod cone;
+mod gjk;
+mod numeric;
 mod polygon;
 mod sphere;
 mod triangle;

@@ -1,20 +1,103 @@
 //! Simple polygons, convex or not.
 
+use super::numeric::{self, Shear};
 use super::{Shape, ShapeError, SurfacePoint};
-use crate::geometry::{Aabb, Ray, Vec3};
+use crate::geometry::{Aabb, Axis, Ray, Vec3};
+
+/// Vertices may lie this far off their common plane, in lengths of the polygon: files round to six
+/// digits, which is a hundred times less.
+const MAX_DEVIATION: f64 = 1e-4;
+
+/// Vertices this far off their common plane, in lengths of the largest coordinate, are off it by
+/// rounding alone.
+const FLATNESS: f64 = 8.0 * f64::EPSILON;
 
 /// A planar simple polygon of 3 or more vertices.
+///
+/// Its surface is the part of the vertices' mean plane within the outline, which is the vertices
+/// moved into that plane along the axis nearest its normal (in truth by the rounding of a file). Where the outline crosses itself, the
+/// even–odd rule tells inside from outside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
     vertices: Vec<Vec3>,
     normals: Option<Vec<Vec3>>,
+    /// Unit normal of the plane, on the side from which the vertices run counter-clockwise.
+    normal: Vec3,
+    /// A point of the plane amid the vertices.
+    anchor: Vec3,
+    /// The axis of the normal's largest component, which the projection drops.
+    axis: Axis,
+    /// The projected vertices.
+    outline: Vec<[f64; 2]>,
+    bounds: Aabb,
+    /// Whether the vertices lie in the plane but for rounding.
+    is_flat: bool,
+    /// The largest absolute coordinate: the scale of rounding errors.
+    magnitude: f64,
 }
 
 impl Polygon {
+    /// Vertex normals are brought to unit length; a zero one becomes the polygon's own. Equal
+    /// neighbours among the vertices and vertices on a line do no harm.
+    ///
     /// # Errors
     /// Too few vertices, a number that is not finite, no area, or vertices off a common plane.
     pub fn new(vertices: Vec<Vec3>, normals: Option<Vec<Vec3>>) -> Result<Self, ShapeError> {
-        Ok(Polygon { vertices, normals })
+        if vertices.len() < 3 {
+            return Err(ShapeError::TooFewVertices(vertices.len()));
+        }
+        if let Some(n) = normals.as_ref().filter(|n| n.len() != vertices.len()) {
+            return Err(ShapeError::NormalCount {
+                vertices: vertices.len(),
+                normals: n.len(),
+            });
+        }
+        let box_of_vertices = Aabb::around(vertices.iter().copied());
+        let size = box_of_vertices.size().max_element();
+        if !size.is_finite() || vertices.iter().any(|v| !v.is_finite()) {
+            return Err(ShapeError::NotFinite);
+        }
+        let normal = newell_normal(&vertices).ok_or(ShapeError::ZeroArea)?;
+
+        let first = vertices[0];
+        let count = vertices.len() as f64;
+        let anchor = first + vertices.iter().map(|&v| (v - first) / count).sum::<Vec3>();
+        let deviation = vertices
+            .iter()
+            .map(|&v| normal.dot(v - anchor).abs())
+            .fold(0.0, f64::max);
+        if deviation > MAX_DEVIATION * size {
+            return Err(ShapeError::NotPlanar(deviation));
+        }
+
+        let magnitude = box_of_vertices.magnitude();
+        let normals = match normals {
+            None => None,
+            Some(n) => Some(numeric::unit_normals(&n, normal).ok_or(ShapeError::NotFinite)?),
+        };
+        let steepness = normal.abs();
+        let axis = if steepness.x > steepness.y && steepness.x > steepness.z {
+            Axis::X
+        } else if steepness.y > steepness.z {
+            Axis::Y
+        } else {
+            Axis::Z
+        };
+        let outline: Vec<_> = vertices.iter().map(|&v| project(v, axis)).collect();
+        let mut polygon = Polygon {
+            vertices,
+            normals,
+            normal,
+            anchor,
+            axis,
+            outline,
+            bounds: box_of_vertices,
+            is_flat: deviation <= FLATNESS * magnitude,
+            magnitude,
+        };
+        let in_plane = Aabb::around(polygon.vertices_in_plane());
+        polygon.bounds = numeric::grown(box_of_vertices.union(&in_plane));
+        Ok(polygon)
     }
 
     pub fn vertices(&self) -> &[Vec3] {
@@ -24,22 +107,260 @@ impl Polygon {
     pub fn vertex_normals(&self) -> Option<&[Vec3]> {
         self.normals.as_deref()
     }
+
+    /// Unit normal, on the side from which the vertices run counter-clockwise.
+    pub fn normal(&self) -> Vec3 {
+        self.normal
+    }
+
+    /// Triangles that cover the polygon: indices of vertices, counter-clockwise like the polygon.
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        Self::triangulate(&self.vertices)
+    }
+
+    /// Triangles that cover a closed loop of vertices, planar or not; none where it has no area.
+    ///
+    /// Ears are cut off the loop as seen along its normal. Vertices without effect on the shape
+    /// there need not appear.
+    pub fn triangulate(vertices: &[Vec3]) -> Vec<[u32; 3]> {
+        let Some(normal) = newell_normal(vertices) else {
+            return Vec::new();
+        };
+        let (u, v) = normal.any_orthonormal_pair();
+        let first = vertices[0];
+        let flat: Vec<[f64; 2]> = vertices
+            .iter()
+            .map(|&p| [(p - first).dot(u), (p - first).dot(v)])
+            .collect();
+        let mut indices: Vec<u32> = Vec::new();
+        earcut::Earcut::new().earcut(flat.iter().copied(), &[], &mut indices);
+        let triangles = indices.chunks_exact(3).map(|t| {
+            let corners = [t[0], t[1], t[2]];
+            let [a, b, c] = corners.map(|i| vertices[i as usize]);
+            if (b - a).cross(c - a).dot(normal) < 0.0 {
+                [t[0], t[2], t[1]]
+            } else {
+                corners
+            }
+        });
+        triangles.collect()
+    }
+
+    /// The vertices of the outline in space: each moved into the plane along the dropped axis, but
+    /// left as it is where only rounding keeps it off; neighbours in a mesh then have it in common.
+    fn vertices_in_plane(&self) -> impl Iterator<Item = Vec3> {
+        let normal = numeric::turned(self.normal, self.axis);
+        let anchor = numeric::turned(self.anchor, self.axis);
+        let axis = self.axis.index();
+        self.vertices.iter().map(move |&v| {
+            if self.is_flat {
+                return v;
+            }
+            let turned = numeric::turned(v, self.axis);
+            let rise = normal.x * (turned.x - anchor.x) + normal.y * (turned.y - anchor.y);
+            let mut moved = v;
+            moved[axis] = anchor.z - rise / normal.z;
+            moved
+        })
+    }
+
+    /// Whether the ray's line passes through the outline, the outline included.
+    ///
+    /// Decided from the very same numbers for an edge, whichever polygon or triangle of a mesh asks:
+    /// no line slips through between two that share it.
+    #[cold]
+    fn is_pierced_by(&self, ray: &Ray) -> bool {
+        let Some(shear) = Shear::of(ray.direction) else {
+            return false;
+        };
+        let sheared = self.vertices_in_plane().map(|v| {
+            let p = shear.apply(v - ray.origin);
+            [p.x, p.y]
+        });
+        let sheared: Vec<_> = sheared.collect();
+        is_inside(&sheared, [0.0; 2], 0.0).unwrap_or(true)
+    }
+
+    /// [`Shape::intersect`] for a direction of any length that is neither huge nor tiny.
+    #[inline]
+    fn intersect_workable(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+        let speed = self.normal.dot(ray.direction);
+        let to_plane = self.anchor - ray.origin;
+        let t = self.normal.dot(to_plane) / speed;
+        let in_reach = ray.t_min <= t && t <= t_max && t.is_finite();
+        if !in_reach {
+            return None;
+        }
+        let point = ray.origin + t * ray.direction;
+        // The rounding of the plane's distance is drawn out along a ray that grazes it.
+        let length = ray.direction.abs().element_sum();
+        let reach = to_plane.abs().element_sum() + t.abs() * length + self.magnitude;
+        let slack = 4.0 * FLATNESS * reach * (length / speed).abs();
+        let hit = self.bounds.enlarged(slack).contains(point)
+            && is_inside(&self.outline, project(point, self.axis), slack)
+                .unwrap_or_else(|| self.is_pierced_by(ray));
+        hit.then_some(t)
+    }
+
+    /// Unit normal at a point of the polygon, from those at the vertices by mean value coordinates
+    /// (Hormann and Floater, "Mean value coordinates for arbitrary planar polygons", ACM
+    /// Transactions on Graphics 25(4), 2006); the plane's own where they cancel out.
+    fn interpolated(&self, normals: &[Vec3], point: Vec3) -> Vec3 {
+        let mut sum = Vec3::ZERO;
+        let mut previous = self.vertices.len() - 1;
+        let mut a = self.vertices[previous] - point;
+        for (i, &vertex) in self.vertices.iter().enumerate() {
+            let b = vertex - point;
+            let (ra, rb) = (a.length(), b.length());
+            if rb == 0.0 {
+                return normals[i];
+            }
+            // The tangent of half the angle under which the point sees the edge.
+            let sine = a.cross(b).dot(self.normal);
+            let one_plus_cosine = ra * rb + a.dot(b);
+            if one_plus_cosine <= 4.0 * f64::EPSILON * ra * rb {
+                // On the edge, the other vertices count for nothing.
+                return (rb * normals[previous] + ra * normals[i]).normalize_or(self.normal);
+            }
+            if ra > 0.0 {
+                let tangent = sine / one_plus_cosine;
+                sum += tangent * (normals[previous] / ra + normals[i] / rb);
+            }
+            (previous, a) = (i, b);
+        }
+        sum.normalize_or(self.normal)
+    }
+}
+
+/// Unit normal by Newell's method (Sutherland, Sproull and Schumacker, "A characterization of ten
+/// hidden-surface algorithms", ACM Computing Surveys 6(1), 1974), here as the sum of the fan's
+/// cross products; `None` where that is within rounding of zero.
+fn newell_normal(vertices: &[Vec3]) -> Option<Vec3> {
+    let first = *vertices.first()?;
+    let scale = vertices
+        .iter()
+        .fold(0.0_f64, |s, &v| s.max((v - first).abs().max_element()));
+    let (mut sum, mut rounding) = (Vec3::ZERO, 0.0);
+    let mut a = Vec3::ZERO;
+    for &vertex in vertices {
+        let b = (vertex - first) / scale;
+        sum += a.cross(b);
+        rounding += a.length() * b.length();
+        a = b;
+    }
+    let length = sum.length();
+    (length > 4.0 * f64::EPSILON * rounding).then(|| sum / length)
+}
+
+/// The two coordinates other than that along `axis`.
+#[inline]
+fn project(v: Vec3, axis: Axis) -> [f64; 2] {
+    let turned = numeric::turned(v, axis);
+    [turned.x, turned.y]
+}
+
+/// Whether a point lies in a closed outline: the number of edges that cross the half-line to its
+/// right is odd (Haines, "Point in polygon strategies", Graphics Gems IV, 1994). `None` within
+/// `slack` of an edge, or just on one for `slack` 0.
+#[inline]
+fn is_inside(outline: &[[f64; 2]], point: [f64; 2], slack: f64) -> Option<bool> {
+    let [x, y] = point;
+    let last = outline.last()?;
+    let (mut ax, mut ay) = (last[0] - x, last[1] - y);
+    let mut inside = false;
+    for vertex in outline {
+        let (bx, by) = (vertex[0] - x, vertex[1] - y);
+        if ay.min(by) <= slack && ay.max(by) >= -slack {
+            // Changes sign, and nothing else, where the edge is walked the other way.
+            let cross = ax * by - ay * bx;
+            if cross.abs() <= slack * ((bx - ax).abs() + (by - ay).abs())
+                && ax.min(bx) <= slack
+                && ax.max(bx) >= -slack
+            {
+                return None;
+            }
+            if (ay > 0.0) != (by > 0.0) && (cross > 0.0) == (by > ay) {
+                inside = !inside;
+            }
+        }
+        (ax, ay) = (bx, by);
+    }
+    Some(inside)
 }
 
 impl Shape for Polygon {
     fn bounds(&self) -> Aabb {
-        Aabb::around(self.vertices.iter().copied())
+        self.bounds
     }
 
+    /// After Green and Hatch, "Fast polygon–cube intersection testing" (Graphics Gems V, 1995):
+    /// they meet where an edge meets the cell, or else where the plane's cut through the cell lies
+    /// within the outline altogether; then so does its point on the diagonal.
     fn overlaps(&self, cell: &Aabb) -> bool {
-        self.bounds().touches(cell)
+        if !self.bounds.touches(cell) {
+            return false;
+        }
+        let forward = self.normal.cmpge(Vec3::ZERO);
+        let from = Vec3::select(forward, cell.lo, cell.hi);
+        let to = Vec3::select(forward, cell.hi, cell.lo);
+        let (below, above) = (
+            self.normal.dot(self.anchor - from),
+            self.normal.dot(to - self.anchor),
+        );
+        let slack = 8.0 * f64::EPSILON * (self.magnitude + cell.magnitude());
+        if below < -slack || above < -slack {
+            return false;
+        }
+        let mut previous = None;
+        let mut meets_cell = |vertex: Vec3| {
+            let Some(start) = previous.replace(vertex) else {
+                return false;
+            };
+            let edge = [start, vertex];
+            Aabb::around(edge).enlarged(slack).touches(cell)
+                && !numeric::edge_separates(start, vertex, &edge, cell)
+        };
+        if self.vertices_in_plane().any(&mut meets_cell)
+            || self.vertices_in_plane().next().is_some_and(meets_cell)
+        {
+            return true;
+        }
+        let share = below / (below + above);
+        let cut = if share > 0.0 {
+            from + share.min(1.0) * (to - from)
+        } else {
+            // Also for a cell that is flat and in the plane.
+            from
+        };
+        is_inside(&self.outline, project(cut, self.axis), slack).unwrap_or(true)
     }
 
-    fn intersect(&self, _ray: &Ray, _t_max: f64) -> Option<f64> {
-        None
+    /// Where the ray meets the plane, inside or on the outline. A ray in the plane has no hit.
+    ///
+    /// A point within rounding of an edge is decided by the line's passing the edge in space, as
+    /// triangles do: both polygons at a common edge may report it, never neither.
+    #[inline]
+    fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+        if numeric::is_workable(self.normal.dot(ray.direction).abs()) {
+            self.intersect_workable(ray, t_max)
+        } else {
+            numeric::with_direction_rescaled(ray, t_max, |r, t| self.intersect_workable(r, t))
+        }
     }
 
-    fn surface(&self, _ray: &Ray, _t: f64) -> SurfacePoint {
-        unreachable!()
+    fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
+        let met = ray.at(t);
+        let in_plane = met - self.normal.dot(met - self.anchor) * self.normal;
+        let point = in_plane.clamp(self.bounds.lo, self.bounds.hi);
+        let shading_normal = match &self.normals {
+            Some(normals) => self.interpolated(normals, point),
+            None => self.normal,
+        };
+        SurfacePoint {
+            point,
+            normal: self.normal,
+            shading_normal,
+            error: 16.0 * f64::EPSILON * self.magnitude,
+        }
     }
 }

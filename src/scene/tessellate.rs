@@ -1,6 +1,7 @@
 //! Cylinders and cones taken exactly, or as prisms of polygons as the paper did.
 
 use super::SceneParts;
+use crate::primitive::Primitive;
 use serde::{Deserialize, Serialize};
 
 /// How cylinders and cones enter the scene.
@@ -15,8 +16,32 @@ pub enum Cylinders {
 }
 
 impl Cylinders {
-    /// The parts with every cylinder and cone replaced, in place, where polygons are asked for.
-    pub fn apply(self, parts: SceneParts) -> SceneParts {
+    /// The parts with every cylinder and cone replaced, in place and in its material, where
+    /// polygons are asked for. Parts without any, and all where they are taken exactly, come back
+    /// as they are, nothing copied.
+    pub fn apply(self, mut parts: SceneParts) -> SceneParts {
+        let Cylinders::Polygons(sides) = self else {
+            return parts;
+        };
+        let is_cone = |object: &Primitive| matches!(object, Primitive::Cone(_));
+        let cones = parts.objects.iter().filter(|o| is_cone(o)).count();
+        if cones == 0 {
+            return parts;
+        }
+        let others = parts.objects.len() - cones;
+        let mut objects = Vec::with_capacity(others + cones * sides as usize);
+        let mut material_of = Vec::with_capacity(objects.capacity());
+        for (object, material) in parts.objects.into_iter().zip(parts.material_of) {
+            match object {
+                Primitive::Cone(cone) => {
+                    objects.extend(cone.prism(sides).into_iter().map(Primitive::Polygon));
+                }
+                other => objects.push(other),
+            }
+            material_of.resize(objects.len(), material);
+        }
+        parts.objects = objects;
+        parts.material_of = material_of;
         parts
     }
 }
@@ -42,5 +67,39 @@ impl std::fmt::Display for Cylinders {
             Cylinders::Exact => f.write_str("exact"),
             Cylinders::Polygons(n) => write!(f, "polygons:{n}"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::builtin;
+
+    #[test]
+    fn prisms_take_their_cylinders_places_and_materials() {
+        let exact = builtin::generate("rings", Some(1)).unwrap();
+        let prisms = Cylinders::Polygons(6).apply(exact.clone());
+        let mut rest = prisms.objects.iter().zip(&prisms.material_of);
+        for (object, material) in exact.objects.iter().zip(&exact.material_of) {
+            if let Primitive::Cone(_) = object {
+                for _ in 0..6 {
+                    let (polygon, of_polygon) = rest.next().unwrap();
+                    assert!(matches!(polygon, Primitive::Polygon(_)));
+                    assert_eq!(of_polygon, material);
+                }
+            } else {
+                assert_eq!(rest.next().unwrap(), (object, material));
+            }
+        }
+        assert!(rest.next().is_none());
+        assert_eq!(prisms.name, exact.name);
+    }
+
+    #[test]
+    fn exact_cylinders_and_scenes_without_any_stay_as_they_are() {
+        let rings = builtin::generate("rings", Some(1)).unwrap();
+        assert_eq!(Cylinders::Exact.apply(rings.clone()), rings);
+        let tetra = builtin::generate("tetra", Some(2)).unwrap();
+        assert_eq!(Cylinders::Polygons(10).apply(tetra.clone()), tetra);
     }
 }

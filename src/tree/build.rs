@@ -131,7 +131,7 @@ struct Driver<'a> {
     /// Objects of the cells on the way from the root to the cell in work, innermost last.
     waiting: Vec<u32>,
     depth_reached: u32,
-    /// Share of the work that is done, where every cell counts half as much as its parent.
+    /// Share of the work that is done, where every level counts half as much as the one above.
     done: f64,
 }
 
@@ -168,7 +168,6 @@ impl Driver<'_> {
                     Decision::Leaf(StopReason::TooThin)
                 }
                 Decision::Cut { axis, slab } => {
-                    debug_assert!(depth + 2 <= self.depth_limit);
                     debug_assert!(slab.iter().all(|&p| cell.divides(axis, p)) && slab[0] < slab[1]);
                     decision
                 }
@@ -217,7 +216,7 @@ impl Driver<'_> {
         self.child(above, local_above, from, depth, axis)
     }
 
-    /// Two planes at once: below | empty | above.
+    /// Two planes at once: below | empty | above. One level of depth, with two inner nodes.
     fn cut(
         &mut self,
         bounds: Aabb,
@@ -236,11 +235,11 @@ impl Driver<'_> {
         let outer = self.inner(depth)?;
         self.child(below, local_below, from, depth, axis)?;
         self.close(outer, axis, slab[0]);
-        let inner = self.inner(depth + 1)?;
+        let inner = self.inner(depth)?;
         let nothing = self.waiting.len();
-        self.leaf(nothing, depth + 2, StopReason::Empty)?;
+        self.leaf(nothing, depth + 1, StopReason::CutOut)?;
         self.close(inner, axis, slab[1]);
-        self.child(above, local_above, from, depth + 1, axis)
+        self.child(above, local_above, from, depth, axis)
     }
 
     /// Takes over from the parent's objects those of a child, builds it and drops them again.

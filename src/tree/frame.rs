@@ -70,7 +70,8 @@ impl Frame {
 
     /// The highest storable plane strictly below a world coordinate, by more than [`Frame::slack`].
     pub fn plane_below(&self, axis: Axis, world: f64) -> f32 {
-        let mut plane = self.nearest_plane(axis, world);
+        // Starting two slacks away takes few steps even where `f32` is finest, around zero.
+        let mut plane = self.nearest_plane(axis, world - 2.0 * self.slack);
         while self.to_world(axis, f64::from(plane)) >= world - self.slack && plane.is_finite() {
             plane = plane.next_down();
         }
@@ -79,7 +80,7 @@ impl Frame {
 
     /// The lowest storable plane strictly above a world coordinate, by more than [`Frame::slack`].
     pub fn plane_above(&self, axis: Axis, world: f64) -> f32 {
-        let mut plane = self.nearest_plane(axis, world);
+        let mut plane = self.nearest_plane(axis, world + 2.0 * self.slack);
         while self.to_world(axis, f64::from(plane)) <= world + self.slack && plane.is_finite() {
             plane = plane.next_up();
         }

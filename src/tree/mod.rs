@@ -37,6 +37,7 @@ pub struct Tree {
 pub struct CellOfNode {
     /// Index of the node.
     pub node: u32,
+    /// Levels below the root; a cut that takes an empty slab out is one level, with two planes.
     pub depth: u32,
     pub bounds: Aabb,
 }
@@ -131,10 +132,25 @@ impl Tree {
         Some(
             [(below, lower), (above, upper)].map(|(node, bounds)| CellOfNode {
                 node,
-                depth: cell.depth + 1,
+                depth: cell.depth + u32::from(!self.is_second_plane(node)),
                 bounds,
             }),
         )
+    }
+
+    /// Whether a node is the second plane of a cut, which counts no level of depth of its own: the
+    /// slab that was cut out lies below it.
+    fn is_second_plane(&self, node: u32) -> bool {
+        let cut_out = |below| {
+            matches!(
+                self.kind(below),
+                NodeKind::Leaf {
+                    stop: StopReason::CutOut,
+                    ..
+                }
+            )
+        };
+        matches!(self.kind(node), NodeKind::Inner { below, .. } if cut_out(below))
     }
 
     /// The world coordinate of an inner node's plane with its axis; `None` for a leaf.

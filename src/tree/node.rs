@@ -42,6 +42,8 @@ pub enum NodeKind {
 pub enum StopReason {
     /// It holds no object.
     Empty,
+    /// It is an empty slab that was cut out between objects.
+    CutOut,
     /// It holds at most `N_OILF` objects.
     FewObjects,
     /// It lies at depth `D_MAX`.
@@ -57,8 +59,9 @@ pub enum StopReason {
 }
 
 impl StopReason {
-    pub const ALL: [StopReason; 7] = [
+    pub const ALL: [StopReason; 8] = [
         StopReason::Empty,
+        StopReason::CutOut,
         StopReason::FewObjects,
         StopReason::MaxDepth,
         StopReason::NoSplitPays,
@@ -71,6 +74,7 @@ impl StopReason {
     pub const fn text(self) -> &'static str {
         match self {
             StopReason::Empty => "empty",
+            StopReason::CutOut => "empty slab, cut out",
             StopReason::FewObjects => "at most N_OILF objects",
             StopReason::MaxDepth => "depth D_MAX reached",
             StopReason::NoSplitPays => "no split pays",

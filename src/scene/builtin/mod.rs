@@ -1,6 +1,13 @@
 //! Generated scenes. A generator is one file here and one line in [`BUILTINS`].
 
+mod balls;
+mod percent_g;
+mod rings;
+mod teaching;
+mod tetra;
+
 use super::SceneParts;
+use crate::geometry::Vec3;
 
 /// A scene generator.
 pub struct Builtin {
@@ -8,7 +15,7 @@ pub struct Builtin {
     pub name: &'static str,
     /// One sentence: what it shows.
     pub about: &'static str,
-    /// The size that the paper used.
+    /// The size that the paper used; 1 where there is no other.
     pub default_size: u32,
     /// The sizes allowed.
     pub sizes: std::ops::RangeInclusive<u32>,
@@ -17,7 +24,15 @@ pub struct Builtin {
 }
 
 /// All generators.
-pub static BUILTINS: &[Builtin] = &[];
+pub static BUILTINS: &[Builtin] = &[
+    balls::BUILTIN,
+    rings::BUILTIN,
+    tetra::BUILTIN,
+    teaching::BUILTIN,
+];
+
+/// Linear background colour of the Standard Procedural Databases.
+const SPD_BACKGROUND: Vec3 = Vec3::new(0.078, 0.361, 0.753);
 
 /// Why a generator gave no scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -80,7 +80,7 @@ pub enum Decision {
         axis: Axis,
         plane: f32,
     },
-    /// Cuts an empty slab out: below | empty | above. Takes two levels of depth.
+    /// Cuts an empty slab out: below | empty | above. Counts as one level of depth.
     Cut {
         axis: Axis,
         slab: [f32; 2],

@@ -1,7 +1,9 @@
 //! The paper's method 2: surface-area heuristic, and cutting off empty space.
 //!
-//! The paper gives no details. This is rule Q of the project's search for the rule that reproduces
-//! its figures; every switch of that search is a constant here.
+//! The paper gives no details. This is the rule (Q) of a search that comes nearest to its figures;
+//! every switch of that search is a constant here. Candidates are planes just outside the objects'
+//! bounds, clipped to the cell. The best split must pay before a gap is cut; a cut takes both ends
+//! of the gap at once and counts as one level of depth.
 
 use super::{Cell, Constant, Decision, MethodInfo, SplitRule};
 use crate::geometry::{Aabb, Axis};
@@ -37,7 +39,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             about: "Planes are sought from the lower of the spatial and the object median less \
                     this to the higher plus this; 1 allows all.",
             source: "rule Q of the search; MacDonald and Booth 1990: the best plane lies between \
-                     the medians",
+                     the medians, the object median being the upper median of all bounds",
         },
         Constant {
             name: "gap-fraction",
@@ -104,7 +106,8 @@ impl SahCut {
         }
     }
 
-    /// The best candidate of an axis, and the widest gap as (share of the width, lower, upper end).
+    /// Improves on `best` by the planes of an axis; gives the widest gap between objects as its
+    /// share of the cell's width and its ends, if it is wide enough to cut.
     fn search(
         &self,
         cell: &Cell<'_>,
@@ -114,107 +117,67 @@ impl SahCut {
         let k = axis.index();
         let (cell_lo, cell_hi) = (cell.bounds.lo[k], cell.bounds.hi[k]);
         let width = cell_hi - cell_lo;
-        let mut lows = Vec::with_capacity(cell.objects.len());
-        let mut highs = Vec::with_capacity(cell.objects.len());
-        for &object in cell.objects {
-            let [lo, hi] = cell.clipped(object, axis);
-            lows.push(lo);
-            highs.push(hi);
-        }
-        lows.sort_unstable_by(f64::total_cmp);
+        let mut extents: Vec<[f64; 2]> = cell
+            .objects
+            .iter()
+            .map(|&object| cell.clipped(object, axis))
+            .collect();
+        extents.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+        let lows: Vec<f64> = extents.iter().map(|e| e[0]).collect();
+        let mut highs: Vec<f64> = extents.iter().map(|e| e[1]).collect();
         highs.sort_unstable_by(f64::total_cmp);
 
         let spatial_median = cell_lo * 0.5 + cell_hi * 0.5;
-        let object_median = median_of_sorted(&lows, &highs);
+        let object_median = upper_median(&lows, &highs);
         let reach = self.median_interval * width;
         let from = spatial_median.min(object_median) - reach;
         let to = spatial_median.max(object_median) + reach;
 
-        let n = cell.objects.len();
         let areas = Areas::new(&cell.bounds, axis);
         let slack = cell.frame.slack();
-        let mut consider = |plane: f32, below: usize, above: usize| {
+        let below_lows = lows
+            .iter()
+            .map(|&lo| cell.frame.plane_below(axis, lo - self.epsilon));
+        let above_highs = highs
+            .iter()
+            .map(|&hi| cell.frame.plane_above(axis, hi + self.epsilon));
+        let mut last = f32::NAN;
+        for plane in below_lows.chain(above_highs) {
             let world = cell.frame.to_world(axis, f64::from(plane));
-            if !cell.divides(axis, plane) || world < from || world > to {
-                return;
+            if plane == last || !cell.divides(axis, plane) || world < from || world > to {
+                continue;
             }
+            last = plane;
+            // As the driver counts: an object within the slack of the plane is on both sides.
+            let below = lows.partition_point(|&lo| lo <= world + slack);
+            let above = highs.len() - highs.partition_point(|&hi| hi < world - slack);
             let mut cost = below as f64 * areas.below(world) + above as f64 * areas.above(world);
             if below == 0 || above == 0 {
                 cost *= self.empty_factor;
             }
-            let off_center = ((world - spatial_median) / width).abs();
-            let better =
-                best.is_none_or(|b| cost < b.cost || (cost == b.cost && off_center < b.off_center));
-            if better {
-                *best = Some(Candidate {
-                    axis,
-                    plane,
-                    cost,
-                    off_center,
-                });
-            }
-        };
-        // Planes just below lower bounds and just above upper bounds, in ascending order of either.
-        // Counts are those of the driver: an object within the slack of a plane is on both sides.
-        let (mut touching, mut passed) = (0, 0);
-        for i in 0..n {
-            if i == 0 || lows[i] != lows[i - 1] {
-                let plane = cell.frame.plane_below(axis, lows[i] - self.epsilon);
-                let world = cell.frame.to_world(axis, f64::from(plane));
-                while passed < n && highs[passed] < world - slack {
-                    passed += 1;
-                }
-                while touching > 0 && lows[touching - 1] > world + slack {
-                    touching -= 1;
-                }
-                while touching < n && lows[touching] <= world + slack {
-                    touching += 1;
-                }
-                while passed > 0 && highs[passed - 1] >= world - slack {
-                    passed -= 1;
-                }
-                consider(plane, touching, n - passed);
+            let candidate = Candidate {
+                axis,
+                plane,
+                cost,
+                off_center: ((world - spatial_median) / width).abs(),
+            };
+            if best.is_none_or(|best| candidate.beats(&best)) {
+                *best = Some(candidate);
             }
         }
-        let (mut touching, mut passed) = (0, 0);
-        for i in 0..n {
-            if i == 0 || highs[i] != highs[i - 1] {
-                let plane = cell.frame.plane_above(axis, highs[i] + self.epsilon);
-                let world = cell.frame.to_world(axis, f64::from(plane));
-                while passed < n && highs[passed] < world - slack {
-                    passed += 1;
-                }
-                while touching < n && lows[touching] <= world + slack {
-                    touching += 1;
-                }
-                consider(plane, touching, n - passed);
-            }
-        }
+        widest_gap(&extents)
+            .map(|ends| ((ends[1] - ends[0]) / width, ends))
+            .filter(|&(share, _)| share > self.gap_fraction)
+    }
+}
 
-        // Gaps: stretches between objects that no object's extent covers.
-        let mut widest = None;
-        let mut covered = highs[0];
-        let mut upper_ends: Vec<(f64, f64)> = cell
-            .objects
-            .iter()
-            .map(|&object| {
-                let [lo, hi] = cell.clipped(object, axis);
-                (lo, hi)
-            })
-            .collect();
-        upper_ends.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        for (i, &(lo, hi)) in upper_ends.iter().enumerate() {
-            if i == 0 {
-                covered = hi;
-                continue;
-            }
-            let share = (lo - covered) / width;
-            if share > self.gap_fraction && widest.is_none_or(|(s, _)| share > s) {
-                widest = Some((share, [covered, lo]));
-            }
-            covered = covered.max(hi);
-        }
-        widest
+impl Candidate {
+    /// Cheaper, or as cheap and nearer to the cell's middle. Costs that differ by no more than
+    /// rounding are equal, or noise would choose among the many ties of symmetric scenes.
+    fn beats(&self, other: &Candidate) -> bool {
+        let rounding = 1e-12 * other.cost;
+        self.cost < other.cost - rounding
+            || (self.cost <= other.cost + rounding && self.off_center < other.off_center)
     }
 }
 
@@ -236,9 +199,7 @@ impl SplitRule for SahCut {
         if self.cost_stop && best.cost >= leaf_cost {
             return Decision::Leaf(StopReason::NoSplitPays);
         }
-        if let Some((_, axis, [lower, upper])) = gap
-            && cell.depth + 2 <= cell.depth_limit
-        {
+        if let Some((_, axis, [lower, upper])) = gap {
             let slab = [
                 cell.frame.plane_above(axis, lower + self.epsilon),
                 cell.frame.plane_below(axis, upper - self.epsilon),
@@ -285,13 +246,12 @@ impl Areas {
     }
 }
 
-/// The median of all bounds: the mean of the two middle ones of two sorted lists of equal length.
-fn median_of_sorted(lows: &[f64], highs: &[f64]) -> f64 {
+/// The upper of the two middle ones of all bounds, given as two sorted lists of equal length.
+fn upper_median(lows: &[f64], highs: &[f64]) -> f64 {
     let (mut i, mut k) = (0, 0);
-    let (mut before, mut last) = (f64::NAN, f64::NAN);
+    let mut median = f64::NAN;
     for _ in 0..=lows.len() {
-        before = last;
-        last = if k >= highs.len() || (i < lows.len() && lows[i] <= highs[k]) {
+        median = if k >= highs.len() || (i < lows.len() && lows[i] <= highs[k]) {
             i += 1;
             lows[i - 1]
         } else {
@@ -299,7 +259,20 @@ fn median_of_sorted(lows: &[f64], highs: &[f64]) -> f64 {
             highs[k - 1]
         };
     }
-    before * 0.5 + last * 0.5
+    median
+}
+
+/// The widest stretch between objects that no extent covers; extents are sorted by lower end.
+fn widest_gap(extents: &[[f64; 2]]) -> Option<[f64; 2]> {
+    let mut widest: Option<[f64; 2]> = None;
+    let mut covered = extents.first()?[1];
+    for &[lo, hi] in extents {
+        if lo - covered > widest.map_or(0.0, |[from, to]| to - from) {
+            widest = Some([covered, lo]);
+        }
+        covered = covered.max(hi);
+    }
+    widest
 }
 
 #[cfg(test)]
@@ -307,9 +280,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_median_of_all_bounds_is_the_mean_of_the_middle_two() {
-        assert_eq!(median_of_sorted(&[0.0, 1.0], &[2.0, 3.0]), 1.5);
-        assert_eq!(median_of_sorted(&[0.0], &[4.0]), 2.0);
-        assert_eq!(median_of_sorted(&[0.0, 5.0, 6.0], &[1.0, 8.0, 9.0]), 5.5);
+    fn the_median_of_all_bounds_is_the_upper_of_the_middle_two() {
+        assert_eq!(upper_median(&[0.0, 1.0], &[2.0, 3.0]), 2.0);
+        assert_eq!(upper_median(&[0.0], &[4.0]), 4.0);
+        assert_eq!(upper_median(&[0.0, 5.0, 6.0], &[1.0, 8.0, 9.0]), 6.0);
+    }
+
+    #[test]
+    fn the_widest_gap_lies_between_objects_and_is_not_covered_by_a_long_one() {
+        assert_eq!(
+            widest_gap(&[[0.0, 1.0], [3.0, 4.0], [4.5, 5.0]]),
+            Some([1.0, 3.0])
+        );
+        assert_eq!(widest_gap(&[[0.0, 4.0], [1.0, 2.0], [3.5, 5.0]]), None);
+        assert_eq!(widest_gap(&[]), None);
     }
 }

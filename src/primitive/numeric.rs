@@ -1,0 +1,133 @@
+//! Rounding: what the primitives share to stay right at the last places of an `f64`.
+
+use crate::geometry::{Aabb, Axis, Ray, Vec3};
+
+/// The box moved outwards by four units of relative precision of its coordinates, axis by axis,
+/// so that points computed on the surface inside stay inside. A coordinate 0 does not move.
+pub(super) fn grown(tight: Aabb) -> Aabb {
+    let margin = 4.0 * f64::EPSILON * tight.lo.abs().max(tight.hi.abs());
+    Aabb::new(tight.lo - margin, tight.hi + margin)
+}
+
+/// Whether squares of a direction with this length (or squared length) neither overflow nor
+/// vanish. Kernels hand other rays to [`with_direction_rescaled`].
+#[inline]
+pub(super) fn is_workable(length: f64) -> bool {
+    (1e-200..=1e200).contains(&length)
+}
+
+/// Asks `intersect` with the direction scaled to a largest component from 1 to 2; `None` where there
+/// is no direction. The scale is a power of two, so that `t` suffers no rounding by it.
+#[cold]
+pub(super) fn with_direction_rescaled(
+    ray: &Ray,
+    t_max: f64,
+    intersect: impl Fn(&Ray, f64) -> Option<f64>,
+) -> Option<f64> {
+    let largest = ray.direction.abs().max_element();
+    let usable = largest > 0.0 && largest.is_finite() && ray.t_min <= t_max;
+    if !usable {
+        return None;
+    }
+    let scale = libm::scalbn(1.0, libm::ilogb(largest));
+    let rescaled = Ray {
+        direction: ray.direction / scale,
+        t_min: ray.t_min * scale,
+        ..*ray
+    };
+    let t = intersect(&rescaled, t_max * scale)? / scale;
+    t.is_finite().then(|| t.max(ray.t_min).min(t_max))
+}
+
+/// Whether a plane perpendicular to `axis` certainly lies between the points and the cell. Any
+/// axis is a fair question; `false` where rounding leaves it open.
+pub(super) fn separates(axis: Vec3, points: &[Vec3], cell: &Aabb) -> bool {
+    let near = Vec3::select(axis.cmpge(Vec3::ZERO), cell.lo, cell.hi).dot(axis);
+    let far = Vec3::select(axis.cmpge(Vec3::ZERO), cell.hi, cell.lo).dot(axis);
+    let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut magnitude = cell.lo.abs().max(cell.hi.abs());
+    for &point in points {
+        let along = point.dot(axis);
+        (lo, hi) = (lo.min(along), hi.max(along));
+        magnitude = magnitude.max(point.abs());
+    }
+    let slack = 8.0 * f64::EPSILON * axis.abs().dot(magnitude);
+    lo - far > slack || near - hi > slack
+}
+
+/// Whether some plane spanned by a coordinate axis and the edge `from`–`to` certainly lies between
+/// the points and the cell.
+pub(super) fn edge_separates(from: Vec3, to: Vec3, points: &[Vec3], cell: &Aabb) -> bool {
+    let edge = to - from;
+    [Vec3::X, Vec3::Y, Vec3::Z]
+        .into_iter()
+        .any(|axis| separates(axis.cross(edge), points, cell))
+}
+
+/// Unit vectors of the normals given, the surface's own where one is zero; `None` where one is not
+/// finite.
+pub(super) fn unit_normals(normals: &[Vec3], own: Vec3) -> Option<Vec<Vec3>> {
+    normals
+        .iter()
+        .map(|n| {
+            // Unit length stays as it is: a scene that was written must read back the same.
+            if (n.length_squared() - 1.0).abs() <= 16.0 * f64::EPSILON {
+                return Some(*n);
+            }
+            let scale = n.abs().max_element();
+            n.is_finite().then(|| (n / scale).normalize_or(own))
+        })
+        .collect()
+}
+
+/// Coordinates in which the ray is the third axis: shearing and scaling make its direction
+/// (0, 0, 1). After Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2(1),
+/// 2013). Two primitives that share an edge see the very same coordinates of it.
+#[derive(Clone, Copy)]
+pub(super) struct Shear {
+    /// The axis of the direction's largest component.
+    axis: Axis,
+    x: f64,
+    y: f64,
+    z: f64,
+}
+
+impl Shear {
+    /// `None` where the direction has to be rescaled first.
+    #[inline]
+    pub(super) fn of(direction: Vec3) -> Option<Shear> {
+        let size = direction.abs();
+        let axis = if size.x > size.y && size.x > size.z {
+            Axis::X
+        } else if size.y > size.z {
+            Axis::Y
+        } else {
+            Axis::Z
+        };
+        let turned = turned(direction, axis);
+        let z = 1.0 / turned.z;
+        is_workable(turned.z.abs()).then_some(Shear {
+            axis,
+            x: turned.x * z,
+            y: turned.y * z,
+            z,
+        })
+    }
+
+    /// A vector from the ray's origin in the sheared coordinates; the third is its `t`.
+    #[inline]
+    pub(super) fn apply(&self, from_origin: Vec3) -> Vec3 {
+        let v = turned(from_origin, self.axis);
+        Vec3::new(v.x - self.x * v.z, v.y - self.y * v.z, self.z * v.z)
+    }
+}
+
+/// The coordinates in cyclic order with the one along `axis` last.
+#[inline]
+pub(super) fn turned(v: Vec3, axis: Axis) -> Vec3 {
+    match axis {
+        Axis::X => Vec3::new(v.y, v.z, v.x),
+        Axis::Y => Vec3::new(v.z, v.x, v.y),
+        Axis::Z => v,
+    }
+}
