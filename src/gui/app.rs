@@ -56,7 +56,7 @@ impl App {
                 picture: PicturePane::default(),
                 view3d: View3d::new(cc.wgpu_render_state.as_ref(), start.render.camera),
             },
-            tiles: egui_tiles::Tree::new("panes", root, tiles),
+            tiles: egui_tiles::Tree::new(egui::Id::unique("panes"), root, tiles),
             status: StatusLine::default(),
             help_open: false,
         }
@@ -99,7 +99,11 @@ impl App {
             Action::MoreInLeaf => build.n_oilf = by(build.n_oilf, 1, 10_000),
             Action::FewerInLeaf => build.n_oilf = by(build.n_oilf, -1, 10_000),
             Action::MoreRecursion | Action::LessRecursion => {
-                let step = if action == Action::MoreRecursion { 1 } else { -1 };
+                let step = if action == Action::MoreRecursion {
+                    1
+                } else {
+                    -1
+                };
                 let d_arec = &mut state.wanted.render.d_arec;
                 *d_arec = by(*d_arec, step, top_bar::MOST_RECURSION);
             }
@@ -154,8 +158,7 @@ impl eframe::App for App {
         });
         self.message(ui);
         egui::Panel::bottom("status line").show(ui, |ui| {
-            self.status
-                .ui(ui, &self.state, self.panes.picture.hovered);
+            self.status.ui(ui, &self.state, self.panes.picture.hovered);
         });
         egui::Panel::left("left")
             .default_size(270.0)
@@ -184,7 +187,7 @@ impl eframe::App for App {
 
 /// Says that a file can be dropped here.
 fn drop_hint(ctx: &egui::Context) {
-    let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::new("drop hint"));
+    let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop hint"));
     let (painter, rect) = (ctx.layer_painter(layer), ctx.content_rect());
     painter.rect_filled(rect, 0.0, egui::Color32::from_black_alpha(160));
     painter.text(
@@ -217,10 +220,12 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
         pane: &mut Pane,
     ) -> egui_tiles::UiResponse {
         let margin = egui::Margin::same(4);
-        egui::Frame::new().inner_margin(margin).show(ui, |ui| match pane {
-            Pane::Picture => self.panes.picture.ui(ui, self.state),
-            Pane::View3d => self.panes.view3d.ui(ui, self.state),
-        });
+        egui::Frame::new()
+            .inner_margin(margin)
+            .show(ui, |ui| match pane {
+                Pane::Picture => self.panes.picture.ui(ui, self.state),
+                Pane::View3d => self.panes.view3d.ui(ui, self.state),
+            });
         egui_tiles::UiResponse::None
     }
 

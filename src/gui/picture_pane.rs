@@ -25,8 +25,7 @@ impl PicturePane {
         header(ui, state);
         let size = ui.available_size().max(vec2(16.0, 16.0));
         let (pane, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
-        response
-            .widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Image, true, "Picture"));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Picture"));
         self.hovered = None;
         let faded = state.is_previous() && !state.only_camera_differs();
         let Some(current) = &mut state.current else {
@@ -52,10 +51,8 @@ impl PicturePane {
         }
         let pixel_at = |pos: Pos2| -> Option<[u32; 2]> {
             let at = (pos - rect.min) / rect.size() * vec2(picture[0] as f32, picture[1] as f32);
-            let inside = at.x >= 0.0
-                && at.y >= 0.0
-                && at.x < picture[0] as f32
-                && at.y < picture[1] as f32;
+            let inside =
+                at.x >= 0.0 && at.y >= 0.0 && at.x < picture[0] as f32 && at.y < picture[1] as f32;
             inside.then_some([at.x as u32, at.y as u32])
         };
         self.hovered = response.hover_pos().and_then(pixel_at);
@@ -131,10 +128,12 @@ impl PicturePane {
         }
         for action in pressed(ui.ctx(), Scope::Picture) {
             match action {
-                Action::Fit => *self = PicturePane {
-                    texture: self.texture.take(),
-                    ..PicturePane::default()
-                },
+                Action::Fit => {
+                    *self = PicturePane {
+                        texture: self.texture.take(),
+                        ..PicturePane::default()
+                    }
+                }
                 Action::ActualSize => {
                     self.zoom = Some(1.0 / ui.ctx().pixels_per_point());
                     self.offset = Vec2::ZERO;

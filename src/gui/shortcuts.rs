@@ -206,7 +206,8 @@ mod tests {
         assert!(!SHORTCUTS.is_empty());
         for (i, a) in SHORTCUTS.iter().enumerate() {
             for b in &SHORTCUTS[..i] {
-                let meet = a.scope == b.scope || a.scope == Scope::Window || b.scope == Scope::Window;
+                let meet =
+                    a.scope == b.scope || a.scope == Scope::Window || b.scope == Scope::Window;
                 let same = a.modifiers == b.modifiers && a.keys.iter().any(|k| b.keys.contains(k));
                 assert!(!(meet && same), "{} is there twice", a.text);
             }

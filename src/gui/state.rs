@@ -1,9 +1,9 @@
 //! What is wanted and what is shown. All that is shown belongs together: it is swapped as one.
 
 use super::StartOptions;
+use crate::progress::Progress;
 use crate::scene::{SceneRequest, SceneSource};
 use crate::trace::{RayPath, Tile, record};
-use crate::progress::Progress;
 use crate::worker::{Request, Shown, Stage, Update, Worker};
 use std::sync::Arc;
 

@@ -46,10 +46,14 @@ impl StatusLine {
             };
             ui.label(samples).on_hover_text("Samples a pixel, so far");
             ui.separator();
-            ui.label(current.and_then(|c| rays_per_second(&c.shown.measurement)).map_or_else(
-                || "– rays/s".to_owned(),
-                |rays| format!("{} rays/s", grouped(rays as usize)),
-            ))
+            ui.label(
+                current
+                    .and_then(|c| rays_per_second(&c.shown.measurement))
+                    .map_or_else(
+                        || "– rays/s".to_owned(),
+                        |rays| format!("{} rays/s", grouped(rays as usize)),
+                    ),
+            )
             .on_hover_text(
                 "All rays of the picture by the time on the wall of the timed pass, all threads",
             );

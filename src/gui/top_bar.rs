@@ -29,7 +29,7 @@ pub fn show(ui: &mut egui::Ui, state: &mut State, files: &mut Files, help: &mut 
             {
                 *help = !*help;
             }
-            egui::widgets::global_theme_preference_switch(ui);
+            egui::widgets::global_theme_preference_buttons(ui);
         });
     });
 }
@@ -69,7 +69,10 @@ fn d_max(ui: &mut egui::Ui, state: &mut State) {
     let about = about("D_MAX", Action::Deeper);
     ui.label("D_MAX").on_hover_text(&about);
     // While automatic, the number says what that came to in the tree on view.
-    let resolved = state.current.as_ref().map_or(0, |c| c.shown.tree.depth_limit());
+    let resolved = state
+        .current
+        .as_ref()
+        .map_or(0, |c| c.shown.tree.depth_limit());
     let mut depth = match state.wanted.build.d_max {
         MaxDepth::Fixed(depth) => depth,
         MaxDepth::Automatic => resolved,
@@ -85,10 +88,8 @@ fn d_max(ui: &mut egui::Ui, state: &mut State) {
         state.wanted.build.d_max = MaxDepth::Fixed(depth);
     }
     let mut auto = automatic;
-    ui.checkbox(&mut auto, "auto").on_hover_text(tip(
-        "D_MAX = 1.2 log2 N_O + 2, rounded.",
-        Action::AutoDepth,
-    ));
+    ui.checkbox(&mut auto, "auto")
+        .on_hover_text(tip("D_MAX = 1.2 log2 N_O + 2, rounded.", Action::AutoDepth));
     if auto != automatic {
         toggle_automatic(state);
     }
@@ -96,7 +97,10 @@ fn d_max(ui: &mut egui::Ui, state: &mut State) {
 
 /// Between an automatic `D_MAX` and the number it came to.
 pub fn toggle_automatic(state: &mut State) {
-    let resolved = state.current.as_ref().map_or(20, |c| c.shown.tree.depth_limit());
+    let resolved = state
+        .current
+        .as_ref()
+        .map_or(20, |c| c.shown.tree.depth_limit());
     let d_max = &mut state.wanted.build.d_max;
     *d_max = match d_max {
         MaxDepth::Automatic => MaxDepth::Fixed(resolved),

@@ -136,7 +136,7 @@ impl Coloring {
             }
             Scale::Log => {
                 let mut marks = vec![mark(0.0)];
-                let mut value = 1.0;
+                let mut value = 1.0_f64;
                 while value.ln_1p() < highest.ln_1p() * 0.88 {
                     marks.push(mark(value));
                     value *= if highest > 300.0 { 10.0 } else { 4.0 };

@@ -86,7 +86,8 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
 fn constants(ui: &mut egui::Ui, build: &mut BuildSettings) {
     let method = build.method;
     ui.add_space(4.0);
-    ui.label(method.title).on_hover_text(format!("{}\nSource: {}", method.about, method.source));
+    ui.label(method.title)
+        .on_hover_text(format!("{}\nSource: {}", method.about, method.source));
     if method.constants.is_empty() {
         ui.weak("This method has no settings of its own.");
     } else {
@@ -116,7 +117,11 @@ fn constants(ui: &mut egui::Ui, build: &mut BuildSettings) {
 }
 
 fn about(c: &Constant) -> String {
-    let unit = if c.unit.is_empty() { "plain number" } else { c.unit };
+    let unit = if c.unit.is_empty() {
+        "plain number"
+    } else {
+        c.unit
+    };
     format!(
         "{}\nFrom {} to {}, default {} ({unit}).\nSource: {}",
         c.about, c.lowest, c.highest, c.default, c.source
@@ -127,8 +132,8 @@ fn about(c: &Constant) -> String {
 fn edit(ui: &mut egui::Ui, c: &Constant, value: &mut f64) {
     if c.step == 1.0 && c.lowest == 0.0 && c.highest == 1.0 {
         let mut on = *value != 0.0;
-        ui.checkbox(&mut on, if on { "on (1)" } else { "off (0)" })
-            .on_hover_text(about(c));
+        let state = if on { "on (1)" } else { "off (0)" };
+        ui.checkbox(&mut on, state).on_hover_text(about(c));
         *value = f64::from(u8::from(on));
         return;
     }

@@ -34,7 +34,8 @@ pub(super) fn value(ui: &mut egui::Ui, parameter: &Parameter, current: &Current)
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
             ui.label(text.italics());
-            ui.label("…").on_hover_text("Provisional: rays are still being counted");
+            ui.label("…")
+                .on_hover_text("Provisional: rays are still being counted");
         });
     } else {
         ui.label(text);
@@ -63,14 +64,17 @@ fn delta(ui: &mut egui::Ui, state: &mut State) {
         return;
     };
     standing(ui, state, current);
-    egui::Grid::new("delta").num_columns(3).striped(true).show(ui, |ui| {
-        for p in DELTA.map(parameter) {
-            symbol(ui, p, &current.shown.measurement);
-            ui.label(p.name);
-            value(ui, p, current);
-            ui.end_row();
-        }
-    });
+    egui::Grid::new("delta")
+        .num_columns(3)
+        .striped(true)
+        .show(ui, |ui| {
+            for p in DELTA.map(parameter) {
+                symbol(ui, p, &current.shown.measurement);
+                ui.label(p.name);
+                value(ui, p, current);
+                ui.end_row();
+            }
+        });
 }
 
 fn lambda(ui: &mut egui::Ui, state: &mut State) {
@@ -79,25 +83,28 @@ fn lambda(ui: &mut egui::Ui, state: &mut State) {
         return;
     };
     standing(ui, state, current);
-    egui::Grid::new("lambda").num_columns(4).striped(true).show(ui, |ui| {
-        for title in ["", "", "CPU", "wall"] {
-            ui.label(title).on_hover_text(match title {
-                "CPU" => "Time of all threads together",
-                "wall" => "Time on the clock on the wall",
-                _ => "",
-            });
-        }
-        ui.end_row();
-        for p in LAMBDA.map(parameter) {
-            symbol(ui, p, &current.shown.measurement);
-            ui.label(p.name);
-            value(ui, p, current);
-            match p.symbol {
-                "T_CB" => value(ui, parameter("T_CB_WALL"), current),
-                "T_TR" => value(ui, parameter("T_TR_WALL"), current),
-                _ => {}
+    egui::Grid::new("lambda")
+        .num_columns(4)
+        .striped(true)
+        .show(ui, |ui| {
+            for title in ["", "", "CPU", "wall"] {
+                ui.label(title).on_hover_text(match title {
+                    "CPU" => "Time of all threads together",
+                    "wall" => "Time on the clock on the wall",
+                    _ => "",
+                });
             }
             ui.end_row();
-        }
-    });
+            for p in LAMBDA.map(parameter) {
+                symbol(ui, p, &current.shown.measurement);
+                ui.label(p.name);
+                value(ui, p, current);
+                match p.symbol {
+                    "T_CB" => value(ui, parameter("T_CB_WALL"), current),
+                    "T_TR" => value(ui, parameter("T_TR_WALL"), current),
+                    _ => {}
+                }
+                ui.end_row();
+            }
+        });
 }

@@ -57,9 +57,7 @@ fn row<R>(
     widget: impl FnOnce(&mut egui::Ui) -> R,
 ) -> R {
     ui.label(name).on_hover_text(about);
-    let result = ui
-        .horizontal(|ui| ui.name_inputs(name, widget))
-        .inner;
+    let result = ui.horizontal(|ui| ui.name_inputs(name, widget)).inner;
     ui.end_row();
     result
 }

@@ -22,13 +22,16 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
     for table in [Table::Scene, Table::Static, Table::Dynamic, Table::Ours] {
         ui.add_space(4.0);
         ui.label(egui::RichText::new(table.title()).underline());
-        egui::Grid::new(table.title()).num_columns(3).striped(true).show(ui, |ui| {
-            for p in PARAMETERS.iter().filter(|p| p.table == table) {
-                symbol(ui, p, &current.shown.measurement);
-                ui.add(egui::Label::new(p.name).truncate());
-                value(ui, p, current);
-                ui.end_row();
-            }
-        });
+        egui::Grid::new(table.title())
+            .num_columns(3)
+            .striped(true)
+            .show(ui, |ui| {
+                for p in PARAMETERS.iter().filter(|p| p.table == table) {
+                    symbol(ui, p, &current.shown.measurement);
+                    ui.add(egui::Label::new(p.name).truncate());
+                    value(ui, p, current);
+                    ui.end_row();
+                }
+            });
     }
 }

@@ -37,7 +37,7 @@ fn singular(current: &Current, object: u32) -> &'static str {
         Primitive::Sphere(_) => "sphere",
         Primitive::Triangle(_) => "triangle",
         Primitive::Polygon(_) => "polygon",
-        Primitive::Cone(c) if c.base_radius == c.apex_radius => "cylinder",
+        Primitive::Cone(c) if c.is_cylinder() => "cylinder",
         Primitive::Cone(_) => "cone",
     }
 }
@@ -64,10 +64,7 @@ fn material_text(m: &Material) -> String {
         m.color.x, m.color.y, m.color.z, m.diffuse, m.specular, m.shine
     );
     if m.transmittance > 0.0 {
-        text += &format!(
-            " · T {} · index {}",
-            m.transmittance, m.index_of_refraction
-        );
+        text += &format!(" · T {} · index {}", m.transmittance, m.index_of_refraction);
     }
     text
 }

@@ -24,9 +24,7 @@ impl ViewCamera {
 
     /// Forward, right and up; the coordinate axes for a camera without a view.
     pub fn frame(&self) -> [Vec3; 3] {
-        self.camera
-            .frame()
-            .unwrap_or([Vec3::Y, Vec3::X, Vec3::Z])
+        self.camera.frame().unwrap_or([Vec3::Y, Vec3::X, Vec3::Z])
     }
 
     /// Distance from the eye to the point it orbits.
@@ -147,7 +145,14 @@ impl ViewCamera {
         let projection = if self.orthographic {
             let half_width = half_height * aspect;
             let (near, far) = (ahead - radius, ahead + radius);
-            proj::orthographic(-half_width, half_width, -half_height, half_height, near, far)
+            proj::orthographic(
+                -half_width,
+                half_width,
+                -half_height,
+                half_height,
+                near,
+                far,
+            )
         } else {
             let far = (ahead + radius).max(radius * 1e-3);
             let near = (ahead - radius).max(far * 1e-4);

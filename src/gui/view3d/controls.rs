@@ -45,18 +45,28 @@ pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &State) {
         .current
         .as_ref()
         .map_or(0, |c| c.shown.tree.depth_reached());
-    let settings = &mut view.settings;
+    let mut linked = view.settings.linked;
+    let View3d {
+        settings, camera, ..
+    } = &mut *view;
     ui.horizontal_wrapped(|ui| {
         ui.checkbox(&mut settings.scene, "Objects")
             .on_hover_text(tip("Show the scene's objects.", Action::ShowScene));
         ui.checkbox(&mut settings.boxes, "Leaf boxes")
-            .on_hover_text(tip("Show the cells of the tree's leaves.", Action::ShowBoxes));
+            .on_hover_text(tip(
+                "Show the cells of the tree's leaves.",
+                Action::ShowBoxes,
+            ));
         ui.checkbox(&mut settings.filter.full, "Full (solid)")
-            .on_hover_text(tip("Show leaves with objects; their edges are solid.", Action::ShowFull));
-        ui.checkbox(&mut settings.filter.empty, "Empty (dashed)").on_hover_text(tip(
-            "Show leaves without objects; their edges are dashed.",
-            Action::ShowEmpty,
-        ));
+            .on_hover_text(tip(
+                "Show leaves with objects; their edges are solid.",
+                Action::ShowFull,
+            ));
+        ui.checkbox(&mut settings.filter.empty, "Empty (dashed)")
+            .on_hover_text(tip(
+                "Show leaves without objects; their edges are dashed.",
+                Action::ShowEmpty,
+            ));
         egui::ComboBox::from_id_salt("coloring")
             .selected_text(format!("Colour: {}", settings.coloring.title))
             .width(130.0)
@@ -71,28 +81,25 @@ pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &State) {
             .response
             .on_hover_text(tip("What leaves are coloured by.", Action::NextColoring));
         depth_filter(&mut settings.filter, depth_reached, ui);
-        ui.checkbox(&mut settings.only_visited, "Only visited").on_hover_text(tip(
-            "Of all leaves, show only those that the picked pixel's ray visited.",
-            Action::Shown,
-        ));
-        let mut linked = settings.linked;
-        if ui
-            .checkbox(&mut linked, "Linked")
+        ui.checkbox(&mut settings.only_visited, "Only visited")
             .on_hover_text(tip(
-                "One camera for this view and the picture. Unlinked, the picture's camera is drawn \
+                "Of all leaves, show only those that the picked pixel's ray visited.",
+                Action::Shown,
+            ));
+        ui.checkbox(&mut linked, "Linked").on_hover_text(tip(
+            "One camera for this view and the picture. Unlinked, the picture's camera is drawn \
                  as a frustum; linking again returns to it.",
-                Action::Link,
-            ))
-            .changed()
-        {
-            view.link(linked, state);
-        }
-        ui.checkbox(&mut view.camera.orthographic, "Orthographic")
+            Action::Link,
+        ));
+        ui.checkbox(&mut camera.orthographic, "Orthographic")
             .on_hover_text(tip(
                 "Parallel rays, in this view alone: pictures are always in perspective.",
                 Action::Orthographic,
             ));
     });
+    if linked != view.settings.linked {
+        view.link(linked, state);
+    }
 }
 
 fn depth_filter(filter: &mut Filter, depth_reached: u32, ui: &mut egui::Ui) {

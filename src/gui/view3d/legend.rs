@@ -102,10 +102,8 @@ fn color_bar(coloring: &Coloring, highest: f64, ui: &mut egui::Ui) {
         const STEPS: u32 = 64;
         for i in 0..STEPS {
             let x = left + BAR * i as f32 / STEPS as f32;
-            let piece = Rect::from_min_size(
-                pos2(x, rect.top()),
-                vec2(BAR / STEPS as f32 + 0.5, 12.0),
-            );
+            let piece =
+                Rect::from_min_size(pos2(x, rect.top()), vec2(BAR / STEPS as f32 + 0.5, 12.0));
             painter.rect_filled(piece, 0.0, color(f64::from(i) / f64::from(STEPS - 1)));
         }
     }
@@ -136,7 +134,8 @@ fn path_key(path: &RayPath, ui: &mut egui::Ui) {
         for i in 0..6 {
             let [r, g, b] = order_color(i, 6);
             let (rect, _) = ui.allocate_exact_size(vec2(10.0, 10.0), egui::Sense::hover());
-            ui.painter().rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
+            ui.painter()
+                .rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
             ui.spacing_mut().item_spacing.x = 0.0;
         }
         ui.add_space(6.0);

@@ -89,7 +89,7 @@ impl View3d {
         let size = ui.available_size().max(vec2(16.0, 16.0));
         let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
         response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::WidgetType::Other, true, "3D view of scene and tree")
+            egui::WidgetInfo::labeled(egui::Role::Canvas, true, "3D view of scene and tree")
         });
         if self.steer(ui, &response, state) {
             self.moved = ui.input(|i| i.time);
@@ -103,7 +103,11 @@ impl View3d {
             .rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
         match (&self.adapter, &state.current) {
             (None, _) => {
-                note(ui, rect, "The 3D view needs a graphics adapter; there is none.");
+                note(
+                    ui,
+                    rect,
+                    "The 3D view needs a graphics adapter; there is none.",
+                );
             }
             (Some(_), None) => note(ui, rect, "No scene yet"),
             (Some(_), Some(current)) => self.draw(ui, rect, current),
@@ -163,7 +167,8 @@ impl View3d {
             && let Some(pointer) = response.hover_pos()
         {
             let factor = libm::exp(-f64::from(wheel) * 0.004);
-            self.camera.zoom(factor, self.point_under(pointer, rect, state));
+            self.camera
+                .zoom(factor, self.point_under(pointer, rect, state));
             moved = true;
         }
         let before = self.camera;
@@ -201,9 +206,8 @@ impl View3d {
         let mesh = if self.settings.scene {
             let making = Arc::clone(scene);
             let key = SceneKey(Arc::clone(scene));
-            self.mesh.get(&key, ctx, move || {
-                scene_mesh::scene_mesh(&making, center)
-            })
+            self.mesh
+                .get(&key, ctx, move || scene_mesh::scene_mesh(&making, center))
         } else {
             None
         };
@@ -296,7 +300,12 @@ impl View3d {
             let render = &current.shown.render;
             let aspect = f64::from(render.width) / f64::from(render.height);
             let length = render.camera.from.distance(render.camera.at);
-            lines.extend(overlay::frustum_lines(&render.camera, aspect, length, center));
+            lines.extend(overlay::frustum_lines(
+                &render.camera,
+                aspect,
+                length,
+                center,
+            ));
         }
         lines
     }

@@ -198,10 +198,7 @@ impl CallbackTrait for Frame3d {
         };
         gpu.mesh.update(device, self.mesh.as_ref(), |mesh| {
             vec![
-                (
-                    bytemuck::cast_slice(&mesh.vertices),
-                    mesh.vertices.len(),
-                ),
+                (bytemuck::cast_slice(&mesh.vertices), mesh.vertices.len()),
                 (bytemuck::cast_slice(&mesh.balls), mesh.balls.len()),
             ]
         });
@@ -218,11 +215,7 @@ impl CallbackTrait for Frame3d {
             globals: self.globals,
             ground: self.ground,
             box_count: self.box_count,
-            parts: [
-                gpu.mesh.address(),
-                gpu.boxes.address(),
-                gpu.lines.address(),
-            ],
+            parts: [gpu.mesh.address(), gpu.boxes.address(), gpu.lines.address()],
         };
         let fits = gpu.target.as_ref().is_some_and(|t| t.size == self.size);
         if fits && gpu.drawn.as_ref() == Some(&drawn) {

@@ -65,8 +65,8 @@ pub fn scene_mesh(scene: &Scene, center: Vec3) -> SceneMesh {
             Primitive::Triangle(t) => triangle(t.vertices),
             Primitive::Polygon(polygon) => {
                 let v = polygon.vertices();
-                for i in 2..v.len() {
-                    triangle([v[0], v[i - 1], v[i]]);
+                for corners in polygon.triangles() {
+                    triangle(corners.map(|i| v[i as usize]));
                 }
             }
             Primitive::Cone(cone) => cone_triangles(cone, center, color, &mut mesh.vertices),
@@ -77,15 +77,15 @@ pub fn scene_mesh(scene: &Scene, center: Vec3) -> SceneMesh {
 
 /// The lateral surface of a cone, with smooth normals.
 fn cone_triangles(cone: &Cone, center: Vec3, color: [u8; 4], out: &mut Vec<Vertex>) {
-    let axis = (cone.apex - cone.base).normalize_or(Vec3::Z);
+    let axis = (cone.apex() - cone.base()).normalize_or(Vec3::Z);
     let (side, other) = axis.any_orthonormal_pair();
     let rim = |k: u32| {
         let angle = std::f64::consts::TAU * f64::from(k) / f64::from(CONE_SIDES);
         let (sin, cos) = libm::sincos(angle);
         let outwards = side * cos + other * sin;
         [
-            (cone.base + outwards * cone.base_radius, outwards),
-            (cone.apex + outwards * cone.apex_radius, outwards),
+            (cone.base() + outwards * cone.base_radius(), outwards),
+            (cone.apex() + outwards * cone.apex_radius(), outwards),
         ]
     };
     for k in 0..CONE_SIDES {
