@@ -108,6 +108,7 @@ impl App {
                 *d_arec = by(*d_arec, step, top_bar::MOST_RECURSION);
             }
             Action::ResetMethod => *build = BuildSettings::for_method(build.method),
+            Action::Theme => top_bar::toggle_theme(ctx),
             Action::SceneCamera => state.wanted.own_camera = false,
             _ => {}
         }
@@ -161,11 +162,11 @@ impl eframe::App for App {
             self.status.ui(ui, &self.state, self.panes.picture.hovered);
         });
         egui::Panel::left("left")
-            .default_size(270.0)
+            .default_size(255.0)
             .size_range(180.0..=480.0)
             .show(ui, |ui| panels::show(ui, Side::Left, &mut self.state));
         egui::Panel::right("right")
-            .default_size(380.0)
+            .default_size(400.0)
             .size_range(220.0..=640.0)
             .show(ui, |ui| panels::show(ui, Side::Right, &mut self.state));
         egui::CentralPanel::default()

@@ -82,7 +82,6 @@ impl Files {
                 .map_or_else(|| path.display().to_string(), |n| n.display().to_string()),
             builtin => builtin.to_string(),
         };
-        ui.label("Scene");
         egui::ComboBox::from_id_salt("scene")
             .selected_text(format!("Scene: {name}"))
             .width(150.0)

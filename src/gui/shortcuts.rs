@@ -41,6 +41,7 @@ pub enum Action {
     LessRecursion,
     ResetMethod,
     SceneCamera,
+    Theme,
     Fit,
     ActualSize,
     PickLeft,
@@ -115,6 +116,7 @@ shortcuts! {
     Window LessRecursion COMMAND [PageDown] "Ctrl+Page down" "D_AREC one level less";
     Window ResetMethod COMMAND [Backspace] "Ctrl+Backspace" "Settings of the method back to the paper's";
     Window SceneCamera COMMAND [Home] "Ctrl+Home" "Back to the scene's own camera";
+    Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
     Window Mouse NONE [] "Drop a file" "Open it";
     Picture Mouse NONE [] "Click" "Name the object in a pixel and follow its ray";
     Picture Mouse NONE [] "Wheel" "Zoom to the pointer";

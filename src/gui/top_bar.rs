@@ -13,7 +13,23 @@ pub const MOST_RECURSION: u32 = 50;
 pub fn show(ui: &mut egui::Ui, state: &mut State, files: &mut Files, help: &mut bool) {
     ui.horizontal_wrapped(|ui| {
         files.ui(ui, state);
-        ui.separator();
+        if ui
+            .button("Shortcuts ?")
+            .on_hover_text(tip("Show or hide all shortcuts.", Action::Help))
+            .clicked()
+        {
+            *help = !*help;
+        }
+        let dark = ui.visuals().dark_mode;
+        if ui
+            .button(if dark { "Light" } else { "Dark" })
+            .on_hover_text(tip("Light or dark window.", Action::Theme))
+            .clicked()
+        {
+            toggle_theme(ui.ctx());
+        }
+    });
+    ui.horizontal_wrapped(|ui| {
         method(ui, state);
         ui.separator();
         d_max(ui, state);
@@ -21,22 +37,19 @@ pub fn show(ui: &mut egui::Ui, state: &mut State, files: &mut Files, help: &mut 
         d_arec(ui, state);
         ui.separator();
         work(ui, state);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if ui
-                .button("?")
-                .on_hover_text(tip("Show or hide all shortcuts.", Action::Help))
-                .clicked()
-            {
-                *help = !*help;
-            }
-            egui::widgets::global_theme_preference_buttons(ui);
-        });
+    });
+}
+
+/// From dark to light and back.
+pub fn toggle_theme(ctx: &egui::Context) {
+    ctx.set_theme(match ctx.theme() {
+        egui::Theme::Dark => egui::ThemePreference::Light,
+        egui::Theme::Light => egui::ThemePreference::Dark,
     });
 }
 
 fn method(ui: &mut egui::Ui, state: &mut State) {
     let method = state.wanted.build.method;
-    ui.label("Method");
     egui::ComboBox::from_id_salt("method")
         .selected_text(format!("Method: {}", method.name))
         .width(150.0)

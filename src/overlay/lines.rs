@@ -52,10 +52,11 @@ pub fn box_lines(bounds: &Aabb, center: Vec3, color: [u8; 4], width: f32) -> Vec
         .collect()
 }
 
-/// The colour of the `i`-th of `n` leaves along a ray, from yellow to violet.
+/// The colour of the `i`-th of `n` leaves along a ray, from light pink to purple: no colouring of
+/// leaves has these.
 pub fn order_color(i: usize, n: usize) -> [u8; 3] {
     let place = i as f64 / (n.max(2) - 1) as f64;
-    let color = colorous::PLASMA.eval_continuous(0.95 - 0.6 * place);
+    let color = colorous::RED_PURPLE.eval_continuous(0.2 + 0.55 * place);
     [color.r, color.g, color.b]
 }
 

@@ -83,16 +83,17 @@ fn leaves(ui: &mut egui::Ui, picked: &Picked) {
         .wrap(),
     );
     ui.push_id("leaves", |ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
         let row = ui.text_style_height(&egui::TextStyle::Body);
         TableBuilder::new(ui)
             .striped(true)
             .vscroll(true)
             .max_scroll_height(190.0)
             .auto_shrink([false, true])
-            .column(Column::exact(26.0))
-            .column(Column::exact(58.0))
-            .column(Column::exact(42.0))
-            .column(Column::exact(52.0))
+            .column(Column::exact(24.0))
+            .column(Column::exact(50.0))
+            .column(Column::exact(38.0))
+            .column(Column::exact(50.0))
             .column(Column::exact(110.0))
             .column(Column::remainder().clip(true))
             .header(row, |mut header| {

@@ -20,9 +20,9 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
     let requirements = scene.requirements();
     ui.strong(scene.name());
     for (kind, count) in &requirements.primitives {
-        ui.label(format!("{} {}", grouped(*count), kind.plural()));
+        ui.label(format!("{}: {}", kind.plural(), grouped(*count)));
     }
-    ui.label(format!("{} lights", scene.lights().len()));
+    ui.label(format!("lights: {}", scene.lights().len()));
     if scene.objects().is_empty() {
         ui.label("No objects");
     } else {

@@ -9,6 +9,8 @@ pub struct ViewCamera {
     pub camera: Camera,
     /// Parallel rays, in this view alone; pictures are always in perspective.
     pub orthographic: bool,
+    /// Width of the pane by its height.
+    pub aspect: f64,
 }
 
 /// The closest that the view comes to straight up and straight down, in radians.
@@ -19,6 +21,7 @@ impl ViewCamera {
         ViewCamera {
             camera,
             orthographic: false,
+            aspect: 1.0,
         }
     }
 
@@ -32,9 +35,10 @@ impl ViewCamera {
         self.camera.from.distance(self.camera.at)
     }
 
-    /// Half of what is seen at distance 1, upwards.
+    /// Half of what is seen at distance 1, upwards. In a pane higher than wide, the camera's angle
+    /// spans its width, so that a square picture is always seen whole.
     fn half(&self) -> f64 {
-        libm::tan(self.camera.angle.to_radians() * 0.5)
+        libm::tan(self.camera.angle.to_radians() * 0.5) / self.aspect.clamp(0.05, 1.0)
     }
 
     /// Length in the scene of a pane's height, at the distance of the point it orbits.
@@ -134,7 +138,7 @@ impl ViewCamera {
     }
 
     /// Clip space from the scene relative to `center`, for a scene inside `bounds`.
-    pub fn clip_from_scene(&self, center: Vec3, aspect: f64, bounds: &Aabb) -> glam::DMat4 {
+    pub fn clip_from_scene(&self, center: Vec3, bounds: &Aabb) -> glam::DMat4 {
         use glam::dcamera::rh::{proj::directx as proj, view};
         let [forward, _, up] = self.frame();
         let eye = self.camera.from - center;
@@ -143,7 +147,7 @@ impl ViewCamera {
         let ahead = (bounds.center() - self.camera.from).dot(forward);
         let half_height = self.height_at_target() * 0.5;
         let projection = if self.orthographic {
-            let half_width = half_height * aspect;
+            let half_width = half_height * self.aspect;
             let (near, far) = (ahead - radius, ahead + radius);
             proj::orthographic(
                 -half_width,
@@ -156,7 +160,8 @@ impl ViewCamera {
         } else {
             let far = (ahead + radius).max(radius * 1e-3);
             let near = (ahead - radius).max(far * 1e-4);
-            proj::perspective(self.camera.angle.to_radians(), aspect, near, far)
+            let angle = 2.0 * libm::atan(self.half());
+            proj::perspective(angle, self.aspect, near, far)
         };
         projection * view
     }
@@ -208,15 +213,16 @@ mod tests {
     #[test]
     fn places_agree_with_the_matrix() {
         let bounds = Aabb::new(Vec3::splat(-1.0), Vec3::ONE);
-        for orthographic in [false, true] {
+        for (orthographic, aspect) in [(false, 1.5), (true, 1.5), (false, 0.4)] {
             let view = ViewCamera {
                 orthographic,
+                aspect,
                 ..camera()
             };
             let (center, point) = (Vec3::new(5.0, 0.0, 1.0), Vec3::new(0.2, 0.7, -0.4));
-            let clip = view.clip_from_scene(center, 1.5, &bounds) * (point - center).extend(1.0);
+            let clip = view.clip_from_scene(center, &bounds) * (point - center).extend(1.0);
             let [x, y] = view.place(point).unwrap();
-            assert!((clip.x / clip.w * 1.5 - x).abs() < 1e-9);
+            assert!((clip.x / clip.w * aspect - x).abs() < 1e-9);
             assert!((clip.y / clip.w - y).abs() < 1e-9);
             assert!((0.0..=1.0).contains(&(clip.z / clip.w)));
         }

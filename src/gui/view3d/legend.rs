@@ -24,24 +24,32 @@ pub struct Legend<'a> {
 pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) {
     // The ground is dark in both themes, and so is the legend.
     let visuals = egui::Visuals::dark();
+    // Its height is known once it was laid out: the last frame's tells where it begins.
+    let id = ui.scope_id().with("legend height");
+    let height = ui.data(|data| data.get_temp::<f32>(id)).unwrap_or(100.0);
+    let corner = view.left_bottom() + vec2(8.0, -8.0 - height);
+    let space = Rect::from_min_max(corner, view.right_bottom());
     let builder = egui::UiBuilder::new()
-        .max_rect(view.shrink(8.0))
-        .layout(egui::Layout::bottom_up(egui::Align::LEFT));
-    ui.scope_builder(builder, |ui| {
+        .max_rect(space)
+        .layout(egui::Layout::top_down(egui::Align::LEFT));
+    let shown = ui.scope_builder(builder, |ui| {
         *ui.visuals_mut() = visuals;
+        ui.set_clip_rect(view);
         egui::Frame::new()
             .fill(Color32::from_black_alpha(190))
             .corner_radius(4)
             .inner_margin(6)
             .show(ui, |ui| {
-                ui.with_layout(egui::Layout::top_down(egui::Align::LEFT), |ui| {
-                    ui.set_max_width(BAR + 40.0);
-                    ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
-                    ui.spacing_mut().item_spacing.y = 2.0;
-                    contents(legend, ui);
-                });
-            });
+                ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
+                ui.spacing_mut().item_spacing.y = 2.0;
+                contents(legend, ui);
+            })
     });
+    let now = shown.inner.response.rect.height();
+    if now != height {
+        ui.data_mut(|data| data.insert_temp(id, now));
+        ui.ctx().request_repaint();
+    }
 }
 
 fn contents(legend: &Legend<'_>, ui: &mut egui::Ui) {
@@ -131,12 +139,12 @@ fn color_bar(coloring: &Coloring, highest: f64, ui: &mut egui::Ui) {
 fn path_key(path: &RayPath, ui: &mut egui::Ui) {
     let n = path.leaves.len();
     ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
         for i in 0..6 {
             let [r, g, b] = order_color(i, 6);
             let (rect, _) = ui.allocate_exact_size(vec2(10.0, 10.0), egui::Sense::hover());
             ui.painter()
                 .rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
-            ui.spacing_mut().item_spacing.x = 0.0;
         }
         ui.add_space(6.0);
         ui.label(match n {

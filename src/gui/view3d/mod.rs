@@ -91,6 +91,7 @@ impl View3d {
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::Canvas, true, "3D view of scene and tree")
         });
+        self.camera.aspect = f64::from(rect.width() / rect.height());
         if self.steer(ui, &response, state) {
             self.moved = ui.input(|i| i.time);
             if self.settings.linked {
@@ -269,11 +270,10 @@ impl View3d {
     }
 
     fn globals(&self, rect: Rect, center: Vec3, bounds: &Aabb) -> Globals {
-        let aspect = f64::from(rect.width() / rect.height());
         let [forward, right, up] = self.camera.frame();
         let eye = self.camera.camera.from - center;
         let full = |v: Vec3, w: f32| v.as_vec3().extend(w).to_array();
-        let clip = self.camera.clip_from_scene(center, aspect, bounds);
+        let clip = self.camera.clip_from_scene(center, bounds);
         Globals {
             clip_from_scene: clip.as_mat4().to_cols_array_2d(),
             eye: full(eye, f32::from(u8::from(self.camera.orthographic))),
@@ -313,7 +313,7 @@ impl View3d {
     /// Writes 1, 2, 3 … into the leaves that the ray visited.
     fn number_leaves(&self, ui: &egui::Ui, rect: Rect, path: &crate::trace::RayPath) {
         let painter = ui.painter().with_clip_rect(rect);
-        let mut last: Option<egui::Pos2> = None;
+        let mut taken: Vec<egui::Pos2> = Vec::new();
         let n = path.leaves.len();
         for (i, leaf) in path.leaves.iter().enumerate() {
             let Some([x, y]) = self.camera.place(leaf.bounds.center()) else {
@@ -321,10 +321,10 @@ impl View3d {
             };
             let half = rect.height() * 0.5;
             let at = rect.center() + vec2(x as f32, -y as f32) * half;
-            if !rect.contains(at) || last.is_some_and(|last| last.distance(at) < 13.0) {
+            if !rect.contains(at) || taken.iter().any(|p| p.distance(at) < 13.0) {
                 continue;
             }
-            last = Some(at);
+            taken.push(at);
             let [r, g, b] = overlay::order_color(i, n);
             let font = egui::FontId::proportional(12.0);
             let text = (i + 1).to_string();

@@ -90,9 +90,10 @@ impl Pipelines {
             stride: size_of::<Instance>() as u64,
             attributes: wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4]
                 .to_vec(),
-            depth_write: true,
+            depth_write: false,
             depth_compare: CompareFunction::LessEqual,
-            blend: None,
+            // Where thousands of edges meet, those behind shine through.
+            blend: Some(wgpu::BlendState::ALPHA_BLENDING),
             alpha_covers: false,
         });
         let line = |fragment, depth_compare, blend| {

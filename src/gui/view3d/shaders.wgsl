@@ -138,7 +138,7 @@ fn box_fragment(in: BoxOut) -> @location(0) vec4f {
     if in.color.a < 0.5 && fract(in.along * 6.0) > 0.5 {
         discard;
     }
-    return vec4f(in.color.rgb, 1.0);
+    return vec4f(in.color.rgb, 0.55);
 }
 
 // Lines of a width in pixels
