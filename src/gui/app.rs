@@ -123,7 +123,7 @@ impl App {
         egui::Panel::top("message").show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
                 let color = ui.visuals().error_fg_color;
-                ui.colored_label(color, "⚠");
+                ui.colored_label(color, "Problem:");
                 ui.strong(&failure.what);
                 ui.label(format!("Reason: {}", failure.why));
                 if self.state.current.is_some() {

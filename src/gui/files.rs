@@ -120,8 +120,7 @@ impl Files {
         let field = egui::TextEdit::singleline(&mut self.path)
             .hint_text("path or generator, Enter")
             .desired_width(170.0);
-        let field = ui.name_inputs("Path of a scene", |ui| ui.add(field));
-        let field = field.on_hover_text(tip(
+        let field = ui.add(field).on_hover_text(tip(
             "A file's path, or a generator's name with or without a size, such as balls:3; \
              then Enter.",
             Action::Path,

@@ -25,7 +25,8 @@ impl PicturePane {
         header(ui, state);
         let size = ui.available_size().max(vec2(16.0, 16.0));
         let (pane, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Picture"));
+        response
+            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Traced picture"));
         self.hovered = None;
         let faded = state.is_previous() && !state.only_camera_differs();
         let Some(current) = &mut state.current else {
