@@ -1,5 +1,63 @@
 //! bspscope: see, measure and compare the BSP trees that make ray tracing fast.
+//!
+//! The method is that of V. Havran and J. Žára, "Evaluation of BSP properties for ray-tracing": a
+//! tree is judged by a septet Δ of counts, which no machine changes, and a triplet Λ of times,
+//! under equal conditions, on the same image.
+//!
+//! # The way through
+//!
+//! Read the folders in this order; each imports only from those before it.
+//!
+//! | module | what it owns | one new entry is |
+//! |---|---|---|
+//! | [`geometry`] | vectors, boxes, axes, rays | |
+//! | [`progress`] | how long tasks tell how far they are and are told to stop | |
+//! | [`primitive`] | sphere, triangle, polygon, cylinder and cone: bounds, overlap with a cell, intersection | a variant of [`primitive::Primitive`] |
+//! | [`scene`] | objects, materials, lights, camera; what the scene requires | |
+//! | [`scene::format`] | readers and writers of files | a line in [`scene::format::FORMATS`] |
+//! | [`scene::builtin`] | generated scenes | a line in [`scene::builtin::BUILTINS`] |
+//! | [`tree`] | 8-byte nodes, the one build driver, validation | |
+//! | [`tree::split`] | where a method splits a cell | a line in [`tree::split::SPLIT_RULES`] |
+//! | [`trace`] | traversal, timed and counting kernels, shading, passes over a picture | |
+//! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ; the judge of all trees | an entry of [`measure::PARAMETERS`] |
+//! | [`overlay`] | leaf cells and ray paths as plain colours and lines | a line in [`overlay::COLORINGS`] |
+//! | [`report`] | text, JSON, CSV, Markdown, LaTeX | a line in [`report::WRITERS`] |
+//! | [`worker`] | the thread between a window and all of the above: latest request wins | |
+//! | [`cli`], `gui` | the two faces; they never import each other but to start the window | |
+//!
+//! # The one data flow
+//!
+//! ```text
+//! file or generator ─▶ Scene ─▶ Tree ─▶ timed pass    ─▶ picture, T_TR
+//!                                    └▶ counted pass  ─▶ tallies, T_TT
+//!                       facts of scene and tree, times, tallies ─▶ Measurement
+//!                       Measurement ─▶ PARAMETERS ─▶ Δ, Λ ─▶ reports and panels
+//! ```
+//!
+//! # From another program
+//!
+//! ```
+//! use bspscope::measure::{measure, parameter};
+//! use bspscope::progress::Progress;
+//! use bspscope::scene::{SceneRequest, load};
+//! use bspscope::trace::RenderSettings;
+//! use bspscope::tree::{BuildSettings, Method};
+//!
+//! let progress = Progress::new();
+//! let scene = load(&SceneRequest::parse("tetra:3"), &progress)?;
+//! let build = BuildSettings::for_method(Method::named("midpoint")?);
+//! let render = RenderSettings {
+//!     width: 64,
+//!     height: 64,
+//!     ..RenderSettings::for_camera(*scene.camera())
+//! };
+//! let (_tree, measurement) = measure(&scene, &build, &render, &progress)?;
+//! let leaves = (parameter("N_LS").value)(&measurement);
+//! assert!(leaves > Some(1.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
+pub mod cli;
 pub mod geometry;
 #[cfg(feature = "gui")]
 pub mod gui;
@@ -7,6 +65,7 @@ pub mod measure;
 pub mod overlay;
 pub mod primitive;
 pub mod progress;
+pub mod report;
 pub mod scene;
 pub mod trace;
 pub mod tree;

@@ -17,6 +17,7 @@ fn small(scene: &str) -> StartOptions {
     };
     start.render.width = 48;
     start.render.height = 48;
+    start.render.threads = 2;
     start
 }
 
@@ -315,15 +316,15 @@ fn the_window_looks_as_it_did() {
     window.run_steps(5);
     for name in ["build time", "render time", "traversal share"] {
         let rect = window.get_by_label(name).rect();
-        window.mask(
-            rect.translate(egui::vec2(rect.width(), 0.0))
-                .expand2(egui::vec2(260.0, 2.0)),
-        );
+        let mut numbers = rect.expand(2.0);
+        (numbers.min.x, numbers.max.x) = (rect.right() + 4.0, window.ctx.content_rect().right());
+        window.mask(numbers);
     }
-    for node in ["rays/s", "Memory "] {
+    for text in ["rays/s", " MiB"] {
         let rects: Vec<_> = window
-            .query_all_by_label_contains(node)
-            .map(|node| node.rect().expand(60.0))
+            .query_all_by_label_contains(text)
+            .map(|node| node.rect().expand(12.0))
+            .filter(|rect| rect.bottom() > 980.0)
             .collect();
         for rect in rects {
             window.mask(rect);

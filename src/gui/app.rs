@@ -170,7 +170,7 @@ impl eframe::App for App {
             .size_range(220.0..=640.0)
             .show(ui, |ui| panels::show(ui, Side::Right, &mut self.state));
         egui::CentralPanel::default()
-            .frame(egui::Frame::new())
+            .frame(egui::Frame::new().fill(ui.visuals().panel_fill))
             .show(ui, |ui| {
                 let mut behavior = Behavior {
                     panes: &mut self.panes,

@@ -7,7 +7,7 @@ pub fn show(ctx: &egui::Context, open: &mut bool) {
     egui::Window::new("Shortcuts")
         .open(open)
         .collapsible(false)
-        .default_width(430.0)
+        .default_size([430.0, 640.0])
         .vscroll(true)
         .show(ctx, |ui| {
             for scope in Scope::ALL {

@@ -1,7 +1,7 @@
 //! Kernels over batches of rays: closest hit and any hit, timed or counted.
 
 use super::shapes::{Objects, with_objects};
-use super::{LeafVisitor, Probe, RayCounts, Scratch, Shapes, Tally, traverse};
+use super::{LeafVisitor, PixelTallies, Probe, RayCounts, Scratch, Shapes, Tally, traverse};
 use crate::geometry::Ray;
 use crate::progress::Progress;
 use crate::tree::Tree;
@@ -245,12 +245,18 @@ pub struct Counting<'a> {
     pub tallies: [Tally; 4],
     /// CPU time of walking all rays to their known ends, without tests and shading.
     pub walking: Duration,
-    /// Told the pixel, kind and counts of every ray, if anything wants to know.
-    pub observer: Option<&'a mut dyn FnMut(u32, RayKind, &RayCounts, bool)>,
+    /// The same for every pixel of the batches.
+    pub pixels: Vec<PixelTallies>,
 }
 
 impl<'a> Counting<'a> {
-    pub fn new(tree: &'a Tree, shapes: &'a Shapes<'a>, progress: &'a Progress) -> Self {
+    /// A kernel for batches of rays that belong to `pixels` pixels.
+    pub fn new(
+        tree: &'a Tree,
+        shapes: &'a Shapes<'a>,
+        progress: &'a Progress,
+        pixels: usize,
+    ) -> Self {
         Counting {
             tree,
             shapes,
@@ -259,16 +265,14 @@ impl<'a> Counting<'a> {
             counts: Vec::new(),
             tallies: Default::default(),
             walking: Duration::ZERO,
-            observer: None,
+            pixels: vec![PixelTallies::default(); pixels],
         }
     }
 
     fn finish(&mut self, batch: Batch<'_>, hit: impl Fn(usize) -> bool) {
         for (i, counts) in self.counts.iter().enumerate() {
             self.tallies[batch.kind as usize].add(counts, hit(i));
-            if let Some(observer) = &mut self.observer {
-                observer(batch.pixels[i], batch.kind, counts, hit(i));
-            }
+            self.pixels[batch.pixels[i] as usize][batch.kind as usize].add(counts, hit(i));
         }
         let start = ThreadTime::now();
         for (ray, counts) in batch.rays.iter().zip(&self.counts) {

@@ -16,10 +16,11 @@ mod whitted;
 pub use any_order::objects_along;
 pub use kernel::{Batch, Counting, Hit, RayKind, RayTracer, Timed, closest_hit};
 pub use picture::{Picture, TILE, Tile, tiles};
-pub use probe::{Probe, RayCounts, Tally};
+pub use probe::{PixelTallies, Probe, RayCounts, Tally};
 pub use record::{RayPath, VisitedLeaf, record};
 pub use render::{
-    CountedPass, RenderError, TimedPass, counted_pass, preview, thread_pool, timed_pass,
+    CountedPass, CountedTile, RenderError, TimedPass, counted_pass, preview, thread_pool,
+    timed_pass,
 };
 pub use settings::RenderSettings;
 pub use shapes::Shapes;

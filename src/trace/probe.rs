@@ -1,6 +1,8 @@
 //! What a traversal can be watched with. A probe is a type parameter: `()` costs nothing.
 
 use serde::Serialize;
+use std::iter::Sum;
+use std::ops::AddAssign;
 
 /// Is told of everything a traversal does.
 pub trait Probe {
@@ -53,48 +55,51 @@ impl Probe for RayCounts {
     }
 }
 
-/// What all rays of one kind did. Adding tallies in any order gives the same.
+/// What all rays of one kind did; `N` counts them. Adding tallies in any order gives the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Tally {
+pub struct Tally<N = u64> {
     /// Rays formed.
-    pub rays: u64,
+    pub rays: N,
     /// Rays that hit an object (before the light, for shadow rays).
-    pub hits: u64,
+    pub hits: N,
     /// Intersection tests.
-    pub tests: u64,
+    pub tests: N,
     /// Inner nodes traversed.
-    pub inner_nodes: u64,
+    pub inner_nodes: N,
     /// Leaves visited, empty ones included.
-    pub leaves: u64,
+    pub leaves: N,
     /// Empty leaves visited.
-    pub empty_leaves: u64,
+    pub empty_leaves: N,
 }
 
-impl Tally {
+/// What the rays of one pixel did, by [`super::RayKind`].
+pub type PixelTallies = [Tally<u32>; 4];
+
+impl<N: From<u32> + AddAssign> Tally<N> {
     /// Adds one ray.
     pub fn add(&mut self, counts: &RayCounts, hit: bool) {
-        self.rays += 1;
-        self.hits += u64::from(hit);
-        self.tests += u64::from(counts.tests);
-        self.inner_nodes += u64::from(counts.inner_nodes);
-        self.leaves += u64::from(counts.leaves);
-        self.empty_leaves += u64::from(counts.empty_leaves);
+        self.rays += 1.into();
+        self.hits += u32::from(hit).into();
+        self.tests += counts.tests.into();
+        self.inner_nodes += counts.inner_nodes.into();
+        self.leaves += counts.leaves.into();
+        self.empty_leaves += counts.empty_leaves.into();
     }
 }
 
-impl std::ops::AddAssign for Tally {
-    fn add_assign(&mut self, other: Tally) {
-        self.rays += other.rays;
-        self.hits += other.hits;
-        self.tests += other.tests;
-        self.inner_nodes += other.inner_nodes;
-        self.leaves += other.leaves;
-        self.empty_leaves += other.empty_leaves;
+impl<N: AddAssign, M: Into<N>> AddAssign<Tally<M>> for Tally<N> {
+    fn add_assign(&mut self, other: Tally<M>) {
+        self.rays += other.rays.into();
+        self.hits += other.hits.into();
+        self.tests += other.tests.into();
+        self.inner_nodes += other.inner_nodes.into();
+        self.leaves += other.leaves.into();
+        self.empty_leaves += other.empty_leaves.into();
     }
 }
 
-impl std::iter::Sum for Tally {
-    fn sum<I: Iterator<Item = Tally>>(tallies: I) -> Tally {
+impl<M: Into<u64>> Sum<Tally<M>> for Tally {
+    fn sum<I: Iterator<Item = Tally<M>>>(tallies: I) -> Tally {
         tallies.fold(Tally::default(), |mut sum, tally| {
             sum += tally;
             sum

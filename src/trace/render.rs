@@ -1,8 +1,8 @@
 //! Whole passes over a picture: a coarse preview, the timed pass, the counted pass.
 
 use super::{
-    Counting, RayKind, RenderSettings, Scratch, Shapes, Tally, Tile, Timed, objects_along, tiles,
-    trace_samples,
+    Counting, PixelTallies, RayKind, RenderSettings, Scratch, Shapes, Tally, Tile, Timed,
+    objects_along, tiles, trace_samples,
 };
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
@@ -77,6 +77,17 @@ pub struct CountedPass {
     pub walking: Duration,
     /// Objects met by all primary rays together: `D_COMPX` times the number of primary rays.
     pub objects_met: u64,
+}
+
+/// What one tile of a counted pass counted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CountedTile {
+    pub tile: Tile,
+    pub sum: CountedPass,
+    /// Row by row.
+    pub pixels: Vec<PixelTallies>,
+    /// Objects that each pixel's primary ray meets, row by row.
+    pub depth_complexity: Vec<u32>,
 }
 
 impl CountedPass {
@@ -168,7 +179,7 @@ pub fn timed_pass(
     })
 }
 
-/// Traces sample 0 of every pixel with the counting kernel. `on_part` gets the counts of every
+/// Traces sample 0 of every pixel with the counting kernel. `on_tile` gets the counts of every
 /// finished tile, from any thread and in any order; they sum to the result.
 ///
 /// # Errors
@@ -179,7 +190,7 @@ pub fn counted_pass(
     settings: &RenderSettings,
     pool: &rayon::ThreadPool,
     progress: &Progress,
-    on_part: impl Fn(&CountedPass) + Sync,
+    on_tile: impl Fn(CountedTile) + Sync,
 ) -> Result<CountedPass, RenderError> {
     let view = settings.view()?;
     let shapes = Shapes::of(scene);
@@ -187,8 +198,8 @@ pub fn counted_pass(
         settings,
         pool,
         progress,
-        |_, pixels| {
-            let mut tracer = Counting::new(tree, &shapes, progress);
+        |&tile, pixels| {
+            let mut tracer = Counting::new(tree, &shapes, progress, pixels.len());
             trace_samples(
                 scene,
                 &view,
@@ -199,24 +210,29 @@ pub fn counted_pass(
                 &mut Vec::new(),
             );
             let (mut scratch, mut found) = (Scratch::default(), Vec::new());
-            let mut objects_met = 0;
-            for &(x, y) in pixels {
-                if progress.is_cancelled() {
-                    break;
-                }
-                let ray = view.primary_ray(x, y, 0);
-                objects_along(tree, &shapes, &ray, &mut scratch, &mut found);
-                objects_met += found.len() as u64;
-            }
-            let part = CountedPass {
+            let depth_complexity: Vec<u32> = pixels
+                .iter()
+                .take_while(|_| !progress.is_cancelled())
+                .map(|&(x, y)| {
+                    let ray = view.primary_ray(x, y, 0);
+                    objects_along(tree, &shapes, &ray, &mut scratch, &mut found);
+                    found.len() as u32
+                })
+                .collect();
+            let sum = CountedPass {
                 tallies: tracer.tallies,
                 walking: tracer.walking,
-                objects_met,
+                objects_met: depth_complexity.iter().copied().map(u64::from).sum(),
             };
             if !progress.is_cancelled() {
-                on_part(&part);
+                on_tile(CountedTile {
+                    tile,
+                    sum,
+                    pixels: tracer.pixels,
+                    depth_complexity,
+                });
             }
-            part
+            sum
         },
         CountedPass::merge,
         CountedPass::default,

@@ -34,6 +34,10 @@ struct Waiting {
 /// the division and both conversions into the coordinates of the root cell round once each.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
+/// Relative rounding that a hit may carry: grazing roots are known far less well than planes. A hit
+/// this near to the next leaf does not end the walk, for what that leaf holds may be nearer still.
+const HIT_ROUNDING: f64 = 1e-10;
+
 #[inline(always)]
 fn later(t: f64) -> f64 {
     t + t.abs() * ROUNDING
@@ -111,8 +115,8 @@ pub fn traverse<V: LeafVisitor, P: Probe>(
         probe.leaf(at, objects, t_enter, t_exit);
         let limit = visitor.visit(ray, objects, probe);
         match stack.pop() {
-            // What waits below lies farther still.
-            Some(next) if next.t_enter <= limit => {
+            // What waits below lies farther still. A limit of −∞ gives NaN, which ends the walk.
+            Some(next) if next.t_enter <= limit + limit.abs() * HIT_ROUNDING => {
                 (at, t_enter, t_exit) = (next.node, next.t_enter, next.t_exit);
             }
             _ => return,

@@ -97,7 +97,7 @@ pub fn trace_samples<T: RayTracer>(
                     }
                 }
                 if depth < secondary_depth {
-                    let (mirrored, passed) = surface.secondary(material, ray.direction);
+                    let [mirrored, passed] = surface.secondary(material, ray.direction);
                     if let Some((ray, share)) = mirrored {
                         next_reflected.push(ray, pixel, weight * share);
                     }
@@ -178,13 +178,9 @@ impl Facing {
     }
 
     /// The reflected and the refracted ray, each with the share of its radiance that counts.
-    fn secondary(
-        &self,
-        material: &Material,
-        direction: Vec3,
-    ) -> (Option<(Ray, f64)>, Option<(Ray, f64)>) {
+    fn secondary(&self, material: &Material, direction: Vec3) -> [Option<(Ray, f64)>; 2] {
         if !(material.specular > 0.0 || material.transmittance > 0.0) {
-            return (None, None);
+            return [None, None];
         }
         let cosine = -direction.dot(self.normal);
         let mut mirrored = direction + 2.0 * cosine * self.normal;
@@ -211,7 +207,7 @@ impl Facing {
             }
         }
         let reflected = Ray::new(start(1.0), mirrored.normalize());
-        (Some((reflected, reflects)), refracted)
+        [Some((reflected, reflects)), refracted]
     }
 }
 

@@ -189,7 +189,7 @@ impl Driver<'_> {
         self.references.extend_from_slice(&self.waiting[from..]);
         self.depth_reached = self.depth_reached.max(depth);
         self.done += libm::exp2(-f64::from(depth));
-        if self.nodes.len() % 64 == 0 {
+        if self.nodes.len().is_multiple_of(64) {
             self.progress.check()?;
             self.progress.set(self.done);
         }

@@ -12,7 +12,7 @@ pub struct Method(&'static MethodInfo);
 impl Method {
     /// All methods in the order of the registry.
     pub fn all() -> impl Iterator<Item = Method> {
-        SPLIT_RULES.iter().map(|info| Method(info))
+        SPLIT_RULES.iter().map(Method)
     }
 
     /// The method of this name.

@@ -11,8 +11,8 @@ use crate::measure::{Measurement, Times};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Camera, LoadError, Scene, SceneRequest, load};
 use crate::trace::{
-    CountedPass, Picture, RenderError, RenderSettings, Tile, TimedPass, counted_pass, preview,
-    thread_pool, timed_pass,
+    Picture, RenderError, RenderSettings, Tile, TimedPass, counted_pass, preview, thread_pool,
+    timed_pass,
 };
 use crate::tree::{BuildError, BuildSettings, Tree, build};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -409,10 +409,7 @@ fn serve(
     let counted = counted_pass(&scene, &tree, &render, &pool, progress, |part| {
         let mut guard = lock(&so_far);
         let (measurement, last) = &mut *guard;
-        let sum = measurement
-            .counted
-            .unwrap_or_else(CountedPass::default)
-            .merge(*part);
+        let sum = measurement.counted.unwrap_or_default().merge(part.sum);
         measurement.counted = Some(sum);
         if last.elapsed() >= FIGURES_EVERY {
             *last = Instant::now();

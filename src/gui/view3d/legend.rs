@@ -23,7 +23,10 @@ pub struct Legend<'a> {
 /// Shows the legend in the lower left corner of the view.
 pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) {
     // The ground is dark in both themes, and so is the legend.
-    let visuals = egui::Visuals::dark();
+    let visuals = egui::Visuals {
+        override_text_color: Some(Color32::from_gray(225)),
+        ..egui::Visuals::dark()
+    };
     // Its height is known once it was laid out: the last frame's tells where it begins.
     let id = ui.scope_id().with("legend height");
     let height = ui.data(|data| data.get_temp::<f32>(id)).unwrap_or(100.0);

@@ -1,0 +1,43 @@
+//! `bspscope measure`: every parameter of the paper for a scene and some methods.
+
+use super::args::MeasureArgs;
+use super::{Outcome, bar, output, resolve};
+use crate::measure::{Measurement, measure};
+use crate::report::Report;
+use crate::scene::Scene;
+use crate::trace::RenderSettings;
+use crate::tree::{BuildSettings, Tree};
+use anyhow::Result;
+
+pub fn run(args: &MeasureArgs) -> Result<Outcome> {
+    output::check_place(args.output.as_deref())?;
+    let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
+    let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
+    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
+    // A wrong size is told before a tree is built for it.
+    render.view()?;
+    let mut runs = Vec::new();
+    for build in &builds {
+        runs.push(run_of(&scene, build, &render)?.1);
+    }
+    let report = Report::new(&scene, &request, runs);
+    let writer = resolve::writer(args.format.as_deref(), args.output.as_deref());
+    output::write_to(args.output.as_deref(), |out| (writer.write)(&report, out))?;
+    Ok(Outcome::Done)
+}
+
+/// Measures one method under a progress bar.
+pub fn run_of(
+    scene: &Scene,
+    build: &BuildSettings,
+    render: &RenderSettings,
+) -> Result<(Tree, Measurement)> {
+    let stage = format!(
+        "{}, {}: building, tracing, counting",
+        scene.name(),
+        build.method.name
+    );
+    Ok(bar::with_bar(&stage, |progress| {
+        measure(scene, build, render, progress)
+    })?)
+}

@@ -1,0 +1,56 @@
+//! The command line: raw arguments ([`args`]), what they come to ([`resolve`]), one file a command.
+//!
+//! Exit codes: 0 done, 1 a check failed, 2 bad use or bad input.
+
+mod args;
+mod bar;
+mod generate;
+mod measure;
+mod methods;
+mod output;
+mod render;
+mod resolve;
+mod verify;
+mod window;
+
+use args::{Arguments, Command};
+use clap::Parser;
+use std::io::{ErrorKind, Write};
+use std::process::ExitCode;
+
+/// How a command that did its work ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    Done,
+    CheckFailed,
+}
+
+/// Runs the program with the process's arguments.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = match &arguments.command {
+        None => window::run(&arguments.window),
+        Some(Command::Measure(args)) => measure::run(args),
+        Some(Command::Render(args)) => render::run(args),
+        Some(Command::Generate(args)) => generate::run(args),
+        Some(Command::Methods(args)) => methods::run(args),
+        Some(Command::Verify(args)) => verify::run(args),
+    };
+    match outcome {
+        Ok(Outcome::Done) => ExitCode::SUCCESS,
+        Ok(Outcome::CheckFailed) => ExitCode::from(1),
+        // Whoever reads the output has seen enough: `bspscope … | head`.
+        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            // Without a standard error stream only the exit code is left to tell.
+            let _ = writeln!(std::io::stderr(), "bspscope: {error:#}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error
+        .downcast_ref::<std::io::Error>()
+        .is_some_and(|e| e.kind() == ErrorKind::BrokenPipe)
+}

@@ -1,0 +1,93 @@
+//! `bspscope render`: the picture in a file.
+
+use super::args::RenderArgs;
+use super::{Outcome, bar, output, resolve};
+use crate::scene::Scene;
+use crate::trace::{Picture, RenderSettings, thread_pool, timed_pass};
+use crate::tree::{Tree, build};
+use anyhow::{Context, Result, bail};
+use image::{DynamicImage, ImageFormat, Rgb32FImage, RgbImage};
+use std::io::Cursor;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+pub fn run(args: &RenderArgs) -> Result<Outcome> {
+    let format = format_of(&args.output)?;
+    output::check_place(Some(&args.output))?;
+    let settings = resolve::builds(&[args.method], &args.build)?.remove(0);
+    let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
+    let render = RenderSettings {
+        samples: args.samples,
+        ..resolve::render(*scene.camera(), &args.trace, &args.picture)
+    };
+    // A wrong size is told before a tree is built for it.
+    render.view()?;
+    let tree = bar::with_bar(
+        &format!("{}: building the tree", scene.name()),
+        |progress| build(&scene, &settings, progress),
+    )?;
+    let bytes = encoded(&picture(&scene, &tree, &render)?, format)?;
+    output::write_file(&args.output, |out| out.write_all(&bytes))?;
+    Ok(Outcome::Done)
+}
+
+/// The format for a picture's file, by its extension.
+fn format_of(path: &Path) -> Result<ImageFormat> {
+    match path
+        .extension()
+        .map(|e| e.to_ascii_lowercase())
+        .as_deref()
+        .and_then(|e| e.to_str())
+    {
+        Some("png") => Ok(ImageFormat::Png),
+        Some("exr") => Ok(ImageFormat::OpenExr),
+        _ => bail!("{}: pictures are written as .png or .exr", path.display()),
+    }
+}
+
+/// Traces all samples of a picture.
+pub fn picture(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> Result<Picture> {
+    let pool = thread_pool(settings.threads)?;
+    let picture = Mutex::new(Picture::new(settings.width, settings.height));
+    for sample in 0..settings.samples {
+        let stage = format!(
+            "{}: sample {} of {}",
+            scene.name(),
+            sample + 1,
+            settings.samples
+        );
+        bar::with_bar(&stage, |progress| {
+            timed_pass(
+                scene,
+                tree,
+                settings,
+                sample,
+                &pool,
+                progress,
+                |tile, colors| {
+                    picture
+                        .lock()
+                        .unwrap_or_else(PoisonError::into_inner)
+                        .add_tile(tile, sample, colors);
+                },
+            )
+        })?;
+    }
+    Ok(picture.into_inner().unwrap_or_else(PoisonError::into_inner))
+}
+
+/// The bytes of a picture's file: 8-bit sRGB, or linear 32-bit float for OpenEXR.
+pub fn encoded(picture: &Picture, format: ImageFormat) -> Result<Vec<u8>> {
+    let (width, height) = (picture.width, picture.height);
+    let image = if format == ImageFormat::OpenExr {
+        Rgb32FImage::from_raw(width, height, picture.pixels().concat())
+            .map(DynamicImage::ImageRgb32F)
+    } else {
+        RgbImage::from_raw(width, height, picture.to_srgb8().concat()).map(DynamicImage::ImageRgb8)
+    };
+    let mut bytes = Cursor::new(Vec::new());
+    image
+        .context("the picture has as many pixels as its size says")?
+        .write_to(&mut bytes, format)?;
+    Ok(bytes.into_inner())
+}

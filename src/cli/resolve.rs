@@ -1,0 +1,122 @@
+//! What the arguments come to: a scene, settings, a writer.
+
+use super::args::{BuildArgs, CylinderArgs, PictureArgs, TraceArgs};
+use super::bar;
+use crate::report::{WRITERS, Writer};
+use crate::scene::format::{FORMATS, FormatError};
+use crate::scene::{Camera, LoadError, Scene, SceneRequest, SceneSource, builtin, load};
+use crate::trace::RenderSettings;
+use crate::tree::{BuildSettings, Method};
+use anyhow::{Result, bail};
+use std::io::ErrorKind;
+use std::path::Path;
+
+/// The scene for what was typed, with the request that it answers.
+pub fn scene(text: &str, cylinders: &CylinderArgs) -> Result<(SceneRequest, Scene)> {
+    let request = SceneRequest {
+        source: SceneSource::parse(text),
+        cylinders: cylinders.cylinders,
+    };
+    match bar::with_bar(&format!("{text}: loading"), |progress| {
+        load(&request, progress)
+    }) {
+        Ok(scene) => Ok((request, scene)),
+        Err(LoadError::Format(FormatError::Io { path, reason }))
+            if reason.kind() == ErrorKind::NotFound && !looks_like_a_file(&path) =>
+        {
+            let names: Vec<_> = builtin::BUILTINS.iter().map(|b| b.name).collect();
+            bail!(
+                "{}: no such file, and no generator of this name and size; generators are {}",
+                path.display(),
+                names.join(", ")
+            )
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// Whether a user who typed this meant a file: it has a folder or the extension of a scene file.
+fn looks_like_a_file(path: &Path) -> bool {
+    let extension = path.extension().map(|e| e.to_ascii_lowercase());
+    path.components().count() > 1
+        || extension.is_some_and(|e| {
+            FORMATS
+                .iter()
+                .any(|format| format.extensions.iter().any(|known| e == *known))
+        })
+}
+
+/// Checked build settings for every method.
+pub fn builds(methods: &[Method], args: &BuildArgs) -> Result<Vec<BuildSettings>> {
+    let mut builds: Vec<_> = methods
+        .iter()
+        .map(|&method| BuildSettings {
+            d_max: args.d_max,
+            n_oilf: args.n_oilf,
+            root_margin: args.root_margin,
+            overlap: args.overlap,
+            first_axis: args.first_axis,
+            memory_limit: args.memory_limit.saturating_mul(1 << 20),
+            ..BuildSettings::for_method(method)
+        })
+        .collect();
+    for (name, value) in &args.set {
+        let mut known = false;
+        for build in &mut builds {
+            if build.method.constants.iter().any(|c| c.name == name) {
+                build.constants.insert(name.clone(), *value);
+                known = true;
+            }
+        }
+        if !known {
+            let methods: Vec<_> = methods.iter().map(|m| m.name).collect();
+            bail!(
+                "--set {name}: no chosen method ({}) has this setting; see 'bspscope methods'",
+                methods.join(", ")
+            );
+        }
+    }
+    for build in &builds {
+        build.check()?;
+    }
+    Ok(builds)
+}
+
+/// Render settings for a camera, with the number of threads that is really used.
+pub fn render(camera: Camera, trace: &TraceArgs, picture: &PictureArgs) -> RenderSettings {
+    let [width, height] = picture.resolution;
+    RenderSettings {
+        width,
+        height,
+        d_arec: trace.d_arec,
+        sampling: trace.sampling,
+        threads: match trace.threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            threads => threads,
+        },
+        ..RenderSettings::for_camera(camera)
+    }
+}
+
+/// The methods asked for, or the paper's.
+pub fn methods(asked: &[Method]) -> Vec<Method> {
+    if asked.is_empty() {
+        Method::of_the_paper()
+    } else {
+        asked.to_vec()
+    }
+}
+
+/// The writer asked for by name, else by the file's extension, else the first.
+pub fn writer(name: Option<&str>, file: Option<&Path>) -> &'static Writer {
+    let extension = file
+        .and_then(Path::extension)
+        .map(|e| e.to_string_lossy().to_ascii_lowercase());
+    WRITERS
+        .iter()
+        .find(|writer| match name {
+            Some(name) => writer.name == name,
+            None => extension.as_deref() == Some(writer.extension),
+        })
+        .unwrap_or(&WRITERS[0])
+}

@@ -1,0 +1,191 @@
+//! `bspscope verify`: trees are valid, and give the same hits as testing every object.
+
+use super::args::{PictureArgs, VerifyArgs};
+use super::{Outcome, bar, output, resolve};
+use crate::measure::{Answers, RaySample, Verification, answer, compare, judge, sample_rays};
+use crate::report::plain_table;
+use crate::scene::Scene;
+use crate::scene::builtin::BUILTINS;
+use crate::trace::{RayKind, thread_pool};
+use crate::tree::{BuildSettings, Invalid, Method, Tree, build, validate};
+use anyhow::Result;
+use std::io::{self, Write};
+
+/// What was found of one scene and method.
+struct Finding {
+    scene: String,
+    method: Method,
+    tree: Result<(), Invalid>,
+    rays: Verification,
+}
+
+impl Finding {
+    fn passed(&self) -> bool {
+        self.tree.is_ok() && self.rays.passed()
+    }
+}
+
+pub fn run(args: &VerifyArgs) -> Result<Outcome> {
+    let methods = if args.method.is_empty() {
+        Method::all().filter(|m| m.name != "none").collect()
+    } else {
+        args.method.clone()
+    };
+    let builds = resolve::builds(&methods, &args.build)?;
+    let scenes = if args.scenes.is_empty() {
+        BUILTINS.iter().map(|b| b.name.to_owned()).collect()
+    } else {
+        args.scenes.clone()
+    };
+    let mut findings = Vec::new();
+    for scene in &scenes {
+        findings.extend(findings_of(scene, &builds, args)?);
+    }
+    output::write_to(None, |out| write(&findings, out))?;
+    Ok(outcome(&findings))
+}
+
+fn outcome(findings: &[Finding]) -> Outcome {
+    if findings.iter().all(Finding::passed) {
+        Outcome::Done
+    } else {
+        Outcome::CheckFailed
+    }
+}
+
+/// Holds every method's tree of a scene against the judge.
+fn findings_of(text: &str, builds: &[BuildSettings], args: &VerifyArgs) -> Result<Vec<Finding>> {
+    let (_, scene) = resolve::scene(text, &args.cylinders)?;
+    // The sample's own size takes the place of a resolution.
+    let any_size = PictureArgs { resolution: [1, 1] };
+    let render = resolve::render(*scene.camera(), &args.trace, &any_size);
+    let pool = thread_pool(render.threads)?;
+    let mut expected: Option<(RaySample, Answers)> = None;
+    let mut findings = Vec::new();
+    for settings in builds {
+        let method = settings.method;
+        let stage = |what: &str| format!("{}, {}: {what}", scene.name(), method.name);
+        let tree = bar::with_bar(&stage("building the tree"), |progress| {
+            build(&scene, settings, progress)
+        })?;
+        let (sample, answers) = match &mut expected {
+            Some(expected) => expected,
+            none => {
+                let sample = bar::with_bar(&stage("taking rays"), |progress| {
+                    sample_rays(&scene, &tree, &render, args.rays as usize, &pool, progress)
+                })?;
+                let answers = judged(&scene, &sample, &pool)?;
+                none.insert((sample, answers))
+            }
+        };
+        let found = bar::with_bar(&stage("asking the tree"), |progress| {
+            answer(&scene, &tree, sample, &pool, progress)
+        })?;
+        findings.push(Finding {
+            scene: scene.name().to_owned(),
+            method,
+            tree: validate(&scene, &tree),
+            rays: compare(sample, answers, &found),
+        });
+    }
+    Ok(findings)
+}
+
+/// What testing every object says.
+fn judged(scene: &Scene, sample: &RaySample, pool: &rayon::ThreadPool) -> Result<Answers> {
+    bar::with_bar(
+        &format!("{}: testing every object", scene.name()),
+        |progress| {
+            let everything: Tree = judge(scene, progress)?;
+            Ok(answer(scene, &everything, sample, pool, progress)?)
+        },
+    )
+}
+
+fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
+    let titles = ["scene", "method", "tree", "kind of rays", "rays", "wrong"];
+    let mut table = plain_table(titles.map(String::from).to_vec(), 4);
+    for finding in findings {
+        for kind in RayKind::ALL {
+            let k = kind as usize;
+            table.add_row([
+                finding.scene.clone(),
+                finding.method.name.into(),
+                if finding.tree.is_ok() {
+                    "valid".into()
+                } else {
+                    "wrong".into()
+                },
+                kind.name().to_owned(),
+                finding.rays.rays[k].to_string(),
+                finding.rays.wrong[k].to_string(),
+            ]);
+        }
+    }
+    writeln!(out, "{}", table.trim_fmt())?;
+    for finding in findings.iter().filter(|f| !f.passed()) {
+        let name = format!("{}, {}", finding.scene, finding.method.name);
+        if let Err(wrong) = &finding.tree {
+            writeln!(out, "{name}: {wrong}")?;
+        }
+        for (kind, ray) in &finding.rays.examples {
+            writeln!(
+                out,
+                "{name}: another answer for the {} ray from {} along {}",
+                kind.name(),
+                ray.origin,
+                ray.direction
+            )?;
+        }
+    }
+    let wrong = findings.iter().filter(|f| !f.passed()).count();
+    if wrong == 0 {
+        writeln!(
+            out,
+            "All {} trees are valid and every hit is right.",
+            findings.len()
+        )
+    } else {
+        writeln!(out, "{wrong} of {} trees are wrong.", findings.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Ray, Vec3};
+
+    #[test]
+    fn a_wrong_tree_and_a_wrong_hit_fail_the_check_and_are_named() {
+        let right = || Finding {
+            scene: "teaching:1".into(),
+            method: Method::of_the_paper()[0],
+            tree: Ok(()),
+            rays: Verification {
+                rays: [10; 4],
+                ..Verification::default()
+            },
+        };
+        let wrong_tree = Finding {
+            tree: Err(Invalid::Plane(7)),
+            ..right()
+        };
+        let mut wrong_hit = right();
+        wrong_hit.rays.wrong[RayKind::Shadow as usize] = 3;
+        wrong_hit.rays.examples = vec![(RayKind::Shadow, Ray::new(Vec3::ZERO, Vec3::Y))];
+
+        assert_eq!(outcome(&[right(), right()]), Outcome::Done);
+        for (wrong, said) in [
+            (wrong_tree, "teaching:1, midpoint: node 7"),
+            (wrong_hit, "the shadow ray from [0, 0, 0] along [0, 1, 0]"),
+        ] {
+            let findings = [right(), wrong];
+            assert_eq!(outcome(&findings), Outcome::CheckFailed);
+            let mut text = Vec::new();
+            write(&findings, &mut text).unwrap();
+            let text = String::from_utf8(text).unwrap();
+            assert!(text.contains(said), "{text}");
+            assert!(text.contains("1 of 2 trees are wrong"), "{text}");
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! `bspscope [SCENE]`: the window, or the same job without one.
+
+use super::args::WindowArgs;
+use super::{Outcome, measure, output, render, resolve};
+use crate::report::{Report, write_summary};
+use crate::tree::Tree;
+use anyhow::{Context, Result};
+use image::ImageFormat;
+use std::io::Write;
+
+/// What is shown where no scene was asked for.
+const FIRST_SCENE: &str = "balls";
+
+pub fn run(args: &WindowArgs) -> Result<Outcome> {
+    let Some(why) = open(args)? else {
+        return Ok(Outcome::Done);
+    };
+    // Without a standard error stream there is nobody to tell.
+    let _ = writeln!(
+        std::io::stderr(),
+        "bspscope: {why}; measuring, and rendering to a file, without it"
+    );
+    without_window(args)
+}
+
+/// Opens the window and waits until it is closed; where there can be none, says why.
+fn open(_args: &WindowArgs) -> Result<Option<String>> {
+    Ok(Some("this build has no window".into()))
+}
+
+/// The scene asked for, or the first one.
+fn scene_text(args: &WindowArgs) -> &str {
+    args.scene.as_deref().unwrap_or(FIRST_SCENE)
+}
+
+/// Δ and Λ of the methods, and the picture in a file of its own.
+fn without_window(args: &WindowArgs) -> Result<Outcome> {
+    let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
+    let (request, scene) = resolve::scene(scene_text(args), &args.cylinders)?;
+    let settings = resolve::render(*scene.camera(), &args.trace, &args.picture);
+    settings.view()?;
+    let mut runs = Vec::new();
+    let mut last: Option<Tree> = None;
+    for build in &builds {
+        let (tree, run) = measure::run_of(&scene, build, &settings)?;
+        runs.push(run);
+        last = Some(tree);
+    }
+    let report = Report::new(&scene, &request, runs);
+    output::write_to(None, |out| write_summary(&report, out))?;
+
+    let tree = last.context("there is at least one method")?;
+    let bytes = render::encoded(
+        &render::picture(&scene, &tree, &settings)?,
+        ImageFormat::Png,
+    )?;
+    let (path, mut file) = output::create_free(&file_stem(scene.name()), "png")?;
+    file.write_all(&bytes)
+        .with_context(|| path.display().to_string())?;
+    output::write_to(None, |out| writeln!(out, "Picture: {}", path.display()))?;
+    Ok(Outcome::Done)
+}
+
+/// A scene's name as the name of a file: `balls:3` becomes `balls-3`.
+fn file_stem(name: &str) -> String {
+    let stem: String = name
+        .chars()
+        .map(|c| match c {
+            '-' | '_' | '.' => c,
+            c if c.is_alphanumeric() => c,
+            _ => '-',
+        })
+        .collect();
+    let stem = stem.trim_start_matches('.');
+    if stem.is_empty() {
+        "scene".into()
+    } else {
+        stem.into()
+    }
+}

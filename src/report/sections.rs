@@ -1,0 +1,134 @@
+//! The tables of a report, as all writers for people show them.
+
+use super::Report;
+use crate::measure::{Class, DELTA, LAMBDA, PARAMETERS, Parameter, Table, Unit, parameter};
+
+/// What stands where there is no value.
+const NO_VALUE: &str = "–";
+
+/// One table.
+pub struct Section {
+    pub title: &'static str,
+    pub parameters: Vec<&'static Parameter>,
+}
+
+/// One line of a table: a value for every run, and how the second relates to the first where there
+/// are exactly two.
+pub struct Row {
+    pub parameter: &'static Parameter,
+    /// Without units; those are [`Row::unit`].
+    pub values: Vec<String>,
+    pub second_to_first: Option<String>,
+}
+
+impl Row {
+    /// The unit of the values; empty for plain numbers.
+    pub fn unit(&self) -> &'static str {
+        self.parameter.unit.suffix().trim_start()
+    }
+}
+
+/// Δ and Λ, as in the paper's Tables 5 and 6.
+pub fn delta_and_lambda() -> [Section; 2] {
+    let section = |title, symbols: &[&str]| Section {
+        title,
+        parameters: symbols.iter().map(|symbol| parameter(symbol)).collect(),
+    };
+    [
+        section("Δ: the tree", &DELTA),
+        section("Λ: the implementation", &LAMBDA),
+    ]
+}
+
+/// All parameters by the paper's tables.
+pub fn tables() -> [Section; 4] {
+    [Table::Scene, Table::Static, Table::Dynamic, Table::Ours].map(|table| Section {
+        title: table.title(),
+        parameters: PARAMETERS.iter().filter(|p| p.table == table).collect(),
+    })
+}
+
+/// The lines of a table for these runs.
+pub fn rows(section: &Section, report: &Report) -> Vec<Row> {
+    section
+        .parameters
+        .iter()
+        .map(|&parameter| {
+            let values: Vec<_> = report.runs.iter().map(parameter.value).collect();
+            Row {
+                parameter,
+                second_to_first: match values[..] {
+                    // What is given is the same for both.
+                    [_, _] if parameter.class == Class::S => Some(String::new()),
+                    [first, second] => Some(second_to_first(parameter.unit, first, second)),
+                    _ => None,
+                },
+                values: values
+                    .into_iter()
+                    .map(|v| v.map_or_else(|| NO_VALUE.into(), |v| parameter.number(v)))
+                    .collect(),
+            }
+        })
+        .collect()
+}
+
+/// Titles of the columns of values: the methods, and `2/1` where there are exactly two.
+pub fn value_titles(report: &Report) -> Vec<String> {
+    let mut titles: Vec<String> = report
+        .runs
+        .iter()
+        .map(|run| run.build.method.name.into())
+        .collect();
+    if titles.len() == 2 {
+        titles.push("2/1".into());
+    }
+    titles
+}
+
+/// The second value relative to the first in per cent; for shares the difference in points, as the
+/// paper has it. No value where either has none or the first is zero.
+fn second_to_first(unit: Unit, first: Option<f64>, second: Option<f64>) -> String {
+    match (first, second) {
+        (Some(first), Some(second)) if unit == Unit::Percent => {
+            let points = (second - first) * 100.0;
+            let decimals = usize::from(points.abs() < 1000.0);
+            format!("{points:+.decimals$} points")
+        }
+        (Some(first), Some(second)) if first != 0.0 => {
+            let percent = second / first * 100.0;
+            // Three significant digits, as many as the paper gives.
+            let decimals = if percent == 0.0 {
+                0
+            } else {
+                (2.0 - percent.abs().log10().floor()).clamp(0.0, 9.0) as usize
+            };
+            format!("{percent:.decimals$} %")
+        }
+        _ => NO_VALUE.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn relations_are_written_as_in_the_paper() {
+        let relation = |unit, a, b| second_to_first(unit, Some(a), Some(b));
+        assert_eq!(relation(Unit::Count, 3244.0, 19892.0), "613 %");
+        assert_eq!(relation(Unit::Count, 96056.0, 11322.0), "11.8 %");
+        assert_eq!(relation(Unit::Percent, 0.323, 0.254), "-6.9 points");
+        assert_eq!(relation(Unit::Percent, 0.159, 0.256), "+9.7 points");
+        assert_eq!(relation(Unit::Percent, 45.05, 13.37), "-3168 points");
+        assert_eq!(relation(Unit::Count, 1e6, 1.5), "0.000150 %");
+        assert_eq!(relation(Unit::Count, 5.0, 0.0), "0 %");
+        assert_eq!(relation(Unit::Count, 0.0, 1.0), NO_VALUE);
+        assert_eq!(second_to_first(Unit::Ratio, None, Some(1.0)), NO_VALUE);
+    }
+
+    #[test]
+    fn tables_hold_every_parameter_once() {
+        let shown: usize = tables().iter().map(|t| t.parameters.len()).sum();
+        assert_eq!(shown, PARAMETERS.len());
+    }
+}

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Passes every test: formatting, lints, documentation, tests with and without the window.
+# Installs the software graphics driver and the virtual display on Debian where they are missing.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+packages=(gcc libc6-dev libx11-6 libx11-xcb1 libxcursor1 libxi6 libxkbcommon-x11-0
+          libvulkan1 mesa-vulkan-drivers xvfb)
+missing=()
+if command -v dpkg-query >/dev/null; then
+    for package in "${packages[@]}"; do
+        dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+    done
+fi
+if [ ${#missing[@]} -gt 0 ]; then
+    echo "installing ${missing[*]}"
+    as_root=$([ "$(id -u)" = 0 ] || echo sudo)
+    $as_root apt-get update -qq
+    DEBIAN_FRONTEND=noninteractive $as_root apt-get install -y -qq --no-install-recommends "${missing[@]}"
+fi
+
+export XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR:-$(mktemp -d)}
+export WGPU_BACKEND=vulkan # window tests compare pictures of one driver
+
+step() {
+    echo "── $*"
+    "$@"
+}
+step cargo fmt --check
+step cargo clippy --all-targets -- -D warnings
+step cargo clippy --no-default-features --lib --bins -- -D warnings
+step env RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --quiet
+step cargo test
+step cargo test --no-default-features
+echo "all passed"
