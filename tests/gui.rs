@@ -91,6 +91,30 @@ fn press(window: &mut Harness<'_, App>, modifiers: egui::Modifiers, key: egui::K
     window.run_steps(2);
 }
 
+/// Covers what depends on the machine.
+fn masked(window: &mut Harness<'_, App>) -> SnapshotOptions {
+    for name in ["build time", "render time", "traversal share"] {
+        let rect = window.get_by_label(name).rect();
+        let mut numbers = rect.expand(2.0);
+        (numbers.min.x, numbers.max.x) = (rect.right() + 4.0, window.ctx.content_rect().right());
+        window.mask(numbers);
+    }
+    for text in ["rays/s", " MiB"] {
+        let rects: Vec<_> = window
+            .query_all_by_label_contains(text)
+            .map(|node| node.rect().expand(12.0))
+            .filter(|rect| rect.bottom() > 980.0)
+            .collect();
+        for rect in rects {
+            window.mask(rect);
+        }
+    }
+    // Other versions of the software driver draw edges a little differently.
+    SnapshotOptions::new()
+        .threshold(2.0)
+        .max_failed_pixels(3000_usize)
+}
+
 #[test]
 fn opens_a_small_scene_and_finishes() {
     let mut window = open(small("balls:1"));
@@ -303,6 +327,34 @@ fn without_graphics_all_but_the_3d_view_works() {
     assert!(window.query_by_label("3D view of scene and tree").is_some());
 }
 
+#[test]
+fn keys_of_the_3d_view_count_while_the_pointer_is_over_it() {
+    let mut window = open_with_graphics(small("balls:1"));
+    finish(&mut window);
+    // Elsewhere they do nothing.
+    press(&mut window, egui::Modifiers::NONE, egui::Key::B);
+    assert!(!has(&window, "Leaf boxes are not shown"));
+    let view = window.get_by_label("3D view of scene and tree").rect();
+    window.hover_at(view.center());
+    window.run_steps(2);
+    press(&mut window, egui::Modifiers::NONE, egui::Key::B);
+    assert!(has(&window, "Leaf boxes are not shown"));
+    press(&mut window, egui::Modifiers::NONE, egui::Key::B);
+    press(&mut window, egui::Modifiers::NONE, egui::Key::C);
+    assert!(has(&window, "Objects (objects in a leaf)"));
+    press(&mut window, egui::Modifiers::NONE, egui::Key::C);
+    assert!(has(&window, "Leaves by emptiness"));
+    press(&mut window, egui::Modifiers::NONE, egui::Key::L);
+    assert!(has(&window, "the picture's camera"));
+    for key in [egui::Key::Num7, egui::Key::Num5, egui::Key::Home] {
+        press(&mut window, egui::Modifiers::NONE, key);
+    }
+    // Unlinked, the picture stays as it is.
+    assert!(is_finished(&window));
+    let options = masked(&mut window);
+    window.snapshot_options("from_above", &options);
+}
+
 /// How the whole window looks, with boxes and the leaves of one ray. Numbers that depend on the
 /// machine are covered.
 #[test]
@@ -314,25 +366,6 @@ fn the_window_looks_as_it_did() {
     wait(&mut window, "the boxes", |w| has(w, "leaves shown"));
     window.remove_cursor();
     window.run_steps(5);
-    for name in ["build time", "render time", "traversal share"] {
-        let rect = window.get_by_label(name).rect();
-        let mut numbers = rect.expand(2.0);
-        (numbers.min.x, numbers.max.x) = (rect.right() + 4.0, window.ctx.content_rect().right());
-        window.mask(numbers);
-    }
-    for text in ["rays/s", " MiB"] {
-        let rects: Vec<_> = window
-            .query_all_by_label_contains(text)
-            .map(|node| node.rect().expand(12.0))
-            .filter(|rect| rect.bottom() > 980.0)
-            .collect();
-        for rect in rects {
-            window.mask(rect);
-        }
-    }
-    // Other versions of the software driver draw edges a little differently.
-    let options = SnapshotOptions::new()
-        .threshold(2.0)
-        .max_failed_pixels(3000_usize);
+    let options = masked(&mut window);
     window.snapshot_options("window", &options);
 }

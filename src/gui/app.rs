@@ -114,19 +114,24 @@ impl App {
         }
     }
 
-    /// Why something failed, until it is closed.
-    fn message(&mut self, ui: &mut egui::Ui) {
+    /// Why something failed, until it is closed; over the panes, so that nothing moves.
+    fn message(&mut self, ctx: &egui::Context) {
         let Some(failure) = &self.state.failure else {
             return;
         };
+        let kept = self.state.current.is_some();
+        let mut open = true;
         let mut close = false;
-        egui::Panel::top("message").show(ui, |ui| {
-            ui.horizontal_wrapped(|ui| {
-                let color = ui.visuals().error_fg_color;
-                ui.colored_label(color, "Problem:");
+        egui::Window::new("Problem")
+            .open(&mut open)
+            .anchor(egui::Align2::CENTER_BOTTOM, [0.0, -40.0])
+            .collapsible(false)
+            .resizable(false)
+            .default_width(520.0)
+            .show(ctx, |ui| {
                 ui.strong(&failure.what);
-                ui.label(format!("Reason: {}", failure.why));
-                if self.state.current.is_some() {
+                ui.add(egui::Label::new(format!("Reason: {}", failure.why)).wrap());
+                if kept {
                     ui.weak("What was there stays.");
                 }
                 close = ui
@@ -134,8 +139,7 @@ impl App {
                     .on_hover_text("Close this message.\nShortcut: Esc")
                     .clicked();
             });
-        });
-        if close {
+        if close || !open {
             self.state.failure = None;
         }
     }
@@ -157,7 +161,6 @@ impl eframe::App for App {
         egui::Panel::top("top bar").show(ui, |ui| {
             top_bar::show(ui, &mut self.state, &mut self.files, &mut self.help_open);
         });
-        self.message(ui);
         egui::Panel::bottom("status line").show(ui, |ui| {
             self.status.ui(ui, &self.state, self.panes.picture.hovered);
         });
@@ -178,6 +181,7 @@ impl eframe::App for App {
                 };
                 self.tiles.ui(&mut behavior, ui);
             });
+        self.message(&ctx);
         help::show(&ctx, &mut self.help_open);
         if ctx.input(|i| !i.raw.hovered_files.is_empty()) {
             drop_hint(&ctx);

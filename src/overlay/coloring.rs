@@ -62,7 +62,7 @@ pub static COLORINGS: &[Coloring] = &[
         unit: "",
         value: |leaf| f64::from(leaf.objects.min(1)),
         scale: Scale::TwoValues(["empty", "full"]),
-        gradient: colorous::CIVIDIS,
+        gradient: colorous::COOL,
     },
 ];
 

@@ -89,6 +89,9 @@ fn contents(legend: &Legend<'_>, ui: &mut egui::Ui) {
     if let Some(path) = legend.path {
         path_key(path, ui);
     }
+    if !legend.settings.linked {
+        ui.label("white pyramid: the picture's camera");
+    }
     if legend.left_out > 0 {
         ui.label(format!(
             "{} objects left out: too many for the graphics card",
