@@ -103,7 +103,10 @@ pub fn run(start: StartOptions) -> Result<(), GuiError> {
         Ok(Ok(())) => Ok(()),
         Ok(Err(error)) => Err(match error {
             eframe::Error::WinitEventLoop(_) | eframe::Error::Winit(_) => {
-                GuiError::NoDisplay(error.to_string())
+                // Before the reason stand places in the source of other crates.
+                let text = error.to_string();
+                let reason = text.rsplit(": ").next().unwrap_or(&text);
+                GuiError::NoDisplay(reason.trim_end_matches('.').to_owned())
             }
             eframe::Error::Wgpu(_) => GuiError::NoGraphics(error.to_string()),
             error => GuiError::Ended(error.to_string()),

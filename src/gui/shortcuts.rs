@@ -162,9 +162,10 @@ fn is_held(action: Action) -> bool {
     )
 }
 
-/// What the keys of this frame ask for. Plain keys belong to the focused widget, if there is one.
+/// What the keys of this frame ask for. Plain keys belong to the focused widget or the open list, if
+/// there is one.
 pub fn pressed(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
-    let focused = ctx.egui_wants_keyboard_input();
+    let focused = ctx.egui_wants_keyboard_input() || ctx.any_popup_open();
     let typing = ctx.text_edit_focused();
     ctx.input_mut(|input| {
         SHORTCUTS

@@ -138,6 +138,7 @@ impl State {
             cylinders: self.wanted.scene.cylinders,
         };
         self.wanted.own_camera = false;
+        self.failure = None;
         self.again();
     }
 

@@ -12,7 +12,7 @@ pub struct Line {
     pub b: [f32; 3],
     /// sRGB; the fourth is 255 for a solid line, 0 for a dashed one.
     pub color: [u8; 4],
-    /// In pixels.
+    /// In points of the screen.
     pub width: f32,
 }
 

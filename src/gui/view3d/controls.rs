@@ -80,7 +80,7 @@ pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &State) {
             })
             .response
             .on_hover_text(tip("What leaves are coloured by.", Action::NextColoring));
-        depth_filter(&mut settings.filter, depth_reached, ui);
+        ui.horizontal(|ui| depth_filter(&mut settings.filter, depth_reached, ui));
         ui.checkbox(&mut settings.only_visited, "Only visited")
             .on_hover_text(tip(
                 "Of all leaves, show only those that the picked pixel's ray visited.",

@@ -6,7 +6,7 @@ use crate::overlay::{Coloring, LeafBoxes, order_color};
 use crate::trace::RayPath;
 use egui::{Color32, Rect, pos2, vec2};
 
-/// Length of the colour bar in points.
+/// Length of the colour bar in points, where there is room.
 const BAR: f32 = 210.0;
 
 /// What a legend tells.
@@ -43,7 +43,8 @@ pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) {
             .corner_radius(4)
             .inner_margin(6)
             .show(ui, |ui| {
-                ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
+                ui.set_max_width((view.width() - 30.0).clamp(80.0, 330.0));
+                ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Wrap);
                 ui.spacing_mut().item_spacing.y = 2.0;
                 contents(legend, ui);
             })
@@ -102,7 +103,8 @@ fn contents(legend: &Legend<'_>, ui: &mut egui::Ui) {
 
 /// The colours from the lowest to the highest value, with numbers.
 fn color_bar(coloring: &Coloring, highest: f64, ui: &mut egui::Ui) {
-    let (rect, _) = ui.allocate_exact_size(vec2(BAR + 24.0, 28.0), egui::Sense::hover());
+    let bar = BAR.min(ui.available_width() - 24.0);
+    let (rect, _) = ui.allocate_exact_size(vec2(bar + 24.0, 28.0), egui::Sense::hover());
     let painter = ui.painter();
     let left = rect.left() + 6.0;
     let text = ui.visuals().text_color();
@@ -115,14 +117,14 @@ fn color_bar(coloring: &Coloring, highest: f64, ui: &mut egui::Ui) {
     if coloring.is_continuous() {
         const STEPS: u32 = 64;
         for i in 0..STEPS {
-            let x = left + BAR * i as f32 / STEPS as f32;
+            let x = left + bar * i as f32 / STEPS as f32;
             let piece =
-                Rect::from_min_size(pos2(x, rect.top()), vec2(BAR / STEPS as f32 + 0.5, 12.0));
+                Rect::from_min_size(pos2(x, rect.top()), vec2(bar / STEPS as f32 + 0.5, 12.0));
             painter.rect_filled(piece, 0.0, color(f64::from(i) / f64::from(STEPS - 1)));
         }
     }
     for mark in marks {
-        let x = left + BAR * mark.place as f32;
+        let x = left + bar * mark.place as f32;
         if coloring.is_continuous() {
             painter.vline(
                 x,
@@ -132,7 +134,7 @@ fn color_bar(coloring: &Coloring, highest: f64, ui: &mut egui::Ui) {
             let at = pos2(x, rect.top() + 15.0);
             painter.text(at, egui::Align2::CENTER_TOP, mark.text, font.clone(), text);
         } else {
-            let x = left + BAR * 0.5 * mark.place as f32;
+            let x = left + bar * 0.5 * mark.place as f32;
             let patch = Rect::from_min_size(pos2(x, rect.top() + 6.0), vec2(28.0, 12.0));
             painter.rect_filled(patch, 0.0, color(mark.place));
             let at = patch.right_center() + vec2(5.0, 0.0);

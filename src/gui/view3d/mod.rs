@@ -280,7 +280,12 @@ impl View3d {
             forward: full(forward, 0.0),
             right: full(right, 0.0),
             up: full(up, 0.0),
-            size: [rect.width(), rect.height(), 0.0, 0.0],
+            size: [
+                rect.width(),
+                rect.height(),
+                bounds.size().length() as f32 * 0.5,
+                0.0,
+            ],
         }
     }
 

@@ -7,7 +7,7 @@ struct Globals {
     forward: vec4f,
     right: vec4f,
     up: vec4f,
-    // Width and height of the target in pixels.
+    // Width and height of the target in points; z is the radius of what is shown.
     size: vec4f,
 }
 
@@ -18,6 +18,15 @@ fn to_eye(place: vec3f) -> vec3f {
         return -globals.forward.xyz;
     }
     return normalize(globals.eye.xyz - place);
+}
+
+// A little closer to the eye, at the same place on the screen: an edge in a surface is seen.
+fn nearer(place: vec3f) -> vec3f {
+    const SHARE: f32 = 0.0005;
+    if globals.eye.w > 0.5 {
+        return place - globals.forward.xyz * globals.size.z * SHARE;
+    }
+    return mix(place, globals.eye.xyz, SHARE);
 }
 
 // Both sides of a surface are lit from the eye.
@@ -130,7 +139,7 @@ fn box_vertex(@builtin(vertex_index) v: u32, @location(0) lo: vec3f, @location(1
     } else if edge >= 4u {
         corner = vec3f(a, end, b);
     }
-    return BoxOut(globals.clip_from_scene * vec4f(mix(lo, hi, corner), 1.0), end, color);
+    return BoxOut(globals.clip_from_scene * vec4f(nearer(mix(lo, hi, corner)), 1.0), end, color);
 }
 
 @fragment
@@ -151,8 +160,8 @@ struct LineOut {
 
 @vertex
 fn line_vertex(@builtin(vertex_index) v: u32, @location(0) a: vec3f, @location(1) b: vec3f, @location(2) color: vec4f, @location(3) width: f32) -> LineOut {
-    var start = globals.clip_from_scene * vec4f(a, 1.0);
-    var end = globals.clip_from_scene * vec4f(b, 1.0);
+    var start = globals.clip_from_scene * vec4f(nearer(a), 1.0);
+    var end = globals.clip_from_scene * vec4f(nearer(b), 1.0);
     // What lies before the near plane has no place on the screen.
     let first = start;
     if start.z < 0.0 && end.z > 0.0 {
