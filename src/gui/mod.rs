@@ -25,6 +25,12 @@ use crate::scene::{Camera, SceneRequest};
 use crate::trace::RenderSettings;
 use crate::tree::BuildSettings;
 
+/// The room below what a pane shows already, never wider than the pane.
+fn rest_of(ui: &egui::Ui) -> egui::Vec2 {
+    let size = egui::vec2(ui.max_rect().width(), ui.available_height());
+    size.max(egui::vec2(16.0, 16.0))
+}
+
 /// What the window opens with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StartOptions {

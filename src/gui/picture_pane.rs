@@ -23,7 +23,7 @@ impl PicturePane {
     /// Shows the picture and picks pixels.
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
         header(ui, state);
-        let size = ui.available_size().max(vec2(16.0, 16.0));
+        let size = super::rest_of(ui);
         let (pane, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
         response
             .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Traced picture"));

@@ -165,7 +165,7 @@ fn is_held(action: Action) -> bool {
 /// What the keys of this frame ask for. Plain keys belong to the focused widget or the open list, if
 /// there is one.
 pub fn pressed(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
-    let focused = ctx.egui_wants_keyboard_input() || ctx.any_popup_open();
+    let focused = ctx.egui_wants_keyboard_input() || egui::Popup::is_any_open(ctx);
     let typing = ctx.text_edit_focused();
     ctx.input_mut(|input| {
         SHORTCUTS

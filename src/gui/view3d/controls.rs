@@ -80,7 +80,7 @@ pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &State) {
             })
             .response
             .on_hover_text(tip("What leaves are coloured by.", Action::NextColoring));
-        ui.horizontal(|ui| depth_filter(&mut settings.filter, depth_reached, ui));
+        depth_filter(&mut settings.filter, depth_reached, ui);
         ui.checkbox(&mut settings.only_visited, "Only visited")
             .on_hover_text(tip(
                 "Of all leaves, show only those that the picked pixel's ray visited.",
@@ -105,26 +105,26 @@ pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &State) {
 fn depth_filter(filter: &mut Filter, depth_reached: u32, ui: &mut egui::Ui) {
     let [lowest, highest] = filter.depth;
     let (mut from, mut to) = (lowest.min(depth_reached), highest.min(depth_reached));
-    ui.label("Depth");
     let about = tip(
         "Show leaves from this depth to that; the root has depth 0.",
         Action::AllDepths,
     );
-    let mut edit = |value: &mut u32, range, name: &str| {
+    let mut edit = |value: &mut u32, range, name: &str, prefix: &str, suffix: &str| {
         ui.name_inputs(name, |ui| {
-            ui.add(egui::DragValue::new(value).range(range).speed(0.1))
+            let edit = egui::DragValue::new(value).range(range).speed(0.1);
+            ui.add(edit.prefix(prefix).suffix(suffix))
                 .on_hover_text(&about)
                 .changed()
         })
     };
-    if edit(&mut from, 0..=to, "Least depth shown") {
+    if edit(&mut from, 0..=to, "Least depth shown", "Depth ", "") {
         filter.depth[0] = from;
     }
-    if edit(&mut to, from..=depth_reached, "Greatest depth shown") {
+    let all = from..=depth_reached;
+    if edit(&mut to, all, "Greatest depth shown", "to ", " levels") {
         // At the tree's greatest depth nothing is cut off, also in the next tree.
         filter.depth[1] = if to == depth_reached { u32::MAX } else { to };
     }
-    ui.label("levels");
 }
 
 /// Does what a key asks for; says whether the camera moved.

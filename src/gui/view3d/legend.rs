@@ -37,7 +37,7 @@ pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) {
         .layout(egui::Layout::top_down(egui::Align::LEFT));
     let shown = ui.scope_builder(builder, |ui| {
         *ui.visuals_mut() = visuals;
-        ui.set_clip_rect(view);
+        ui.shrink_clip_rect(view);
         egui::Frame::new()
             .fill(Color32::from_black_alpha(190))
             .corner_radius(4)

@@ -86,7 +86,7 @@ impl View3d {
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
         self.follow(state);
         controls::toolbar(self, ui, state);
-        let size = ui.available_size().max(vec2(16.0, 16.0));
+        let size = super::rest_of(ui);
         let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::Canvas, true, "3D view of scene and tree")
