@@ -234,6 +234,38 @@ fn a_file_with_a_mistake_is_told_with_its_line() {
     assert!(has(&window, "No picture yet"));
 }
 
+/// A file as the window system drops it.
+#[derive(Debug)]
+struct Dropped(std::path::PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn a_dropped_file_is_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("one-ball.nff");
+    let text = "v\nfrom 0 -4 0\nat 0 0 0\nup 0 0 1\nangle 45\nhither 1\nresolution 32 32\n\
+                b 0 0 0\nl 5 -5 5\nf 1 0 0 1 0 0 0 1\ns 0 0 0 1\n";
+    std::fs::write(&file, text).unwrap();
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    let dropped = std::sync::Arc::new(Dropped(file));
+    window.input_mut().dropped_files.push(dropped);
+    wait(&mut window, "the file's scene", |w| {
+        has(w, "one-ball · midpoint")
+    });
+    finish(&mut window);
+    assert!(has(&window, "spheres: 1"));
+}
+
 #[test]
 fn a_click_names_the_object_and_lists_the_leaves() {
     let mut window = open(small("balls:1"));

@@ -25,6 +25,9 @@ impl PartialEq for Key {
 /// Up to this many nodes, boxes take less time to make than a frame to draw.
 const NODES_AT_ONCE: usize = 30_000;
 
+/// Buffers may take 256 MiB, a box takes 28 bytes.
+const MOST_BOXES: usize = 9_000_000;
+
 /// The boxes of the latest tree, filter and colouring.
 #[derive(Default)]
 pub struct Boxes {
@@ -54,6 +57,7 @@ impl Boxes {
             move || {
                 let mut boxes = leaf_boxes(&key.tree, &key.filter, key.coloring, center);
                 boxes.instances = spread(&boxes.instances);
+                boxes.instances.truncate(MOST_BOXES);
                 boxes
             }
         };

@@ -75,7 +75,7 @@ fn contents(legend: &Legend<'_>, ui: &mut egui::Ui) {
             ));
             if (legend.drawn as usize) < shown {
                 ui.label(format!(
-                    "while moving: {} of them",
+                    "drawn by the processor: {} of them",
                     grouped(legend.drawn as usize)
                 ));
             }

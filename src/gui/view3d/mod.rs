@@ -25,8 +25,8 @@ use std::sync::Arc;
 /// Behind everything, in both themes: the colour maps are made for a dark ground.
 const GROUND: [u8; 3] = [24, 27, 33];
 
-/// Boxes that a processor can draw fast enough to follow the mouse.
-const BOXES_IN_SOFTWARE: u32 = 12_000;
+/// Boxes that a processor can draw fast enough to follow the mouse, and at rest.
+const BOXES_IN_SOFTWARE: [u32; 2] = [12_000, 250_000];
 
 /// How long after the last movement everything is drawn again, in seconds.
 const REST: f64 = 0.2;
@@ -229,9 +229,10 @@ impl View3d {
         let all = boxes.as_ref().map_or(0, |b| b.instances.len() as u32);
         let resting = ui.input(|i| i.time) - self.moved;
         let software = self.adapter.as_ref().is_some_and(|a| a.software);
-        let mut drawn = all;
-        if software && all > BOXES_IN_SOFTWARE && resting < REST {
-            drawn = BOXES_IN_SOFTWARE;
+        let [moving, at_rest] = BOXES_IN_SOFTWARE;
+        let mut drawn = if software { all.min(at_rest) } else { all };
+        if software && all > moving && resting < REST {
+            drawn = moving;
             ctx.request_repaint_after_secs((REST - resting) as f32 + 0.01);
         }
 
