@@ -3,7 +3,7 @@
 use super::StartOptions;
 use crate::progress::Progress;
 use crate::scene::{SceneRequest, SceneSource};
-use crate::trace::{RayPath, Tile, record};
+use crate::trace::{RayKind, RayPath, Tile, record_ray};
 use crate::worker::{Request, Shown, Stage, Update, Worker};
 use std::sync::Arc;
 
@@ -85,7 +85,12 @@ impl Current {
         self.picked = match render.view() {
             Ok(view) if x < render.width && y < render.height => Some(Picked {
                 pixel: [x, y],
-                path: Arc::new(record(scene, tree, &view.primary_ray(x, y, 0))),
+                path: Arc::new(record_ray(
+                    scene,
+                    tree,
+                    RayKind::Primary,
+                    &view.primary_ray(x, y, 0),
+                )),
             }),
             _ => None,
         };

@@ -63,21 +63,22 @@ pub fn order_color(i: usize, n: usize) -> [u8; 3] {
 /// A ray and the outlines of the leaves it visited, coloured by their order. Empty leaves are
 /// dashed. A ray that hits nothing is drawn through the last leaf's end.
 pub fn path_lines(path: &RayPath, center: Vec3) -> Vec<Line> {
-    let (ray, n) = (&path.ray, path.leaves.len());
+    let (ray, n) = (&path.ray, path.leaves().count());
     let mut lines = Vec::new();
-    let end = if path.hit.is_hit() {
-        Some(path.hit.t)
-    } else {
-        path.leaves.last().map(|leaf| leaf.t_exit)
-    };
-    for (i, leaf) in path.leaves.iter().enumerate() {
+    for (i, leaf) in path.leaves().enumerate() {
         let [r, g, b] = order_color(i, n);
         let dash = if leaf.objects == 0 { 0 } else { 255 };
         lines.extend(box_lines(&leaf.bounds, center, [r, g, b, dash], 2.0));
     }
-    if let Some(end) = end.filter(|t| t.is_finite()) {
+    if path.end().is_finite() {
         let white = [255; 4];
-        lines.push(Line::new(ray.origin, ray.at(end), center, white, 3.0));
+        lines.push(Line::new(
+            ray.origin,
+            ray.at(path.end()),
+            center,
+            white,
+            3.0,
+        ));
     }
     lines
 }

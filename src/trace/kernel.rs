@@ -172,7 +172,7 @@ fn any<O: Objects + ?Sized, P: Probe>(
 }
 
 /// The nearest hit of one ray, watched by a probe.
-pub fn closest_hit<P: Probe>(
+pub(super) fn closest_hit<P: Probe>(
     tree: &Tree,
     shapes: &Shapes<'_>,
     ray: &Ray,
@@ -180,6 +180,17 @@ pub fn closest_hit<P: Probe>(
     probe: &mut P,
 ) -> Hit {
     with_objects!(shapes, objects => closest(tree, objects, ray, scratch, probe))
+}
+
+/// Whether anything lies on a ray before its end, watched by a probe.
+pub(super) fn any_hit<P: Probe>(
+    tree: &Tree,
+    shapes: &Shapes<'_>,
+    ray: &Ray,
+    scratch: &mut Scratch,
+    probe: &mut P,
+) -> bool {
+    with_objects!(shapes, objects => any(tree, objects, ray, scratch, probe))
 }
 
 /// The kernel whose time counts: it counts nothing.

@@ -14,10 +14,13 @@ mod traverse;
 mod whitted;
 
 pub use any_order::objects_along;
-pub use kernel::{Batch, Counting, Hit, RayKind, RayTracer, Timed, closest_hit};
+pub use kernel::{Batch, Counting, Hit, RayKind, RayTracer, Timed};
 pub use picture::{Picture, TILE, Tile, tiles};
-pub use probe::{PixelTallies, Probe, RayCounts, Tally};
-pub use record::{RayPath, VisitedLeaf, record};
+pub use probe::{PixelTallies, Probe, RayCounts, Tally, Way};
+pub use record::{
+    After, InnerStep, LeafStep, PixelRecord, RayPath, RecordedRay, Step, TestStep, record_pixel,
+    record_ray,
+};
 pub use render::{
     CountedPass, CountedTile, RenderError, TimedPass, counted_pass, preview, thread_pool,
     timed_pass,

@@ -4,10 +4,23 @@ use serde::Serialize;
 use std::iter::Sum;
 use std::ops::AddAssign;
 
+/// Which children of an inner node a ray goes on to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Way {
+    /// Only the child that the ray meets first: it ends before the plane.
+    Near,
+    /// Only the other one: the ray begins behind the plane.
+    Far,
+    /// Both, the near one first.
+    Both,
+}
+
 /// Is told of everything a traversal does.
 pub trait Probe {
-    /// An inner node is traversed.
-    fn inner(&mut self, node: u32);
+    /// An inner node is traversed while the ray is between `t_enter` and `t_exit`; it meets the
+    /// plane at `t` (infinite or NaN where it runs along it).
+    fn inner(&mut self, node: u32, t_enter: f64, t_exit: f64, t: f64, way: Way);
     /// A leaf is visited, while the ray is between `t_enter` and `t_exit`.
     fn leaf(&mut self, node: u32, objects: &[u32], t_enter: f64, t_exit: f64);
     /// An object is tested; `hit` is where the ray meets it before the nearest hit so far.
@@ -17,7 +30,7 @@ pub trait Probe {
 /// Watches nothing: the probe of timed kernels.
 impl Probe for () {
     #[inline(always)]
-    fn inner(&mut self, _: u32) {}
+    fn inner(&mut self, _: u32, _: f64, _: f64, _: f64, _: Way) {}
     #[inline(always)]
     fn leaf(&mut self, _: u32, _: &[u32], _: f64, _: f64) {}
     #[inline(always)]
@@ -39,7 +52,7 @@ pub struct RayCounts {
 
 impl Probe for RayCounts {
     #[inline(always)]
-    fn inner(&mut self, _: u32) {
+    fn inner(&mut self, _: u32, _: f64, _: f64, _: f64, _: Way) {
         self.inner_nodes += 1;
     }
 

@@ -1,13 +1,73 @@
-//! The whole path of one ray: the leaves it visits, in order, and what it hits.
+//! Everything that the rays of one pixel did: for learning why it costs what it costs.
 
-use super::{Hit, Probe, Scratch, Shapes, closest_hit};
-use crate::geometry::{Aabb, Ray};
-use crate::scene::Scene;
-use crate::tree::{CellOfNode, NodeKind, StopReason, Tree};
+use super::kernel::{any_hit, closest_hit};
+use super::whitted::spawn;
+use super::{Hit, PixelTallies, Probe, RayCounts, RayKind, Scratch, Shapes, Way};
+use crate::geometry::{Aabb, Axis, Ray, Vec3};
+use crate::scene::{Scene, View};
+use crate::tree::{NodeKind, StopReason, Tree};
+use serde::Serialize;
+
+/// An inner node that a ray traversed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct InnerStep {
+    /// Index of the node.
+    pub node: u32,
+    pub depth: u32,
+    pub axis: Axis,
+    /// World coordinate of the plane.
+    pub plane: f64,
+    /// Where on the ray the node's cell lies between, widened by rounding.
+    pub t_enter: f64,
+    pub t_exit: f64,
+    /// Where the ray meets the plane; `None` where it runs along it.
+    pub t_plane: Option<f64>,
+    pub way: Way,
+    /// The child that the ray meets first, and the other.
+    pub near: u32,
+    pub far: u32,
+}
+
+/// An intersection test.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct TestStep {
+    pub object: u32,
+    /// Where the ray meets the object, if it does before the nearest hit so far.
+    pub hit: Option<f64>,
+}
+
+/// Why a walk went on after a leaf, or ended there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum After {
+    /// Nothing is hit so far: on to the next leaf.
+    NothingYet,
+    /// The nearest hit so far lies beyond this leaf: the next one may hold a nearer.
+    HitBeyond,
+    /// The nearest hit lies before the next leaf: done.
+    HitNearer,
+    /// Something blocks the light: done.
+    Blocked,
+    /// No leaf is left on the ray: done.
+    NoLeafLeft,
+}
+
+impl After {
+    /// One short phrase for people.
+    pub const fn text(self) -> &'static str {
+        match self {
+            After::NothingYet => "no hit yet: on to the next leaf",
+            After::HitBeyond => "the hit lies beyond this leaf: on to the next",
+            After::HitNearer => "the hit lies before any other leaf: done",
+            After::Blocked => "the light is blocked: done",
+            After::NoLeafLeft => "no leaf is left on the ray: done",
+        }
+    }
+}
 
 /// A leaf that a ray visited.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VisitedLeaf {
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LeafStep {
     /// Index of the node.
     pub node: u32,
     pub depth: u32,
@@ -19,87 +79,300 @@ pub struct VisitedLeaf {
     /// Where on the ray the cell lies between, widened by rounding.
     pub t_enter: f64,
     pub t_exit: f64,
-    /// Objects tested in it.
-    pub tests: u32,
+    /// In order; a shadow ray ends at its first hit.
+    pub tests: Vec<TestStep>,
+    pub after: After,
 }
 
-/// What a ray did on its way to its nearest hit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RayPath {
-    pub ray: Ray,
-    /// In the order of the visits; empty where the ray misses the root cell.
-    pub leaves: Vec<VisitedLeaf>,
-    /// Inner nodes traversed.
-    pub inner_nodes: u32,
-    pub hit: Hit,
+/// One step of a walk through the tree.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Step {
+    Inner(InnerStep),
+    Leaf(LeafStep),
 }
 
-#[derive(Default)]
-struct Recorder {
-    leaves: Vec<(u32, f64, f64, u32)>,
-    inner_nodes: u32,
-}
-
-impl Probe for Recorder {
-    fn inner(&mut self, _: u32) {
-        self.inner_nodes += 1;
-    }
-
-    fn leaf(&mut self, node: u32, _: &[u32], t_enter: f64, t_exit: f64) {
-        self.leaves.push((node, t_enter, t_exit, 0));
-    }
-
-    fn test(&mut self, _: u32, _: Option<f64>) {
-        if let Some((.., tests)) = self.leaves.last_mut() {
-            *tests += 1;
+impl Step {
+    /// Index of the node.
+    pub fn node(&self) -> u32 {
+        match self {
+            Step::Inner(step) => step.node,
+            Step::Leaf(step) => step.node,
         }
     }
 }
 
-/// Traces one ray to its nearest hit and keeps everything it did.
-pub fn record(scene: &Scene, tree: &Tree, ray: &Ray) -> RayPath {
-    let mut recorder = Recorder::default();
+/// What one ray did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RayPath {
+    pub kind: RayKind,
+    pub ray: Ray,
+    /// In order; empty where the ray misses the root cell.
+    pub steps: Vec<Step>,
+    /// The nearest hit; for a shadow ray the one that blocks it.
+    pub hit: Hit,
+}
+
+impl RayPath {
+    /// The leaves visited, in order.
+    pub fn leaves(&self) -> impl Iterator<Item = &LeafStep> {
+        self.steps.iter().filter_map(|step| match step {
+            Step::Leaf(leaf) => Some(leaf),
+            Step::Inner(_) => None,
+        })
+    }
+
+    /// The counts that the counting kernel has for this ray.
+    pub fn counts(&self) -> RayCounts {
+        let mut counts = RayCounts::default();
+        for step in &self.steps {
+            match step {
+                Step::Inner(_) => counts.inner_nodes += 1,
+                Step::Leaf(leaf) => {
+                    counts.leaves += 1;
+                    counts.empty_leaves += u32::from(leaf.objects == 0);
+                    counts.tests += leaf.tests.len() as u32;
+                }
+            }
+        }
+        counts
+    }
+
+    /// Where the ray ends in the picture of it: at its hit, at its own end, or where it leaves the
+    /// root cell.
+    pub fn end(&self) -> f64 {
+        let left = self.leaves().last().map_or(0.0, |leaf| leaf.t_exit);
+        if self.hit.is_hit() {
+            self.hit.t
+        } else {
+            self.ray.t_max.min(left)
+        }
+    }
+}
+
+/// A ray in the tree of rays of a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordedRay {
+    pub path: RayPath,
+    /// The ray from whose hit it started, by its place; `None` for the primary ray.
+    pub parent: Option<usize>,
+    /// Bounces since the eye: 0 for the primary ray; a shadow ray has its parent's.
+    pub depth: u32,
+    /// What its radiance, or the light it is sent to, counts for in the pixel.
+    pub weight: Vec3,
+}
+
+/// Whitted's whole tree of rays of one pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelRecord {
+    /// Column and row, from the upper left.
+    pub pixel: [u32; 2],
+    /// Linear colour of sample 0.
+    pub color: Vec3,
+    /// Depth first: a ray before the rays that start from its hit.
+    pub rays: Vec<RecordedRay>,
+}
+
+impl PixelRecord {
+    /// The counts that the counting kernel has for this pixel.
+    pub fn tallies(&self) -> PixelTallies {
+        let mut tallies = PixelTallies::default();
+        for ray in &self.rays {
+            let path = &ray.path;
+            tallies[path.kind as usize].add(&path.counts(), path.hit.is_hit());
+        }
+        tallies
+    }
+}
+
+/// Traces sample 0 of a pixel and keeps everything its rays did. Secondary rays go `d_arec` deep.
+pub fn record_pixel(
+    scene: &Scene,
+    tree: &Tree,
+    view: &View,
+    d_arec: u32,
+    x: u32,
+    y: u32,
+) -> PixelRecord {
+    let mut recording = Recording {
+        scene,
+        tree,
+        depth: scene.requirements().secondary_depth(d_arec),
+        record: PixelRecord {
+            pixel: [x, y],
+            color: Vec3::ZERO,
+            rays: Vec::new(),
+        },
+    };
+    let ray = view.primary_ray(x, y, 0);
+    recording.follow(RayKind::Primary, ray, Vec3::ONE, None, 0);
+    recording.record
+}
+
+/// Traces one ray and keeps everything it did.
+pub fn record_ray(scene: &Scene, tree: &Tree, kind: RayKind, ray: &Ray) -> RayPath {
+    let mut recorder = Recorder {
+        tree,
+        steps: Vec::new(),
+    };
     // No array of one kind is made for a single ray: that would cost more than the ray.
     let shapes = Shapes::Mixed(scene.objects());
-    let hit = closest_hit(tree, &shapes, ray, &mut Scratch::default(), &mut recorder);
-    let leaves = recorder.leaves.into_iter();
+    let mut scratch = Scratch::default();
+    let hit = if kind == RayKind::Shadow {
+        any_hit(tree, &shapes, ray, &mut scratch, &mut recorder);
+        recorder.last_hit()
+    } else {
+        closest_hit(tree, &shapes, ray, &mut scratch, &mut recorder)
+    };
+    let mut steps = recorder.steps;
+    explain(&mut steps, kind);
     RayPath {
+        kind,
         ray: *ray,
-        leaves: leaves
-            .filter_map(|(node, t_enter, t_exit, tests)| {
-                let cell = cell_of(tree, node);
-                let NodeKind::Leaf { count, stop, .. } = tree.kind(node) else {
-                    return None;
-                };
-                Some(VisitedLeaf {
-                    node,
-                    depth: cell.depth,
-                    bounds: cell.bounds,
-                    objects: count,
-                    stop,
-                    t_enter,
-                    t_exit,
-                    tests,
-                })
-            })
-            .collect(),
-        inner_nodes: recorder.inner_nodes,
+        steps,
         hit,
     }
 }
 
-/// The cell of a node, found from the root down: subtrees are contiguous in the array.
-fn cell_of(tree: &Tree, node: u32) -> CellOfNode {
-    let mut cell = CellOfNode {
-        node: 0,
-        depth: 0,
-        bounds: tree.root_cell(),
-    };
-    while cell.node != node {
-        let Some([below, above]) = tree.children(&cell) else {
-            break;
-        };
-        cell = if node < above.node { below } else { above };
+struct Recording<'a> {
+    scene: &'a Scene,
+    tree: &'a Tree,
+    depth: u32,
+    record: PixelRecord,
+}
+
+impl Recording<'_> {
+    fn follow(&mut self, kind: RayKind, ray: Ray, weight: Vec3, parent: Option<usize>, depth: u32) {
+        let path = record_ray(self.scene, self.tree, kind, &ray);
+        let hit = path.hit;
+        let place = self.record.rays.len();
+        self.record.rays.push(RecordedRay {
+            path,
+            parent,
+            depth,
+            weight,
+        });
+        if kind == RayKind::Shadow {
+            if !hit.is_hit() {
+                self.record.color += weight;
+            }
+        } else if hit.is_hit() {
+            let mut children = Vec::new();
+            let next = depth < self.depth;
+            spawn(self.scene, &ray, &hit, weight, next, |kind, ray, weight| {
+                children.push((kind, ray, weight));
+            });
+            for (kind, ray, weight) in children {
+                let deeper = depth + u32::from(kind != RayKind::Shadow);
+                self.follow(kind, ray, weight, Some(place), deeper);
+            }
+        } else {
+            self.record.color += weight * self.scene.background();
+        }
     }
-    cell
+}
+
+struct Recorder<'a> {
+    tree: &'a Tree,
+    steps: Vec<Step>,
+}
+
+impl Recorder<'_> {
+    fn last_hit(&self) -> Hit {
+        let last = self.steps.iter().rev().find_map(|step| match step {
+            Step::Leaf(leaf) => leaf.tests.last().copied(),
+            Step::Inner(_) => None,
+        });
+        match last {
+            Some(TestStep {
+                object,
+                hit: Some(t),
+            }) => Hit { t, object },
+            _ => Hit::MISS,
+        }
+    }
+}
+
+impl Probe for Recorder<'_> {
+    fn inner(&mut self, node: u32, t_enter: f64, t_exit: f64, t: f64, way: Way) {
+        let cell = self.tree.cell_of(node);
+        let NodeKind::Inner {
+            axis, below, above, ..
+        } = self.tree.kind(node)
+        else {
+            return;
+        };
+        let plane = self.tree.plane(node).map_or(f64::NAN, |(_, plane)| plane);
+        self.steps.push(Step::Inner(InnerStep {
+            node,
+            depth: cell.depth,
+            axis,
+            plane,
+            t_enter,
+            t_exit,
+            t_plane: t.is_finite().then_some(t),
+            way,
+            // Set by `explain`, once the next step is known.
+            near: below,
+            far: above,
+        }));
+    }
+
+    fn leaf(&mut self, node: u32, objects: &[u32], t_enter: f64, t_exit: f64) {
+        let cell = self.tree.cell_of(node);
+        let NodeKind::Leaf { stop, .. } = self.tree.kind(node) else {
+            return;
+        };
+        self.steps.push(Step::Leaf(LeafStep {
+            node,
+            depth: cell.depth,
+            bounds: cell.bounds,
+            objects: objects.len() as u32,
+            stop,
+            t_enter,
+            t_exit,
+            tests: Vec::new(),
+            after: After::NothingYet,
+        }));
+    }
+
+    fn test(&mut self, object: u32, hit: Option<f64>) {
+        if let Some(Step::Leaf(leaf)) = self.steps.last_mut() {
+            leaf.tests.push(TestStep { object, hit });
+        }
+    }
+}
+
+/// Fills in what is known only from the steps that follow: near and far, and why a leaf was or was
+/// not the last.
+fn explain(steps: &mut [Step], kind: RayKind) {
+    let mut nearest = f64::INFINITY;
+    for i in 0..steps.len() {
+        let next = steps.get(i + 1).map(Step::node);
+        let more_leaves = next.is_some();
+        match &mut steps[i] {
+            Step::Inner(step) => {
+                let entered_above = next == Some(step.far);
+                // `near` holds the child below, `far` the one above; the next step tells which the
+                // ray entered, and the way whether that is its near or its far child.
+                if entered_above == (step.way != Way::Far) {
+                    std::mem::swap(&mut step.near, &mut step.far);
+                }
+            }
+            Step::Leaf(leaf) => {
+                nearest = leaf
+                    .tests
+                    .iter()
+                    .filter_map(|test| test.hit)
+                    .fold(nearest, f64::min);
+                leaf.after = match (more_leaves, nearest.is_finite()) {
+                    (false, true) if kind == RayKind::Shadow => After::Blocked,
+                    (false, true) => After::HitNearer,
+                    (false, false) => After::NoLeafLeft,
+                    (true, true) => After::HitBeyond,
+                    (true, false) => After::NothingYet,
+                };
+            }
+        }
+    }
 }

@@ -6,7 +6,7 @@
 //! could reach is written so that NaN visits both children. Objects within rounding of a plane are
 //! in the leaves of both sides ([`crate::tree::Frame::slack`]).
 
-use super::Probe;
+use super::{Probe, Way};
 use crate::geometry::Ray;
 use crate::tree::Tree;
 
@@ -87,7 +87,6 @@ pub fn traverse<V: LeafVisitor, P: Probe>(
     loop {
         let mut node = nodes[at as usize];
         while !node.is_leaf() {
-            probe.inner(at);
             let (axis, plane, above) = node.as_inner();
             let t = (f64::from(plane) - origin[axis]) * inverse[axis];
             let (near, far) = if direction[axis].is_sign_negative() {
@@ -95,19 +94,22 @@ pub fn traverse<V: LeafVisitor, P: Probe>(
             } else {
                 (at + 1, above)
             };
-            at = if t > t_exit {
-                near
+            if t > t_exit {
+                probe.inner(at, t_enter, t_exit, t, Way::Near);
+                at = near;
             } else if t < t_enter {
-                far
+                probe.inner(at, t_enter, t_exit, t, Way::Far);
+                at = far;
             } else {
+                probe.inner(at, t_enter, t_exit, t, Way::Both);
                 stack.push(Waiting {
                     node: far,
                     t_enter: t_enter.max(earlier(t)),
                     t_exit,
                 });
                 t_exit = t_exit.min(later(t));
-                near
-            };
+                at = near;
+            }
             node = nodes[at as usize];
         }
         let (first, count) = node.as_leaf();

@@ -7,7 +7,7 @@
 //! approximation (1994) reflects of `T`, and passes the rest on by Snell's law. On total internal
 //! reflection all of `T` is reflected.
 
-use super::{Batch, RayKind, RayTracer};
+use super::{Batch, Hit, RayKind, RayTracer};
 use crate::geometry::{Ray, Vec3};
 use crate::primitive::{Shape, SurfacePoint};
 use crate::scene::{Material, Scene, View};
@@ -22,11 +22,9 @@ struct Wave {
 
 impl Wave {
     fn push(&mut self, ray: Ray, pixel: u32, weight: Vec3) {
-        if weight.max_element() > 0.0 {
-            self.rays.push(ray);
-            self.pixels.push(pixel);
-            self.weights.push(weight);
-        }
+        self.rays.push(ray);
+        self.pixels.push(pixel);
+        self.weights.push(weight);
     }
 
     fn batch(&self, kind: RayKind) -> Batch<'_> {
@@ -58,7 +56,6 @@ pub fn trace_samples<T: RayTracer>(
     colors.clear();
     colors.resize(pixels.len(), Vec3::ZERO);
     let secondary_depth = scene.requirements().secondary_depth(d_arec);
-    let light_color = Vec3::splat(1.0 / (scene.lights().len() as f64).sqrt());
     let mut now = [RayKind::Primary, RayKind::Reflected, RayKind::Refracted]
         .map(|kind| (kind, Wave::default()));
     let mut next_reflected = Wave::default();
@@ -83,28 +80,15 @@ pub fn trace_samples<T: RayTracer>(
                     colors[pixel as usize] += weight * scene.background();
                     continue;
                 }
-                let material = scene.material(hit.object);
-                let surface = scene.objects()[hit.object as usize].surface(ray, hit.t);
-                let surface = Facing::new(surface, ray.direction);
-                if scene.requirements().casts_shadows {
-                    for light in scene.lights() {
-                        let color = light.color.unwrap_or(light_color);
-                        if let Some((ray, reflected)) =
-                            surface.lit_by(light.position, material, ray.direction)
-                        {
-                            shadow.push(ray, pixel, weight * color * reflected);
-                        }
-                    }
-                }
-                if depth < secondary_depth {
-                    let [mirrored, passed] = surface.secondary(material, ray.direction);
-                    if let Some((ray, share)) = mirrored {
-                        next_reflected.push(ray, pixel, weight * share);
-                    }
-                    if let Some((ray, share)) = passed {
-                        next_refracted.push(ray, pixel, weight * share);
-                    }
-                }
+                let next = depth < secondary_depth;
+                spawn(scene, ray, hit, weight, next, |kind, ray, weight| {
+                    let wave = match kind {
+                        RayKind::Shadow => &mut shadow,
+                        RayKind::Reflected => &mut next_reflected,
+                        RayKind::Refracted | RayKind::Primary => &mut next_refracted,
+                    };
+                    wave.push(ray, pixel, weight);
+                });
             }
             if !shadow.rays.is_empty() {
                 tracer.any_hits(shadow.batch(RayKind::Shadow), &mut blocked);
@@ -117,6 +101,46 @@ pub fn trace_samples<T: RayTracer>(
         }
         std::mem::swap(&mut now[1].1, &mut next_reflected);
         std::mem::swap(&mut now[2].1, &mut next_refracted);
+    }
+}
+
+/// Tells `child` of every ray that a hit gives rise to: its kind, the ray, and what its radiance
+/// (for a shadow ray: the light, if it is not blocked) counts for in the pixel. Rays that count for
+/// nothing are not formed, nor are secondary ones unless asked for.
+pub(super) fn spawn(
+    scene: &Scene,
+    ray: &Ray,
+    hit: &Hit,
+    weight: Vec3,
+    secondary: bool,
+    mut child: impl FnMut(RayKind, Ray, Vec3),
+) {
+    let mut counts = |kind, ray, weight: Vec3| {
+        if weight.max_element() > 0.0 {
+            child(kind, ray, weight);
+        }
+    };
+    let material = scene.material(hit.object);
+    let surface = scene.objects()[hit.object as usize].surface(ray, hit.t);
+    let surface = Facing::new(surface, ray.direction);
+    if scene.requirements().casts_shadows {
+        let white = Vec3::splat(1.0 / (scene.lights().len() as f64).sqrt());
+        for light in scene.lights() {
+            let lit = surface.lit_by(light.position, material, ray.direction);
+            if let Some((ray, reflected)) = lit {
+                let light = light.color.unwrap_or(white);
+                counts(RayKind::Shadow, ray, weight * light * reflected);
+            }
+        }
+    }
+    if secondary {
+        let [mirrored, passed] = surface.secondary(material, ray.direction);
+        if let Some((ray, share)) = mirrored {
+            counts(RayKind::Reflected, ray, weight * share);
+        }
+        if let Some((ray, share)) = passed {
+            counts(RayKind::Refracted, ray, weight * share);
+        }
     }
 }
 

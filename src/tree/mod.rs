@@ -115,6 +115,24 @@ impl Tree {
         })
     }
 
+    /// The cell of a node, found from the root down.
+    ///
+    /// # Panics
+    /// If there is no such node.
+    pub fn cell_of(&self, node: u32) -> CellOfNode {
+        let mut cell = CellOfNode {
+            node: 0,
+            depth: 0,
+            bounds: self.root_cell(),
+        };
+        while cell.node != node {
+            let [below, above] = self.children(&cell).expect("the node is in the tree");
+            // Subtrees are contiguous in the array.
+            cell = if node < above.node { below } else { above };
+        }
+        cell
+    }
+
     /// The cells of the two children of an inner node, below and above its plane; `None` for a leaf.
     pub fn children(&self, cell: &CellOfNode) -> Option<[CellOfNode; 2]> {
         let NodeKind::Inner {

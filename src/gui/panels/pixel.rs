@@ -5,6 +5,7 @@ use crate::gui::picture_pane::color_text;
 use crate::gui::state::{Current, Picked, State};
 use crate::gui::symbol::grouped;
 use crate::scene::Material;
+use crate::trace::LeafStep;
 use egui_extras::{Column, TableBuilder};
 
 pub(super) const PANEL: Panel = Panel {
@@ -72,13 +73,12 @@ fn material_text(m: &Material) -> String {
 /// The leaves in the order of the visits.
 fn leaves(ui: &mut egui::Ui, picked: &Picked) {
     let path = &picked.path;
-    let empty = path.leaves.iter().filter(|leaf| leaf.objects == 0).count();
-    let tests: u32 = path.leaves.iter().map(|leaf| leaf.tests).sum();
+    let counts = path.counts();
+    let leaves: Vec<_> = path.leaves().collect();
     ui.add(
         egui::Label::new(format!(
-            "Its ray visits {} leaves ({empty} empty) and {} inner nodes, and tests {tests} objects:",
-            path.leaves.len(),
-            path.inner_nodes
+            "Its ray visits {} leaves ({} empty) and {} inner nodes, and makes {} intersection tests:",
+            counts.leaves, counts.empty_leaves, counts.inner_nodes, counts.tests
         ))
         .wrap(),
     );
@@ -111,9 +111,9 @@ fn leaves(ui: &mut egui::Ui, picked: &Picked) {
                 }
             })
             .body(|body| {
-                body.rows(row, path.leaves.len(), |mut line| {
+                body.rows(row, leaves.len(), |mut line| {
                     let i = line.index();
-                    let leaf = &path.leaves[i];
+                    let leaf = leaves[i];
                     let objects = if leaf.objects == 0 {
                         "empty".to_owned()
                     } else {
@@ -128,12 +128,37 @@ fn leaves(ui: &mut egui::Ui, picked: &Picked) {
                         leaf.stop.text().to_owned(),
                     ] {
                         line.col(|ui| {
-                            ui.add(egui::Label::new(text.as_str()).truncate());
+                            ui.add(egui::Label::new(text.as_str()).truncate())
+                                .on_hover_text(story(leaf));
                         });
                     }
                 });
             });
     });
+}
+
+/// What happened in a leaf, in words.
+fn story(leaf: &LeafStep) -> String {
+    let hits: Vec<String> = leaf
+        .tests
+        .iter()
+        .filter_map(|test| {
+            Some(format!(
+                "object {} at {} units",
+                test.object,
+                short(test.hit?)
+            ))
+        })
+        .collect();
+    let mut text = format!(
+        "A leaf because: {}\nIntersection tests: {}",
+        leaf.stop.text(),
+        leaf.tests.len()
+    );
+    if !hits.is_empty() {
+        text += &format!("\nHits nearer than all before: {}", hits.join(", "));
+    }
+    text + "\nThen: " + leaf.after.text()
 }
 
 /// A distance in few characters.

@@ -196,8 +196,7 @@ pub fn selection(current: &Current) -> Option<crate::geometry::Aabb> {
     if path.hit.is_hit() {
         return Some(current.shown.scene.objects()[path.hit.object as usize].bounds());
     }
-    path.leaves
-        .iter()
+    path.leaves()
         .map(|leaf| leaf.bounds)
         .reduce(|a, b| a.union(&b))
 }

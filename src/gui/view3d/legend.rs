@@ -145,7 +145,7 @@ fn color_bar(coloring: &Coloring, highest: f64, ui: &mut egui::Ui) {
 
 /// What is drawn of the picked ray.
 fn path_key(path: &RayPath, ui: &mut egui::Ui) {
-    let n = path.leaves.len();
+    let n = path.leaves().count();
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         for i in 0..6 {

@@ -14,7 +14,7 @@ use super::state::{Current, State};
 use crate::geometry::{Aabb, Vec3};
 use crate::overlay::{self, Line};
 use crate::scene::{Camera, Scene};
-use crate::trace::{Scratch, Shapes, closest_hit};
+use crate::trace::{RayKind, record_ray};
 use camera::ViewCamera;
 use controls::Settings;
 use eframe::egui_wgpu::{self, wgpu};
@@ -189,9 +189,8 @@ impl View3d {
         let at = (pointer - rect.center()) / half;
         let ray = self.camera.ray(f64::from(at.x), f64::from(-at.y));
         if let Some(current) = &state.current {
-            let shapes = Shapes::Mixed(current.shown.scene.objects());
-            let (tree, scratch) = (&current.shown.tree, &mut Scratch::default());
-            let hit = closest_hit(tree, &shapes, &ray, scratch, &mut ());
+            let (scene, tree) = (&current.shown.scene, &current.shown.tree);
+            let hit = record_ray(scene, tree, RayKind::Primary, &ray).hit;
             if hit.is_hit() {
                 return ray.at(hit.t);
             }
@@ -320,8 +319,8 @@ impl View3d {
     fn number_leaves(&self, ui: &egui::Ui, rect: Rect, path: &crate::trace::RayPath) {
         let painter = ui.painter().with_clip_rect(rect);
         let mut taken: Vec<egui::Pos2> = Vec::new();
-        let n = path.leaves.len();
-        for (i, leaf) in path.leaves.iter().enumerate() {
+        let n = path.leaves().count();
+        for (i, leaf) in path.leaves().enumerate() {
             let Some([x, y]) = self.camera.place(leaf.bounds.center()) else {
                 continue;
             };
