@@ -59,7 +59,10 @@
 
 pub mod cli;
 pub mod geometry;
+#[cfg(feature = "gui")]
+pub mod gui;
 pub mod measure;
+pub mod overlay;
 pub mod primitive;
 pub mod progress;
 pub mod report;

@@ -1,0 +1,9 @@
+//! What is drawn over scenes and pictures, as plain colours, boxes and lines; knows no window.
+
+mod coloring;
+mod leaf_boxes;
+mod lines;
+
+pub use coloring::{COLORINGS, Coloring, Leaf, Mark, coloring};
+pub use leaf_boxes::{Filter, Instance, LeafBoxes, leaf_boxes};
+pub use lines::{Line, box_lines, frustum_lines, order_color, path_lines};
