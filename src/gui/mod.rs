@@ -10,6 +10,7 @@ mod help;
 mod panels;
 mod picture_pane;
 mod recent;
+mod selection;
 mod shortcuts;
 mod state;
 mod status;

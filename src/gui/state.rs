@@ -1,6 +1,7 @@
 //! What is wanted and what is shown. All that is shown belongs together: it is swapped as one.
 
 use super::StartOptions;
+use super::selection::Selection;
 use crate::progress::Progress;
 use crate::scene::{SceneRequest, SceneSource};
 use crate::trace::{RayKind, RayPath, Tile, record_ray};
@@ -43,6 +44,7 @@ pub struct Current {
     /// The parts of the picture that the screen does not have yet.
     pub fresh: Fresh,
     pub picked: Option<Picked>,
+    pub selection: Selection,
 }
 
 /// Parts of a picture.
@@ -67,6 +69,7 @@ impl Current {
             sample: 0,
             fresh: Fresh::All,
             picked: None,
+            selection: Selection::default(),
         };
         if let Some(pixel) = pixel {
             current.pick(pixel);
