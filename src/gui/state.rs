@@ -1,6 +1,7 @@
 //! What is wanted and what is shown. All that is shown belongs together: it is swapped as one.
 
 use super::StartOptions;
+use super::inspect::Inspect;
 use super::selection::Selection;
 use crate::progress::Progress;
 use crate::scene::{SceneRequest, SceneSource};
@@ -23,6 +24,8 @@ pub struct State {
     pub stopped: bool,
     /// Why the last request failed, until dismissed.
     pub failure: Option<Failure>,
+    /// What the panes about the tree share.
+    pub inspect: Inspect,
 }
 
 /// A request that failed.
@@ -97,6 +100,10 @@ impl Current {
             }),
             _ => None,
         };
+        let hit = self.picked.as_ref().map(|picked| picked.path.hit);
+        if let Some(hit) = hit {
+            self.selection.object = hit.is_hit().then_some(hit.object);
+        }
     }
 
     /// The settings of what is shown, in one line.
@@ -136,6 +143,7 @@ impl State {
             work: None,
             stopped: false,
             failure: None,
+            inspect: Inspect::default(),
         }
     }
 
@@ -201,7 +209,10 @@ impl State {
                         opened.push(source.clone());
                     }
                     let pixel = self.kept_pixel(&shown);
-                    self.current = Some(Current::new(news.request, *shown, pixel));
+                    let selection = self.kept_selection(&shown);
+                    let mut current = Current::new(news.request, *shown, pixel);
+                    current.selection = selection.unwrap_or(current.selection);
+                    self.current = Some(current);
                 }
                 update => {
                     if let Update::Failed(reason) = &update
@@ -231,6 +242,12 @@ impl State {
             && before.shown.picture.width == shown.picture.width
             && before.shown.picture.height == shown.picture.height;
         Some(before.picked.as_ref()?.pixel).filter(|_| same)
+    }
+
+    /// What is selected stays so in another picture of the same tree.
+    fn kept_selection(&self, shown: &Shown) -> Option<Selection> {
+        let before = self.current.as_ref()?;
+        Arc::ptr_eq(&before.shown.tree, &shown.tree).then_some(before.selection)
     }
 
     fn fail(&mut self, why: String) {

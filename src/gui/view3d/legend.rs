@@ -16,6 +16,8 @@ pub struct Legend<'a> {
     /// How many of the boxes are drawn.
     pub drawn: u32,
     pub path: Option<&'a RayPath>,
+    /// What the marks of the selection mean.
+    pub marks: Vec<String>,
     /// Objects that were left out.
     pub left_out: usize,
 }
@@ -89,6 +91,9 @@ fn contents(legend: &Legend<'_>, ui: &mut egui::Ui) {
     }
     if let Some(path) = legend.path {
         path_key(path, ui);
+    }
+    for line in &legend.marks {
+        ui.label(line);
     }
     if !legend.settings.linked {
         ui.label("white pyramid: the picture's camera");
