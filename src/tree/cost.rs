@@ -165,10 +165,14 @@ impl CostCurve {
             let next = |ends: &[f64], done: usize| ends.get(done).copied().unwrap_or(f64::INFINITY);
             let plane = next(&self.lows, started).min(next(&self.highs, ended));
             // Just below: nothing that starts or ends here has done so yet.
-            samples.push(self.with(plane, [started, n - ended]));
+            if plane > self.range[0] {
+                samples.push(self.with(plane, [started, n - ended]));
+            }
             started += self.lows[started..].partition_point(|&lo| lo <= plane);
             ended += self.highs[ended..].partition_point(|&hi| hi <= plane);
-            samples.push(self.with(plane, [started, n - ended]));
+            if plane < self.range[1] {
+                samples.push(self.with(plane, [started, n - ended]));
+            }
         }
         samples.push(self.at(self.range[1]));
         samples

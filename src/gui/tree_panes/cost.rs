@@ -9,7 +9,7 @@ use crate::gui::state::State;
 use crate::gui::symbol::grouped;
 use crate::tree::{NodeCost, SplitCost};
 use egui::{Color32, vec2};
-use egui_plot::{HLine, Line, LineStyle, Plot, PlotPoint, PlotPoints, Text, VLine};
+use egui_plot::{AxisHints, GridMark, HLine, LineStyle, Plot, PlotPoint, Text, VLine};
 use std::sync::Arc;
 
 /// Points of a drawn curve: more than a screen is wide.
@@ -142,6 +142,16 @@ fn plane_text(axis: Axis, s: &SplitCost) -> String {
     )
 }
 
+/// The least 1, 2 or 5 times a power of ten that is at least this.
+fn nice_step(least: f64) -> f64 {
+    let power = libm::exp10(least.max(f64::MIN_POSITIVE).log10().floor());
+    let steps = [1.0, 2.0, 5.0].map(|of| of * power);
+    steps
+        .into_iter()
+        .find(|&step| step >= least)
+        .unwrap_or(10.0 * power)
+}
+
 impl Drawn {
     fn new(of: (TreeKey, u32), cost: &NodeCost) -> Self {
         let curves = Axis::ALL.map(|axis| {
@@ -189,15 +199,31 @@ impl Drawn {
             .show_x(false)
             .show_y(false)
             .y_axis_min_width(30.0)
-            .x_axis_label(format!("{axis} in units of length"))
             .y_axis_label("tests")
             .label_formatter(move |_| None);
+        // The three plots have the same height only if all have numbers below.
+        let step = nice_step((hi - lo) * 64.0 / f64::from(size.x.max(64.0)));
+        let digits = (-step.log10().floor()).clamp(0.0, 12.0) as usize;
+        let marks = move |_| {
+            let first = (lo / step).ceil();
+            (0..)
+                .map(|i| (first + f64::from(i)) * step)
+                .take_while(|&value| value <= hi)
+                .map(|value| GridMark {
+                    value,
+                    step_size: step,
+                })
+                .collect()
+        };
+        let below = AxisHints::new_x()
+            .label(format!("{axis} in units of length"))
+            .label_spacing(20.0..=30.0)
+            .formatter(move |mark, _| format!("{:.*}", digits, mark.value));
+        let plot = plot.x_grid_spacer(marks).custom_x_axes(vec![below]);
         let shown = plot.show(ui, |plot| {
             // Room for the labels on top.
             plot.set_plot_bounds_x(lo..=hi);
             plot.set_plot_bounds_y(0.0..=top);
-            let points = PlotPoints::from(self.curves[axis.index()].clone());
-            plot.line(Line::new("cost", points).color(color).width(1.5));
             let leaf = cost.leaf_cost();
             let dashed = LineStyle::dashed_loose();
             plot.hline(HLine::new("leaf", leaf).color(color).style(dashed));
@@ -244,6 +270,16 @@ impl Drawn {
             }
             plot.pointer_coordinate()
         });
+        // A piece at a time: a line that turns back on itself, as at jumps, gets spikes.
+        let painter = ui.painter().with_clip_rect(*shown.transform.frame());
+        for pair in self.curves[axis.index()].windows(2) {
+            let ends = [pair[0], pair[1]].map(|[plane, cost]| {
+                shown
+                    .transform
+                    .position_from_point(&PlotPoint::new(plane, cost))
+            });
+            painter.line_segment(ends, egui::Stroke::new(1.5, color));
+        }
         let response = shown.response;
         response.widget_info(|| {
             let name = format!("Cost along {axis}");

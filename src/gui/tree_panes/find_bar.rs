@@ -56,9 +56,9 @@ impl FindBar {
             let field = egui::TextEdit::singleline(&mut self.text)
                 .desired_width(120.0)
                 .hint_text("objects > 8");
-            let field = ui
-                .name_inputs("Find nodes", |ui| ui.add(field))
-                .on_hover_text(ABOUT);
+            let field = ui.add(field).on_hover_text(ABOUT);
+            let name = |node: &mut egui::accesskit::Node| node.set_label("Find nodes");
+            ui.ctx().accesskit_node_builder(field.id, name);
             if field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter)) {
                 step = Some(Step::Next);
             }

@@ -14,8 +14,10 @@ use std::sync::Arc;
 #[derive(Default)]
 pub struct Histograms {
     bars: Option<(TreeKey, [Bars; HISTOGRAM_COUNT])>,
-    /// Where a drag began, as a value of the axis.
-    from: f64,
+    /// The bar where a drag began.
+    from: usize,
+    /// Whether heights go by the logarithm, so that low bars are seen beside high ones.
+    log: bool,
 }
 
 /// The most bars that can be told apart in a third of a narrow pane.
@@ -57,6 +59,10 @@ impl Histograms {
             {
                 state.inspect.ranges = Ranges::default();
             }
+            ui.checkbox(&mut self.log, "Log heights").on_hover_text(
+                "Bars as high as the logarithm of their leaves, so that few are seen beside many; \
+                 the full share of a bar stays true.",
+            );
             let key = "filled: full leaves · hollow: empty · drag to select";
             ui.add(egui::Label::new(key).truncate());
         });
@@ -84,6 +90,7 @@ impl Histograms {
                 let plot = Plot {
                     histogram: &HISTOGRAMS[i],
                     bars,
+                    log: self.log,
                     marked: marked.map(|leaf| HISTOGRAMS[i].value(&leaf)),
                 };
                 plot.ui(ui, vec2(width, size.y), range, &mut self.from);
@@ -96,6 +103,7 @@ impl Histograms {
 struct Plot<'a> {
     histogram: &'a Histogram,
     bars: &'a Bars,
+    log: bool,
     /// Value of the selected leaf.
     marked: Option<f64>,
 }
@@ -106,7 +114,7 @@ impl Plot<'_> {
         ui: &mut egui::Ui,
         size: egui::Vec2,
         range: &mut Option<[f64; 2]>,
-        from: &mut f64,
+        from: &mut usize,
     ) {
         let (outer, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
         response.widget_info(|| {
@@ -144,7 +152,7 @@ impl Plot<'_> {
         response: &egui::Response,
         area: Rect,
         range: &mut Option<[f64; 2]>,
-        from: &mut f64,
+        from: &mut usize,
     ) {
         let Some(at) = response.interact_pointer_pos() else {
             return;
@@ -159,11 +167,10 @@ impl Plot<'_> {
                 .ctx
                 .input(|i| i.pointer.press_origin())
                 .unwrap_or(at);
-            *from = self.bar_at(area, press.x) as f64;
+            *from = self.bar_at(area, press.x);
         }
         if response.dragged() {
-            let first = *from as usize;
-            *range = Some(self.values_of([first.min(bar), first.max(bar)]));
+            *range = Some(self.values_of([bar.min(*from), bar.max(*from)]));
         }
     }
 
@@ -230,7 +237,14 @@ impl Plot<'_> {
         for (i, &[full, empty]) in self.bars.counts.iter().enumerate() {
             let left = area.left() + step * i as f32;
             let gap = if step > 4.0 { 1.0 } else { 0.0 };
-            let y = |count: u32| area.bottom() - area.height() * count as f32 / highest as f32;
+            let all = full + empty;
+            let height = if self.log {
+                f64::from(all).ln_1p() / f64::from(highest).ln_1p()
+            } else {
+                f64::from(all) / f64::from(highest)
+            };
+            let unit = area.height() * height as f32 / all.max(1) as f32;
+            let y = |count: u32| area.bottom() - unit * count as f32;
             let part = |from: u32, to: u32| {
                 Rect::from_min_max(pos2(left + gap, y(to)), pos2(left + step - gap, y(from)))
             };
@@ -244,8 +258,13 @@ impl Plot<'_> {
         if let Some(value) = self.marked {
             let x = x_of(value.max(self.bars.start));
             painter.vline(x, area.y_range(), Stroke::new(2.0, text));
-            let at = pos2(x + 3.0, area.top());
-            painter.text(at, Align2::LEFT_TOP, "selected", small.clone(), text);
+            let (at, anchor) = if x < area.center().x {
+                (x + 3.0, Align2::LEFT_TOP)
+            } else {
+                (x - 3.0, Align2::RIGHT_TOP)
+            };
+            let at = pos2(at, area.top());
+            painter.text(at, anchor, "selected", small.clone(), text);
         }
         let axis = Stroke::new(1.0, weak);
         painter.hline(area.x_range(), area.bottom(), axis);

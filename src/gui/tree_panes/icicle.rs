@@ -176,7 +176,14 @@ impl Icicle {
             {
                 self.top = index.of(self.top).parent;
             }
-            let scale = self.scale(index);
+            let mut scale = self.scale(index);
+            if let Some((_, pieces)) = &self.made {
+                scale += &format!(
+                    " · {} of {} nodes drawn",
+                    grouped(pieces.rects.len()),
+                    grouped((index.of(self.top).end - self.top) as usize)
+                );
+            }
             ui.add(egui::Label::new(&scale).truncate())
                 .on_hover_text(&scale);
         });
@@ -202,26 +209,10 @@ impl Icicle {
 
     fn pieces(&self, tree: &Tree, index: &TreeIndex, area: Rect) -> Pieces {
         let top = index.of(self.top).depth;
-        let deepest = (self.top..index.of(self.top).end)
-            .map(|node| index.of(node).depth)
-            .max()
-            .unwrap_or(top);
-        let height = area.height() / (deepest - top + 1) as f32;
-        let highest = self.highest(index);
-        let mut rects = Vec::new();
-        let mut mesh = egui::Mesh::default();
+        let mut spans = Vec::new();
         let mut stack = vec![(self.top, area.left(), area.right())];
         while let Some((node, left, right)) = stack.pop() {
-            let facts = index.of(node);
-            let y = area.top() + height * (facts.depth - top) as f32;
-            let rect = Rect::from_min_max(pos2(left, y), pos2(right, y + height));
-            let [r, g, b] = self
-                .coloring
-                .color(self.coloring.value(leaf_like(index, node)), highest);
-            let gap = if rect.width() > 4.0 { 0.5 } else { 0.0 };
-            let drawn = rect.shrink2(vec2(gap, if height > 4.0 { 0.5 } else { 0.0 }));
-            mesh.add_colored_rect(drawn, Color32::from_rgb(r, g, b));
-            rects.push((rect, node));
+            spans.push((node, left, right));
             if let NodeKind::Inner { below, above, .. } = tree.kind(node) {
                 let share = |child: u32| match self.width {
                     Width::Leaves => f64::from(index.of(child).leaves),
@@ -235,6 +226,23 @@ impl Icicle {
                     }
                 }
             }
+        }
+        // Rows that nothing is drawn in take no room.
+        let depths = spans.iter().map(|&(node, ..)| index.of(node).depth - top);
+        let height = area.height() / (depths.max().unwrap_or(0) + 1) as f32;
+        let highest = self.highest(index);
+        let mut rects = Vec::with_capacity(spans.len());
+        let mut mesh = egui::Mesh::default();
+        for (node, left, right) in spans {
+            let y = area.top() + height * (index.of(node).depth - top) as f32;
+            let rect = Rect::from_min_max(pos2(left, y), pos2(right, y + height));
+            let [r, g, b] = self
+                .coloring
+                .color(self.coloring.value(leaf_like(index, node)), highest);
+            let gap = if rect.width() > 4.0 { 0.5 } else { 0.0 };
+            let drawn = rect.shrink2(vec2(gap, if height > 4.0 { 0.5 } else { 0.0 }));
+            mesh.add_colored_rect(drawn, Color32::from_rgb(r, g, b));
+            rects.push((rect, node));
         }
         Pieces {
             rects,
@@ -273,7 +281,7 @@ impl Icicle {
             let text = match tree.kind(*node) {
                 NodeKind::Leaf { count: 0, .. } => "empty".to_owned(),
                 _ if rect.width() > 80.0 => format!("{} objects", grouped(objects as usize)),
-                _ => format!("{} obj.", short(f64::from(objects))),
+                _ => format!("{} obj.", grouped(objects as usize)),
             };
             // Readable on dark and on light pieces.
             let galley = painter.layout_no_wrap(text, font.clone(), Color32::WHITE);

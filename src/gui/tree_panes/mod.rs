@@ -30,7 +30,7 @@ impl TreePane {
     /// What its tab says.
     pub const fn title(self) -> &'static str {
         match self {
-            TreePane::Outline => "Tree",
+            TreePane::Outline => "Outline",
             TreePane::Histograms => "Leaf histograms",
             TreePane::Icicle => "Icicle",
             TreePane::Cost => "Split cost",

@@ -25,17 +25,17 @@ pub struct Outline {
 const COLUMNS: [(&str, f32, &str); 8] = [
     (
         "node",
-        150.0,
+        164.0,
         "Index of the node in the tree's array; 0 is the root",
     ),
     ("depth", 42.0, "Levels below the root"),
     (
         "plane, or why a leaf",
-        150.0,
+        164.0,
         "Axis and place of the split plane, in units of length; or why the cell was not split",
     ),
     ("objects", 54.0, "Objects in the cell, each counted once"),
-    ("refs", 54.0, "References of all leaves below"),
+    ("refs", 66.0, "References of all leaves below"),
     (
         "area",
         58.0,
@@ -49,7 +49,7 @@ const COLUMNS: [(&str, f32, &str); 8] = [
     ),
     (
         "visits",
-        54.0,
+        50.0,
         "Nodes that such a ray is expected to visit, this one included",
     ),
 ];
@@ -214,6 +214,7 @@ impl Table<'_> {
                     .striped(true)
                     .sense(Sense::click())
                     .auto_shrink(false)
+                    .cell_layout(egui::Layout::left_to_right(Align::Center))
                     .animate_scrolling(false);
                 for (_, width, _) in COLUMNS {
                     builder = builder.column(Column::exact(width).clip(true));
@@ -283,7 +284,7 @@ impl Table<'_> {
     fn fold(&mut self, ui: &mut egui::Ui, node: u32, depth: u32) {
         // The deepest node still has room for its name.
         let levels = self.tree.depth_reached().max(1);
-        ui.add_space(depth as f32 * (70.0 / levels as f32).min(8.0));
+        ui.add_space(depth as f32 * (64.0 / levels as f32).min(8.0));
         let size = egui::vec2(14.0, ui.available_height());
         if !matches!(self.tree.kind(node), NodeKind::Inner { .. }) {
             ui.allocate_space(size);

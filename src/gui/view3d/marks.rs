@@ -83,23 +83,35 @@ impl Marks {
             return;
         };
         let painter = ui.painter().with_clip_rect(rect);
-        let write = |point: Vec3, text: String, [r, g, b]: [u8; 3]| {
-            let Some([x, y]) = view.camera.place(point) else {
+        let on_screen = |point: &Vec3| {
+            let [x, y] = view.camera.place(*point)?;
+            let at = rect.center() + vec2(x as f32, -y as f32) * rect.height() * 0.5;
+            rect.shrink(8.0).contains(at).then_some(at)
+        };
+        // The first of these points that can be seen.
+        let write = |points: &[Vec3], text: String, [r, g, b]: [u8; 3]| {
+            let Some(at) = points.iter().find_map(on_screen) else {
                 return;
             };
-            let at = rect.center() + vec2(x as f32, -y as f32) * rect.height() * 0.5;
             let font = egui::FontId::proportional(12.0);
             let galley = painter.layout_no_wrap(text, font, Color32::from_rgb(r, g, b));
             let place = egui::Align2::LEFT_BOTTOM.anchor_size(at, galley.size());
             painter.rect_filled(place.expand(2.0), 2.0, Color32::from_black_alpha(170));
             painter.galley(place.min, galley, Color32::WHITE);
         };
-        let top = cell.bounds.corners()[7];
-        write(top, format!("node {}", cell.node), CELL_COLOR);
+        let mut corners = cell.bounds.corners();
+        corners.reverse();
+        write(
+            &[corners.as_slice(), &[cell.bounds.center()]].concat(),
+            format!("node {}", cell.node),
+            CELL_COLOR,
+        );
         if let Some((axis, at)) = self.plane {
-            let mut corner = cell.bounds.lo;
-            corner[axis.index()] = at;
-            write(corner, self.plane_text(axis, at), PLANE_COLOR);
+            let mut on_plane = cell.bounds.corners();
+            for corner in &mut on_plane {
+                corner[axis.index()] = at;
+            }
+            write(&on_plane, self.plane_text(axis, at), PLANE_COLOR);
         }
     }
 
