@@ -60,6 +60,7 @@
 pub mod cli;
 pub mod geometry;
 pub mod measure;
+pub mod overlay;
 pub mod primitive;
 pub mod progress;
 pub mod report;
