@@ -59,6 +59,8 @@
 
 pub mod cli;
 pub mod geometry;
+#[cfg(feature = "gui")]
+pub mod gui;
 pub mod measure;
 pub mod overlay;
 pub mod primitive;

@@ -24,7 +24,37 @@ pub fn run(args: &WindowArgs) -> Result<Outcome> {
 }
 
 /// Opens the window and waits until it is closed; where there can be none, says why.
-fn open(_args: &WindowArgs) -> Result<Option<String>> {
+#[cfg(feature = "gui")]
+fn open(args: &WindowArgs) -> Result<Option<String>> {
+    use crate::gui::{GuiError, StartOptions};
+    use crate::scene::{SceneRequest, SceneSource};
+
+    let mut start = StartOptions::default();
+    // The window shows one method at a time.
+    let methods = resolve::methods(&args.methods.method);
+    start.build = resolve::builds(&methods, &args.build)?.remove(0);
+    start.render = resolve::render(start.render.camera, &args.trace, &args.picture);
+    start.scene = SceneRequest {
+        source: SceneSource::parse(scene_text(args)),
+        cylinders: args.cylinders.cylinders,
+    };
+    match crate::gui::run(start) {
+        Ok(()) => Ok(None),
+        Err(GuiError::NoDisplay(why)) => {
+            // The reason proper stands last, behind places in the window system's source.
+            let reason = why.rsplit(": ").next().unwrap_or(&why);
+            Ok(Some(format!(
+                "no display ({})",
+                reason.trim_end_matches('.')
+            )))
+        }
+        Err(GuiError::NoGraphics(why)) => Ok(Some(format!("no graphics adapter ({why})"))),
+        Err(error @ GuiError::Ended(_)) => Err(error.into()),
+    }
+}
+
+#[cfg(not(feature = "gui"))]
+fn open(_: &WindowArgs) -> Result<Option<String>> {
     Ok(Some("this build has no window".into()))
 }
 

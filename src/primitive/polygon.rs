@@ -14,9 +14,9 @@ const FLATNESS: f64 = 8.0 * f64::EPSILON;
 
 /// A planar simple polygon of 3 or more vertices.
 ///
-/// Its surface is the part of the vertices' mean plane within the outline, which is the vertices
-/// moved into that plane along the axis nearest its normal (in truth by the rounding of a file). Where the outline crosses itself, the
-/// even–odd rule tells inside from outside.
+/// Its surface is the part of the vertices' mean plane within the outline: the vertices moved into
+/// that plane along the axis nearest its normal, by no more than a file's rounding. Where the
+/// outline crosses itself, the even–odd rule tells inside from outside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
     vertices: Vec<Vec3>,

@@ -1,0 +1,244 @@
+//! Puts the window together: bars, panels and panes, and what the window's own keys do.
+
+use super::files::Files;
+use super::panels::{self, Side};
+use super::picture_pane::PicturePane;
+use super::recent::Recent;
+use super::shortcuts::{Action, Scope, pressed};
+use super::state::State;
+use super::status::StatusLine;
+use super::view3d::View3d;
+use super::{StartOptions, help, top_bar};
+use crate::tree::{BuildSettings, MaxDepth, Method};
+
+/// The window.
+pub struct App {
+    state: State,
+    files: Files,
+    panes: Panes,
+    tiles: egui_tiles::Tree<Pane>,
+    status: StatusLine,
+    help_open: bool,
+}
+
+/// What a tile holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pane {
+    Picture,
+    View3d,
+}
+
+struct Panes {
+    picture: PicturePane,
+    view3d: View3d,
+}
+
+impl App {
+    /// Makes the window's contents and asks for the first scene.
+    pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Self {
+        let recent = if start.remember {
+            Recent::kept()
+        } else {
+            Recent::default()
+        };
+        let mut start = start;
+        // The screen takes no larger picture.
+        let largest = cc.egui_ctx.input(|i| i.max_texture_side) as u32;
+        start.render.width = start.render.width.min(largest);
+        start.render.height = start.render.height.min(largest);
+        let mut tiles = egui_tiles::Tiles::default();
+        let panes = [Pane::Picture, Pane::View3d].map(|pane| tiles.insert_pane(pane));
+        let root = tiles.insert_horizontal_tile(panes.to_vec());
+        App {
+            state: State::new(&start, &cc.egui_ctx),
+            files: Files::new(recent),
+            panes: Panes {
+                picture: PicturePane::default(),
+                view3d: View3d::new(cc.wgpu_render_state.as_ref(), start.render.camera),
+            },
+            tiles: egui_tiles::Tree::new(egui::Id::unique("panes"), root, tiles),
+            status: StatusLine::default(),
+            help_open: false,
+        }
+    }
+
+    fn act(&mut self, action: Action, ctx: &egui::Context) {
+        let state = &mut self.state;
+        let build = &mut state.wanted.build;
+        let by = |value: u32, by: i32, most: u32| value.saturating_add_signed(by).min(most);
+        match action {
+            Action::Help => self.help_open ^= true,
+            Action::Open => self.files.open_dialog(ctx),
+            Action::Path => self.files.focus_path(),
+            Action::Reload => state.reload(),
+            Action::Cancel => {
+                if self.help_open {
+                    self.help_open = false;
+                } else if state.failure.take().is_none() {
+                    state.cancel();
+                }
+            }
+            Action::Again => state.again(),
+            Action::NextMethod => {
+                let all: Vec<Method> = Method::all().collect();
+                let at = all.iter().position(|m| *m == build.method).unwrap_or(0);
+                top_bar::choose_method(build, all[(at + 1) % all.len()]);
+            }
+            Action::Deeper | Action::Shallower => {
+                let step = if action == Action::Deeper { 1 } else { -1 };
+                let depth = match build.d_max {
+                    MaxDepth::Fixed(depth) => depth,
+                    MaxDepth::Automatic => state
+                        .current
+                        .as_ref()
+                        .map_or(20, |c| c.shown.tree.depth_limit()),
+                };
+                build.d_max = MaxDepth::Fixed(by(depth, step, MaxDepth::LIMIT));
+            }
+            Action::AutoDepth => top_bar::toggle_automatic(state),
+            Action::MoreInLeaf => build.n_oilf = by(build.n_oilf, 1, 10_000),
+            Action::FewerInLeaf => build.n_oilf = by(build.n_oilf, -1, 10_000),
+            Action::MoreRecursion | Action::LessRecursion => {
+                let step = if action == Action::MoreRecursion {
+                    1
+                } else {
+                    -1
+                };
+                let d_arec = &mut state.wanted.render.d_arec;
+                *d_arec = by(*d_arec, step, top_bar::MOST_RECURSION);
+            }
+            Action::ResetMethod => *build = BuildSettings::for_method(build.method),
+            Action::Theme => top_bar::toggle_theme(ctx),
+            Action::SceneCamera => state.wanted.own_camera = false,
+            _ => {}
+        }
+    }
+
+    /// Why something failed, until it is closed; over the panes, so that nothing moves.
+    fn message(&mut self, ctx: &egui::Context) {
+        let Some(failure) = &self.state.failure else {
+            return;
+        };
+        let kept = self.state.current.is_some();
+        let mut open = true;
+        let mut close = false;
+        egui::Window::new("Problem")
+            .open(&mut open)
+            .anchor(egui::Align2::CENTER_BOTTOM, [0.0, -40.0])
+            .collapsible(false)
+            .resizable(false)
+            .default_width(520.0)
+            .show(ctx, |ui| {
+                ui.strong(&failure.what);
+                ui.add(egui::Label::new(format!("Reason: {}", failure.why)).wrap());
+                if kept {
+                    ui.weak("What was there stays.");
+                }
+                close = ui
+                    .button("Dismiss")
+                    .on_hover_text("Close this message.\nShortcut: Esc")
+                    .clicked();
+            });
+        if close || !open {
+            self.state.failure = None;
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
+        for source in self.state.receive() {
+            self.files.recent.add(source);
+        }
+        self.files.receive(ctx, &mut self.state);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        let ctx = ui.ctx().clone();
+        for action in pressed(&ctx, Scope::Window) {
+            self.act(action, &ctx);
+        }
+        egui::Panel::top("top bar").show(ui, |ui| {
+            top_bar::show(ui, &mut self.state, &mut self.files, &mut self.help_open);
+        });
+        egui::Panel::bottom("status line").show(ui, |ui| {
+            self.status.ui(ui, &self.state, self.panes.picture.hovered);
+        });
+        egui::Panel::left("left")
+            .default_size(255.0)
+            .size_range(180.0..=480.0)
+            .show(ui, |ui| panels::show(ui, Side::Left, &mut self.state));
+        egui::Panel::right("right")
+            .default_size(400.0)
+            .size_range(220.0..=640.0)
+            .show(ui, |ui| panels::show(ui, Side::Right, &mut self.state));
+        egui::CentralPanel::default()
+            .frame(egui::Frame::new().fill(ui.visuals().panel_fill))
+            .show(ui, |ui| {
+                let mut behavior = Behavior {
+                    panes: &mut self.panes,
+                    state: &mut self.state,
+                };
+                self.tiles.ui(&mut behavior, ui);
+            });
+        self.message(&ctx);
+        help::show(&ctx, &mut self.help_open);
+        if ctx.input(|i| !i.raw.hovered_files.is_empty()) {
+            drop_hint(&ctx);
+        }
+        self.state.send();
+    }
+}
+
+/// Says that a file can be dropped here.
+fn drop_hint(ctx: &egui::Context) {
+    let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop hint"));
+    let (painter, rect) = (ctx.layer_painter(layer), ctx.content_rect());
+    painter.rect_filled(rect, 0.0, egui::Color32::from_black_alpha(160));
+    painter.text(
+        rect.center(),
+        egui::Align2::CENTER_CENTER,
+        "Drop the file to open its scene",
+        egui::FontId::proportional(26.0),
+        egui::Color32::WHITE,
+    );
+}
+
+/// How tiles show the panes.
+struct Behavior<'a> {
+    panes: &'a mut Panes,
+    state: &'a mut State,
+}
+
+impl egui_tiles::Behavior<Pane> for Behavior<'_> {
+    fn tab_title_for_pane(&mut self, pane: &Pane) -> egui::WidgetText {
+        match pane {
+            Pane::Picture => "Picture".into(),
+            Pane::View3d => "3D view".into(),
+        }
+    }
+
+    fn pane_ui(
+        &mut self,
+        ui: &mut egui::Ui,
+        _: egui_tiles::TileId,
+        pane: &mut Pane,
+    ) -> egui_tiles::UiResponse {
+        let margin = egui::Margin::same(4);
+        egui::Frame::new()
+            .inner_margin(margin)
+            .show(ui, |ui| match pane {
+                Pane::Picture => self.panes.picture.ui(ui, self.state),
+                Pane::View3d => self.panes.view3d.ui(ui, self.state),
+            });
+        egui_tiles::UiResponse::None
+    }
+
+    fn simplification_options(&self) -> egui_tiles::SimplificationOptions {
+        // With tabs, panes can be dragged beside or onto each other.
+        egui_tiles::SimplificationOptions {
+            all_panes_must_have_tabs: true,
+            ..Default::default()
+        }
+    }
+}

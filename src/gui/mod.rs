@@ -1,0 +1,130 @@
+//! The window: a progressive picture, the tree in 3D, and the figures, all of one setting.
+//!
+//! [`app`] puts the parts together; [`state`] keeps what is wanted apart from what is shown;
+//! [`panels`] are one file and one line each; the two panes are [`picture_pane`] and [`view3d`].
+
+mod app;
+mod background;
+mod files;
+mod help;
+mod panels;
+mod picture_pane;
+mod recent;
+mod shortcuts;
+mod state;
+mod status;
+mod symbol;
+mod top_bar;
+mod view3d;
+
+pub use app::App;
+pub use shortcuts::{Action, SHORTCUTS, Scope, Shortcut};
+
+use crate::geometry::Vec3;
+use crate::scene::{Camera, SceneRequest};
+use crate::trace::RenderSettings;
+use crate::tree::BuildSettings;
+
+/// The room below what a pane shows already, never wider than the pane.
+fn rest_of(ui: &egui::Ui) -> egui::Vec2 {
+    let size = egui::vec2(ui.max_rect().width(), ui.available_height());
+    size.max(egui::vec2(16.0, 16.0))
+}
+
+/// What the window opens with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StartOptions {
+    pub scene: SceneRequest,
+    pub build: BuildSettings,
+    /// Its camera counts only if `own_camera`.
+    pub render: RenderSettings,
+    /// Whether `render` has its own camera; if not, the scene's is used.
+    pub own_camera: bool,
+    /// Whether the list of recent scenes is read from and kept in the user's settings folder.
+    pub remember: bool,
+}
+
+impl Default for StartOptions {
+    /// The paper's `balls` with the paper's settings.
+    fn default() -> Self {
+        // Stands in until the scene brings its own.
+        let camera = Camera {
+            from: Vec3::ZERO,
+            at: Vec3::Y,
+            up: Vec3::Z,
+            angle: 45.0,
+            hither: 1.0,
+            resolution: [512, 512],
+        };
+        StartOptions {
+            scene: SceneRequest::parse("balls"),
+            build: BuildSettings::default(),
+            render: RenderSettings::for_camera(camera),
+            own_camera: false,
+            remember: true,
+        }
+    }
+}
+
+/// Why there is no window.
+#[derive(Debug, thiserror::Error)]
+pub enum GuiError {
+    #[error(
+        "there is no screen to open a window on ({0}); the command line does without: \
+         bspscope --help"
+    )]
+    NoDisplay(String),
+    #[error(
+        "there is nothing to draw with ({0}); install a Vulkan driver (libvulkan1 and \
+         mesa-vulkan-drivers) or OpenGL (libegl1 and libgl1-mesa-dri), or use the command line: \
+         bspscope --help"
+    )]
+    NoGraphics(String),
+    #[error("the window ended: {0}")]
+    Ended(String),
+}
+
+/// Opens the window and returns once it is closed.
+///
+/// # Errors
+/// No screen, nothing to draw with, or a system library that is missing.
+pub fn run(start: StartOptions) -> Result<(), GuiError> {
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("bspscope")
+            .with_app_id("bspscope")
+            .with_inner_size([1400.0, 900.0])
+            .with_min_inner_size([640.0, 400.0]),
+        ..Default::default()
+    };
+    let open = || {
+        eframe::run_native(
+            "bspscope",
+            options,
+            Box::new(|cc| Ok(Box::new(App::new(cc, start)))),
+        )
+    };
+    // Window systems panic where a library is missing, such as libxkbcommon-x11.
+    match std::panic::catch_unwind(std::panic::AssertUnwindSafe(open)) {
+        Ok(Ok(())) => Ok(()),
+        Ok(Err(error)) => Err(match error {
+            eframe::Error::WinitEventLoop(_) | eframe::Error::Winit(_) => {
+                // Before the reason stand places in the source of other crates.
+                let text = error.to_string();
+                let reason = text.rsplit(": ").next().unwrap_or(&text);
+                GuiError::NoDisplay(reason.trim_end_matches('.').to_owned())
+            }
+            eframe::Error::Wgpu(_) => GuiError::NoGraphics(error.to_string()),
+            error => GuiError::Ended(error.to_string()),
+        }),
+        Err(panic) => {
+            let text = panic
+                .downcast_ref::<String>()
+                .cloned()
+                .or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
+            Err(GuiError::Ended(
+                text.unwrap_or_else(|| "for an unknown reason".into()),
+            ))
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! The panels beside the panes. A panel is one file here and one line in [`PANELS`].
+
+mod build_settings;
+mod figures;
+mod parameters;
+mod picture_settings;
+mod pixel;
+mod scene_facts;
+
+use super::state::State;
+
+/// Where a panel stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    Left,
+    Right,
+}
+
+/// A part of a side bar that can be folded.
+pub struct Panel {
+    pub title: &'static str,
+    pub side: Side,
+    /// Whether it is unfolded at first.
+    pub open: bool,
+    pub show: fn(&mut egui::Ui, &mut State),
+}
+
+/// All panels, from top to bottom.
+pub static PANELS: &[Panel] = &[
+    build_settings::PANEL,
+    picture_settings::PANEL,
+    scene_facts::PANEL,
+    figures::DELTA_PANEL,
+    figures::LAMBDA_PANEL,
+    pixel::PANEL,
+    parameters::PANEL,
+];
+
+/// Shows the panels of one side.
+pub fn show(ui: &mut egui::Ui, side: Side, state: &mut State) {
+    egui::ScrollArea::vertical()
+        .auto_shrink(false)
+        .show(ui, |ui| {
+            for panel in PANELS.iter().filter(|panel| panel.side == side) {
+                egui::CollapsingHeader::new(egui::RichText::new(panel.title).strong())
+                    .default_open(panel.open)
+                    .show_unindented(ui, |ui| (panel.show)(ui, state));
+            }
+        });
+}
+
+/// A row of a two-column grid: a name and a widget that goes by it.
+fn row<R>(
+    ui: &mut egui::Ui,
+    name: &str,
+    about: &str,
+    widget: impl FnOnce(&mut egui::Ui) -> R,
+) -> R {
+    ui.label(name).on_hover_text(about);
+    let result = ui.horizontal(|ui| ui.name_inputs(name, widget)).inner;
+    ui.end_row();
+    result
+}

@@ -1,0 +1,63 @@
+//! What the scene holds, what rendering it requires, what is left out, and the reader's notes.
+
+use super::{Panel, Side};
+use crate::gui::state::State;
+use crate::gui::symbol::grouped;
+
+pub(super) const PANEL: Panel = Panel {
+    title: "Scene",
+    side: Side::Left,
+    open: true,
+    show,
+};
+
+fn show(ui: &mut egui::Ui, state: &mut State) {
+    let Some(current) = &state.current else {
+        ui.weak("No scene yet");
+        return;
+    };
+    let scene = &current.shown.scene;
+    let requirements = scene.requirements();
+    ui.strong(scene.name());
+    for (kind, count) in &requirements.primitives {
+        ui.label(format!("{}: {}", kind.plural(), grouped(*count)));
+    }
+    ui.label(format!("lights: {}", scene.lights().len()));
+    if scene.objects().is_empty() {
+        ui.label("No objects");
+    } else {
+        let size = scene.bounds().size();
+        ui.label(format!(
+            "{:.4} × {:.4} × {:.4} units",
+            size.x, size.y, size.z
+        ))
+        .on_hover_text("Width, depth and height (x, y, z) of the tight box around all objects");
+    }
+    list(
+        ui,
+        "Rendering takes",
+        &[
+            (requirements.reflects, "reflected rays"),
+            (requirements.refracts, "refracted rays"),
+            (requirements.casts_shadows, "shadow rays"),
+            (requirements.interpolates_normals, "interpolated normals"),
+        ]
+        .into_iter()
+        .filter(|(needed, _)| *needed)
+        .map(|(_, what)| what.to_owned())
+        .collect::<Vec<_>>(),
+    );
+    list(ui, "Left out", &requirements.left_out());
+    list(ui, "Notes of the reader", scene.notes());
+}
+
+fn list(ui: &mut egui::Ui, title: &str, items: &[String]) {
+    if items.is_empty() {
+        return;
+    }
+    ui.add_space(4.0);
+    ui.label(egui::RichText::new(title).underline());
+    for item in items {
+        ui.add(egui::Label::new(format!("• {item}")).wrap());
+    }
+}

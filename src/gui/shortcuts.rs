@@ -1,0 +1,219 @@
+//! The one table of shortcuts: it says what keys do, and the help window shows it.
+
+use egui::{Key, Modifiers};
+
+/// Where a shortcut counts: panes only while the pointer is over them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    Window,
+    Picture,
+    View3d,
+}
+
+impl Scope {
+    pub const ALL: [Scope; 3] = [Scope::Window, Scope::Picture, Scope::View3d];
+
+    pub const fn title(self) -> &'static str {
+        match self {
+            Scope::Window => "Everywhere",
+            Scope::Picture => "Pointer over the picture",
+            Scope::View3d => "Pointer over the 3D view",
+        }
+    }
+}
+
+/// What a shortcut does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    Help,
+    Open,
+    Path,
+    Reload,
+    Cancel,
+    Again,
+    NextMethod,
+    Deeper,
+    Shallower,
+    AutoDepth,
+    MoreInLeaf,
+    FewerInLeaf,
+    MoreRecursion,
+    LessRecursion,
+    ResetMethod,
+    SceneCamera,
+    Theme,
+    Fit,
+    ActualSize,
+    PickLeft,
+    PickRight,
+    PickUp,
+    PickDown,
+    Unpick,
+    FrameSelection,
+    FrameAll,
+    Front,
+    Side,
+    Top,
+    Orthographic,
+    Link,
+    ShowScene,
+    ShowBoxes,
+    NextColoring,
+    ShowFull,
+    ShowEmpty,
+    Shown,
+    AllDepths,
+    FlyForward,
+    FlyBack,
+    FlyLeft,
+    FlyRight,
+    FlyUp,
+    FlyDown,
+    /// Done with the mouse; listed for the help window alone.
+    Mouse,
+}
+
+/// One line of the table.
+pub struct Shortcut {
+    pub action: Action,
+    pub scope: Scope,
+    pub modifiers: Modifiers,
+    /// Any of these; none for what is done with the mouse.
+    pub keys: &'static [Key],
+    /// As people write it.
+    pub text: &'static str,
+    pub about: &'static str,
+}
+
+macro_rules! shortcuts {
+    ($( $scope:ident $action:ident $modifiers:ident [$($key:ident)*] $text:literal $about:literal; )*) => {
+        /// Every shortcut.
+        pub static SHORTCUTS: &[Shortcut] = &[$( Shortcut {
+            action: Action::$action,
+            scope: Scope::$scope,
+            modifiers: Modifiers::$modifiers,
+            keys: &[$(Key::$key),*],
+            text: $text,
+            about: $about,
+        } ),*];
+    };
+}
+
+shortcuts! {
+    Window Help NONE [Questionmark F1] "? or F1" "Show or hide this list";
+    Window Open COMMAND [O] "Ctrl+O" "Open a scene file";
+    Window Path COMMAND [L] "Ctrl+L" "Type a path or a generator's name";
+    Window Reload NONE [F5] "F5" "Read the scene's file again";
+    Window Cancel NONE [Escape] "Esc" "Close a message, or cancel what is being worked on";
+    Window Again COMMAND [R] "Ctrl+R" "Start again what was cancelled";
+    Window NextMethod COMMAND [M] "Ctrl+M" "Next build method";
+    Window Deeper COMMAND [ArrowUp] "Ctrl+Up" "D_MAX one level deeper";
+    Window Shallower COMMAND [ArrowDown] "Ctrl+Down" "D_MAX one level less";
+    Window AutoDepth COMMAND [A] "Ctrl+A" "D_MAX automatic or not";
+    Window MoreInLeaf COMMAND [ArrowRight] "Ctrl+Right" "N_OILF one object more";
+    Window FewerInLeaf COMMAND [ArrowLeft] "Ctrl+Left" "N_OILF one object less";
+    Window MoreRecursion COMMAND [PageUp] "Ctrl+Page up" "D_AREC one level more";
+    Window LessRecursion COMMAND [PageDown] "Ctrl+Page down" "D_AREC one level less";
+    Window ResetMethod COMMAND [Backspace] "Ctrl+Backspace" "Settings of the method back to the paper's";
+    Window SceneCamera COMMAND [Home] "Ctrl+Home" "Back to the scene's own camera";
+    Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
+    Window Mouse NONE [] "Drop a file" "Open it";
+    Picture Mouse NONE [] "Click" "Name the object in a pixel and follow its ray";
+    Picture Mouse NONE [] "Wheel" "Zoom to the pointer";
+    Picture Mouse NONE [] "Right-drag" "Move the picture";
+    Picture PickLeft NONE [ArrowLeft] "Left" "Pick the pixel to the left";
+    Picture PickRight NONE [ArrowRight] "Right" "Pick the pixel to the right";
+    Picture PickUp NONE [ArrowUp] "Up" "Pick the pixel above";
+    Picture PickDown NONE [ArrowDown] "Down" "Pick the pixel below";
+    Picture Unpick NONE [Delete] "Delete" "Pick no pixel";
+    Picture ActualSize COMMAND [Num0] "Ctrl+0" "Actual size: one pixel on one pixel";
+    Picture Fit NONE [Home] "Home" "Fit the picture into its pane";
+    View3d Mouse NONE [] "Left-drag" "Orbit";
+    View3d Mouse NONE [] "Right-drag" "Pan";
+    View3d Mouse NONE [] "Wheel" "Zoom to the pointer";
+    View3d FrameSelection NONE [F] "F" "Frame the selection";
+    View3d FrameAll NONE [Home] "Home" "Frame everything";
+    View3d Front NONE [Num1] "1" "Look along the y axis";
+    View3d Side NONE [Num3] "3" "Look along the x axis";
+    View3d Top NONE [Num7] "7" "Look along the z axis";
+    View3d Orthographic NONE [Num5] "5" "Orthographic or perspective";
+    View3d Link NONE [L] "L" "Link the picture's camera to this view, or not";
+    View3d ShowScene NONE [M] "M" "Show the scene's objects, or not";
+    View3d ShowBoxes NONE [B] "B" "Show leaf boxes, or not";
+    View3d NextColoring NONE [C] "C" "Colour leaves by something else";
+    View3d ShowFull NONE [O] "O" "Show full leaves, or not";
+    View3d ShowEmpty NONE [P] "P" "Show empty leaves, or not";
+    View3d Shown NONE [V] "V" "Show only the leaves that the picked ray visited, or all";
+    View3d AllDepths NONE [X] "X" "Show all depths";
+    View3d FlyForward NONE [W] "W" "Fly forward";
+    View3d FlyBack NONE [S] "S" "Fly back";
+    View3d FlyLeft NONE [A] "A" "Fly to the left";
+    View3d FlyRight NONE [D] "D" "Fly to the right";
+    View3d FlyDown NONE [Q] "Q" "Fly down";
+    View3d FlyUp NONE [E] "E" "Fly up";
+}
+
+/// Flying goes on while a key is held; all else happens once.
+fn is_held(action: Action) -> bool {
+    use Action::{FlyBack, FlyDown, FlyForward, FlyLeft, FlyRight, FlyUp};
+    matches!(
+        action,
+        FlyForward | FlyBack | FlyLeft | FlyRight | FlyUp | FlyDown
+    )
+}
+
+/// What the keys of this frame ask for. Plain keys belong to the focused widget or the open list, if
+/// there is one.
+pub fn pressed(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
+    let focused = ctx.egui_wants_keyboard_input() || egui::Popup::is_any_open(ctx);
+    let typing = ctx.text_edit_focused();
+    ctx.input_mut(|input| {
+        SHORTCUTS
+            .iter()
+            .filter(|s| s.scope == scope)
+            .filter(|s| !focused || s.modifiers != Modifiers::NONE)
+            .filter(|s| !typing || s.action == Action::Open)
+            .filter(|s| {
+                s.keys.iter().any(|&key| {
+                    if is_held(s.action) {
+                        input.modifiers.is_none() && input.key_down(key)
+                    } else {
+                        input.consume_key(s.modifiers, key)
+                    }
+                })
+            })
+            .map(|s| s.action)
+            .collect()
+    })
+}
+
+/// The keys of an action, for tooltips; empty if it has none.
+pub fn text(action: Action) -> &'static str {
+    SHORTCUTS
+        .iter()
+        .find(|s| s.action == action)
+        .map_or("", |s| s.text)
+}
+
+/// A tooltip: what a widget does, and its shortcut.
+pub fn tip(about: &str, action: Action) -> String {
+    format!("{about}\nShortcut: {}", text(action))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_does_two_things_in_one_place() {
+        assert!(!SHORTCUTS.is_empty());
+        for (i, a) in SHORTCUTS.iter().enumerate() {
+            for b in &SHORTCUTS[..i] {
+                let meet =
+                    a.scope == b.scope || a.scope == Scope::Window || b.scope == Scope::Window;
+                let same = a.modifiers == b.modifiers && a.keys.iter().any(|k| b.keys.contains(k));
+                assert!(!(meet && same), "{} is there twice", a.text);
+            }
+        }
+    }
+}

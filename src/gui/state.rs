@@ -1,0 +1,306 @@
+//! What is wanted and what is shown. All that is shown belongs together: it is swapped as one.
+
+use super::StartOptions;
+use crate::progress::Progress;
+use crate::scene::{SceneRequest, SceneSource};
+use crate::trace::{RayKind, RayPath, Tile, record_ray};
+use crate::worker::{Request, Shown, Stage, Update, Worker};
+use std::sync::Arc;
+
+/// The window's side of the worker.
+pub struct State {
+    /// What the widgets say.
+    pub wanted: Request,
+    /// The last request with its number.
+    sent: Option<(u64, Request)>,
+    worker: Worker,
+    /// The picture, tree and figures on view; `None` until the first arrive.
+    pub current: Option<Current>,
+    /// What the worker does now.
+    pub work: Option<(Stage, Progress)>,
+    /// Whether the last request was stopped by the user before it was done.
+    pub stopped: bool,
+    /// Why the last request failed, until dismissed.
+    pub failure: Option<Failure>,
+}
+
+/// A request that failed.
+pub struct Failure {
+    pub what: String,
+    pub why: String,
+}
+
+/// A picture with everything that belongs to it.
+pub struct Current {
+    number: u64,
+    pub shown: Shown,
+    /// Whether the figures are final.
+    pub complete: bool,
+    /// Whether nothing more will come.
+    pub done: bool,
+    /// Number of the newest sample in the picture.
+    pub sample: u32,
+    /// The parts of the picture that the screen does not have yet.
+    pub fresh: Fresh,
+    pub picked: Option<Picked>,
+}
+
+/// Parts of a picture.
+pub enum Fresh {
+    All,
+    Tiles(Vec<Tile>),
+}
+
+/// A pixel that was clicked, and its primary ray.
+pub struct Picked {
+    pub pixel: [u32; 2],
+    pub path: Arc<RayPath>,
+}
+
+impl Current {
+    fn new(number: u64, shown: Shown, pixel: Option<[u32; 2]>) -> Self {
+        let mut current = Current {
+            number,
+            shown,
+            complete: false,
+            done: false,
+            sample: 0,
+            fresh: Fresh::All,
+            picked: None,
+        };
+        if let Some(pixel) = pixel {
+            current.pick(pixel);
+        }
+        current
+    }
+
+    /// Follows the primary ray of a pixel; one outside the picture picks none.
+    pub fn pick(&mut self, [x, y]: [u32; 2]) {
+        let Shown {
+            render,
+            scene,
+            tree,
+            ..
+        } = &self.shown;
+        self.picked = match render.view() {
+            Ok(view) if x < render.width && y < render.height => Some(Picked {
+                pixel: [x, y],
+                path: Arc::new(record_ray(
+                    scene,
+                    tree,
+                    RayKind::Primary,
+                    &view.primary_ray(x, y, 0),
+                )),
+            }),
+            _ => None,
+        };
+    }
+
+    /// The settings of what is shown, in one line.
+    pub fn settings_text(&self) -> String {
+        let Shown {
+            scene,
+            measurement: m,
+            ..
+        } = &self.shown;
+        format!(
+            "{} · {} · D_MAX {} · N_OILF {} · D_AREC {} · {} × {} pixels",
+            scene.name(),
+            m.build.method.name,
+            m.depth_in_words(),
+            m.build.n_oilf,
+            m.render.d_arec,
+            m.render.width,
+            m.render.height,
+        )
+    }
+}
+
+impl State {
+    pub fn new(start: &StartOptions, ctx: &egui::Context) -> Self {
+        let ctx = ctx.clone();
+        State {
+            wanted: Request {
+                scene: start.scene.clone(),
+                build: start.build.clone(),
+                render: start.render,
+                own_camera: start.own_camera,
+                reload: 0,
+            },
+            sent: None,
+            worker: Worker::start(move || ctx.request_repaint()),
+            current: None,
+            work: None,
+            stopped: false,
+            failure: None,
+        }
+    }
+
+    /// Asks for another scene, seen by its own camera.
+    pub fn open(&mut self, source: SceneSource) {
+        self.wanted.scene = SceneRequest {
+            source,
+            cylinders: self.wanted.scene.cylinders,
+        };
+        self.wanted.own_camera = false;
+        self.failure = None;
+        self.again();
+    }
+
+    /// Reads the scene again.
+    pub fn reload(&mut self) {
+        self.wanted.reload += 1;
+    }
+
+    /// Asks once more for what is wanted, after it was stopped or failed.
+    pub fn again(&mut self) {
+        self.sent = None;
+    }
+
+    /// Stops what the worker does; what is shown stays.
+    pub fn cancel(&mut self) {
+        if self.work.take().is_some() {
+            self.worker.cancel();
+            self.stopped = true;
+        }
+    }
+
+    /// Whether what is shown was made with other settings than the widgets say.
+    pub fn is_previous(&self) -> bool {
+        self.current
+            .as_ref()
+            .is_some_and(|current| current.shown.request != self.wanted)
+    }
+
+    /// Whether what is shown differs from what is wanted in the camera alone.
+    pub fn only_camera_differs(&self) -> bool {
+        self.current
+            .as_ref()
+            .is_some_and(|current| same_but_camera(&current.shown.request, &self.wanted))
+    }
+
+    /// Takes the worker's news; gives the scenes that came into view.
+    pub fn receive(&mut self) -> Vec<SceneSource> {
+        let mut opened = Vec::new();
+        let updates: Vec<_> = self.worker.updates().collect();
+        for news in updates {
+            let is_last = self.sent.as_ref().is_some_and(|(n, _)| *n == news.request);
+            match news.update {
+                Update::Stage(stage, progress) => {
+                    if is_last && !self.stopped {
+                        self.work = Some((stage, progress));
+                    }
+                }
+                Update::Shown(shown) => {
+                    let source = &shown.request.scene.source;
+                    let known = self.current.as_ref().map(|c| &c.shown.request.scene.source);
+                    if known != Some(source) {
+                        opened.push(source.clone());
+                    }
+                    let pixel = self.kept_pixel(&shown);
+                    self.current = Some(Current::new(news.request, *shown, pixel));
+                }
+                update => {
+                    if let Update::Failed(reason) = &update
+                        && is_last
+                    {
+                        self.fail(reason.clone());
+                        continue;
+                    }
+                    if is_last && matches!(update, Update::Done) {
+                        self.work = None;
+                    }
+                    if let Some(current) = &mut self.current
+                        && current.number == news.request
+                    {
+                        current.take(update);
+                    }
+                }
+            }
+        }
+        opened
+    }
+
+    /// A picked pixel stays picked in a new picture of the same scene and size.
+    fn kept_pixel(&self, shown: &Shown) -> Option<[u32; 2]> {
+        let before = self.current.as_ref()?;
+        let same = Arc::ptr_eq(&before.shown.scene, &shown.scene)
+            && before.shown.picture.width == shown.picture.width
+            && before.shown.picture.height == shown.picture.height;
+        Some(before.picked.as_ref()?.pixel).filter(|_| same)
+    }
+
+    fn fail(&mut self, why: String) {
+        let loading = matches!(self.work, Some((Stage::Loading, _)));
+        self.work = None;
+        let what = if loading {
+            format!("{} could not be opened", self.wanted.scene.source)
+        } else {
+            "This could not be done".to_owned()
+        };
+        self.failure = Some(Failure { what, why });
+        // The scene that is there stays, and so do the settings that go with it.
+        if loading && let Some(current) = &self.current {
+            let before = &current.shown.request;
+            self.wanted.scene = before.scene.clone();
+            self.wanted.reload = before.reload;
+            self.wanted.own_camera = before.own_camera;
+            if current.done && *before == self.wanted {
+                self.sent = Some((current.number, before.clone()));
+            }
+        }
+    }
+
+    /// Sends what is wanted if it is news. A camera move waits until the last request has a
+    /// picture, else moving the camera would starve it.
+    pub fn send(&mut self) {
+        if let Some((number, last)) = &self.sent {
+            if *last == self.wanted {
+                return;
+            }
+            let has_picture = self.current.as_ref().is_some_and(|c| c.number == *number);
+            if self.work.is_some() && !has_picture && same_but_camera(last, &self.wanted) {
+                return;
+            }
+        }
+        let number = self.worker.request(self.wanted.clone());
+        self.sent = Some((number, self.wanted.clone()));
+        self.stopped = false;
+        self.failure = self.failure.take().filter(|_| self.current.is_some());
+        self.work = Some((Stage::Previewing, Progress::new()));
+    }
+}
+
+impl Current {
+    fn take(&mut self, update: Update) {
+        match update {
+            Update::Tile {
+                tile,
+                sample,
+                colors,
+            } => {
+                self.shown.picture.add_tile(&tile, sample, &colors);
+                self.sample = self.sample.max(sample);
+                if let Fresh::Tiles(tiles) = &mut self.fresh {
+                    tiles.push(tile);
+                }
+            }
+            Update::Measured {
+                measurement,
+                complete,
+            } => {
+                self.shown.measurement = *measurement;
+                self.complete = complete;
+            }
+            Update::Done => self.done = true,
+            Update::Stage(..) | Update::Shown(_) | Update::Failed(_) => {}
+        }
+    }
+}
+
+fn same_but_camera(a: &Request, b: &Request) -> bool {
+    let mut a = a.clone();
+    a.render.camera = b.render.camera;
+    a.own_camera = b.own_camera;
+    a == *b
+}

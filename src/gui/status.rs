@@ -1,0 +1,86 @@
+//! The line at the bottom: pixel, colour, sample, rays a second, memory.
+
+use super::picture_pane::color_text;
+use super::state::State;
+use super::symbol::grouped;
+
+/// What the line keeps from frame to frame.
+#[derive(Default)]
+pub struct StatusLine {
+    /// Bytes of memory, and when they were asked for in seconds.
+    memory: Option<(usize, f64)>,
+}
+
+impl StatusLine {
+    /// Shows the line.
+    pub fn ui(&mut self, ui: &mut egui::Ui, state: &State, hovered: Option<[u32; 2]>) {
+        ui.horizontal(|ui| {
+            ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
+            let current = state.current.as_ref();
+            let pixel = match (hovered, current) {
+                (Some([x, y]), Some(current)) => format!(
+                    "Pixel {x}, {y}: {}",
+                    color_text(current.shown.picture.get(x, y))
+                ),
+                _ => "Pixel –".to_owned(),
+            };
+            // The rest of the line keeps its place whatever the pixel's text is.
+            let (rect, _) = ui.allocate_exact_size(
+                egui::vec2(400.0, ui.available_height()),
+                egui::Sense::hover(),
+            );
+            ui.put(rect, |ui: &mut egui::Ui| {
+                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                    ui.label(pixel)
+                })
+                .inner
+            });
+            ui.separator();
+            let samples = match current {
+                Some(current) => format!(
+                    "Sample {} of {}",
+                    current.sample + 1,
+                    current.shown.render.samples
+                ),
+                None => "Sample –".to_owned(),
+            };
+            ui.label(samples).on_hover_text("Samples a pixel, so far");
+            ui.separator();
+            ui.label(
+                current
+                    .and_then(|c| rays_per_second(&c.shown.measurement))
+                    .map_or_else(
+                        || "– rays/s".to_owned(),
+                        |rays| format!("{} rays/s", grouped(rays as usize)),
+                    ),
+            )
+            .on_hover_text(
+                "All rays of the picture by the time on the wall of the timed pass, all threads",
+            );
+            ui.separator();
+            let memory = self.memory(ui.input(|i| i.time));
+            ui.label(memory.map_or_else(
+                || "Memory –".to_owned(),
+                |bytes| format!("Memory {} MiB", grouped(bytes >> 20)),
+            ))
+            .on_hover_text("Physical memory of this program");
+        });
+    }
+
+    fn memory(&mut self, now: f64) -> Option<usize> {
+        const EVERY: f64 = 1.0;
+        if self.memory.is_none_or(|(_, then)| now - then > EVERY) {
+            self.memory = memory_stats::memory_stats().map(|m| (m.physical_mem, now));
+        }
+        self.memory.map(|(bytes, _)| bytes)
+    }
+}
+
+/// `None` until all rays are counted.
+fn rays_per_second(measurement: &crate::measure::Measurement) -> Option<f64> {
+    let wall = measurement.rendering?.wall.as_secs_f64();
+    let primary = measurement.tally(crate::trace::RayKind::Primary)?.rays;
+    let pixels = u64::from(measurement.render.width) * u64::from(measurement.render.height);
+    let rays = measurement.all_rays()?.rays;
+    (primary == pixels && wall > 0.0).then(|| rays as f64 / wall)
+}

@@ -1,0 +1,199 @@
+//! The bar at the top: scene, method, D_MAX, N_OILF, D_AREC, and what is being worked on.
+
+use super::files::Files;
+use super::shortcuts::{Action, text, tip};
+use super::state::State;
+use crate::measure::parameter;
+use crate::tree::{BuildSettings, MaxDepth, Method};
+
+/// The most that the window lets secondary rays recurse.
+pub const MOST_RECURSION: u32 = 50;
+
+/// Shows the bar.
+pub fn show(ui: &mut egui::Ui, state: &mut State, files: &mut Files, help: &mut bool) {
+    ui.horizontal_wrapped(|ui| {
+        files.ui(ui, state);
+        if ui
+            .button("Shortcuts ?")
+            .on_hover_text(tip("Show or hide all shortcuts.", Action::Help))
+            .clicked()
+        {
+            *help = !*help;
+        }
+        let dark = ui.visuals().dark_mode;
+        if ui
+            .button(if dark { "Light" } else { "Dark" })
+            .on_hover_text(tip("Light or dark window.", Action::Theme))
+            .clicked()
+        {
+            toggle_theme(ui.ctx());
+        }
+    });
+    ui.horizontal_wrapped(|ui| {
+        method(ui, state);
+        ui.separator();
+        d_max(ui, state);
+        n_oilf(ui, state);
+        d_arec(ui, state);
+        ui.separator();
+        work(ui, state);
+    });
+}
+
+/// From dark to light and back.
+pub fn toggle_theme(ctx: &egui::Context) {
+    ctx.set_theme(match ctx.theme() {
+        egui::Theme::Dark => egui::ThemePreference::Light,
+        egui::Theme::Light => egui::ThemePreference::Dark,
+    });
+}
+
+fn method(ui: &mut egui::Ui, state: &mut State) {
+    let method = state.wanted.build.method;
+    egui::ComboBox::from_id_salt("method")
+        .selected_text(format!("Method: {}", method.name))
+        .width(150.0)
+        .show_ui(ui, |ui| {
+            for other in Method::all() {
+                let item = ui.selectable_label(other == method, other.title);
+                let item = item.on_hover_text(format!("{}\nSource: {}", other.about, other.source));
+                if item.clicked() {
+                    choose_method(&mut state.wanted.build, other);
+                }
+            }
+        })
+        .response
+        .on_hover_text(tip(
+            &format!("{}\n{}", method.title, method.about),
+            Action::NextMethod,
+        ));
+}
+
+/// Another method, everything but its own constants as before.
+pub fn choose_method(build: &mut BuildSettings, method: Method) {
+    if build.method != method {
+        build.method = method;
+        build.constants.clear();
+    }
+}
+
+fn d_max(ui: &mut egui::Ui, state: &mut State) {
+    let automatic = state.wanted.build.d_max == MaxDepth::Automatic;
+    let about = about("D_MAX", Action::Deeper);
+    ui.label("D_MAX").on_hover_text(&about);
+    // While automatic, the number says what that came to in the tree on view.
+    let resolved = state
+        .current
+        .as_ref()
+        .map_or(0, |c| c.shown.tree.depth_limit());
+    let mut depth = match state.wanted.build.d_max {
+        MaxDepth::Fixed(depth) => depth,
+        MaxDepth::Automatic => resolved,
+    };
+    let changed = ui.name_inputs("D_MAX", |ui| {
+        ui.spacing_mut().slider_width = 80.0;
+        let slider = egui::Slider::new(&mut depth, 0..=MaxDepth::LIMIT);
+        ui.add_enabled(!automatic, slider)
+            .on_hover_text(&about)
+            .changed()
+    });
+    if changed && !automatic {
+        state.wanted.build.d_max = MaxDepth::Fixed(depth);
+    }
+    let mut auto = automatic;
+    ui.checkbox(&mut auto, "auto")
+        .on_hover_text(tip("D_MAX = 1.2 log2 N_O + 2, rounded.", Action::AutoDepth));
+    if auto != automatic {
+        toggle_automatic(state);
+    }
+}
+
+/// Between an automatic `D_MAX` and the number it came to.
+pub fn toggle_automatic(state: &mut State) {
+    let resolved = state
+        .current
+        .as_ref()
+        .map_or(20, |c| c.shown.tree.depth_limit());
+    let d_max = &mut state.wanted.build.d_max;
+    *d_max = match d_max {
+        MaxDepth::Automatic => MaxDepth::Fixed(resolved),
+        MaxDepth::Fixed(_) => MaxDepth::Automatic,
+    };
+}
+
+fn n_oilf(ui: &mut egui::Ui, state: &mut State) {
+    let about = about("N_OILF", Action::MoreInLeaf);
+    ui.label("N_OILF").on_hover_text(&about);
+    let edit = egui::DragValue::new(&mut state.wanted.build.n_oilf)
+        .range(0..=10_000)
+        .speed(0.1);
+    ui.name_inputs("N_OILF", |ui| ui.add(edit).on_hover_text(&about));
+}
+
+fn d_arec(ui: &mut egui::Ui, state: &mut State) {
+    let about = about("D_AREC", Action::MoreRecursion);
+    ui.label("D_AREC").on_hover_text(&about);
+    let edit = egui::DragValue::new(&mut state.wanted.render.d_arec)
+        .range(0..=MOST_RECURSION)
+        .speed(0.05);
+    ui.name_inputs("D_AREC", |ui| ui.add(edit).on_hover_text(&about));
+}
+
+/// The tooltip of a setting that is one of the paper's parameters.
+fn about(symbol: &str, action: Action) -> String {
+    let p = parameter(symbol);
+    tip(
+        &format!(
+            "{}: {}\n{}\nClass {:?} · {}",
+            p.symbol,
+            p.name,
+            p.meaning,
+            p.class,
+            p.table.title()
+        ),
+        action,
+    )
+}
+
+/// What the worker does, how far it is, and a way to stop it.
+fn work(ui: &mut egui::Ui, state: &mut State) {
+    let (fraction, label) = match &state.work {
+        Some((stage, progress)) => (progress.fraction() as f32, stage.text()),
+        None if state.stopped => (0.0, "cancelled".to_owned()),
+        None => (1.0, "ready".to_owned()),
+    };
+    let working = state.work.is_some();
+    let percent = (fraction * 100.0).round();
+    let shown = if working {
+        format!("{label} {percent} %")
+    } else {
+        label
+    };
+    ui.add(
+        egui::ProgressBar::new(fraction)
+            .desired_width(190.0)
+            .text(shown),
+    );
+    if working {
+        // The worker wakes the window for results; progress in between is worth a look now and then.
+        ui.ctx().request_repaint_after_secs(0.1);
+    }
+    if state.stopped {
+        if ui
+            .button("Resume")
+            .on_hover_text(tip("Start again what was cancelled.", Action::Again))
+            .clicked()
+        {
+            state.again();
+        }
+    } else if ui
+        .add_enabled(working, egui::Button::new("Cancel"))
+        .on_hover_text(format!(
+            "Stop; what is shown stays.\nShortcut: {}",
+            text(Action::Cancel)
+        ))
+        .clicked()
+    {
+        state.cancel();
+    }
+}

@@ -1,0 +1,99 @@
+//! The leaf boxes of the tree on view, made off the window's thread where there are many.
+
+use crate::geometry::Vec3;
+use crate::gui::background::Latest;
+use crate::overlay::{Coloring, Filter, LeafBoxes, leaf_boxes};
+use crate::tree::Tree;
+use std::sync::Arc;
+
+/// What decides the boxes.
+#[derive(Clone)]
+struct Key {
+    tree: Arc<Tree>,
+    filter: Filter,
+    coloring: &'static Coloring,
+}
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.tree, &other.tree)
+            && self.filter == other.filter
+            && self.coloring.name == other.coloring.name
+    }
+}
+
+/// Up to this many nodes, boxes take less time to make than a frame to draw.
+const NODES_AT_ONCE: usize = 30_000;
+
+/// Buffers may take 256 MiB, a box takes 28 bytes.
+const MOST_BOXES: usize = 9_000_000;
+
+/// The boxes of the latest tree, filter and colouring.
+#[derive(Default)]
+pub struct Boxes {
+    made: Latest<Key, LeafBoxes>,
+}
+
+impl Boxes {
+    /// The boxes; `None` while they are being made. Those of another tree are never given.
+    pub fn get(
+        &mut self,
+        tree: &Arc<Tree>,
+        filter: Filter,
+        coloring: &'static Coloring,
+        center: Vec3,
+        ctx: &egui::Context,
+    ) -> Option<Arc<LeafBoxes>> {
+        let key = Key {
+            tree: Arc::clone(tree),
+            filter,
+            coloring,
+        };
+        if let Some(boxes) = self.made.ready(&key) {
+            return Some(boxes);
+        }
+        let make = {
+            let key = key.clone();
+            move || {
+                let mut boxes = leaf_boxes(&key.tree, &key.filter, key.coloring, center);
+                boxes.instances = spread(&boxes.instances);
+                boxes.instances.truncate(MOST_BOXES);
+                boxes
+            }
+        };
+        if tree.nodes().len() <= NODES_AT_ONCE {
+            Some(self.made.put(key, make()))
+        } else {
+            self.made.get(&key, ctx, make)
+        }
+    }
+}
+
+/// The same in an order of which every beginning is spread over the whole.
+fn spread<T: Copy>(items: &[T]) -> Vec<T> {
+    let n = items.len();
+    let mut step = (n as f64 * 0.618) as usize;
+    while step > 1 && gcd(step, n) != 1 {
+        step -= 1;
+    }
+    (0..n).map(|i| items[i * step.max(1) % n]).collect()
+}
+
+fn gcd(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { gcd(b, a % b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spreading_keeps_everything_once() {
+        for n in [0, 1, 2, 3, 10, 97, 1000] {
+            let items: Vec<usize> = (0..n).collect();
+            let mut mixed = spread(&items);
+            mixed.sort_unstable();
+            assert_eq!(mixed, items);
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! What the colours and lines of the 3D view mean.
+
+use super::Settings;
+use crate::gui::symbol::grouped;
+use crate::overlay::{Coloring, LeafBoxes, order_color};
+use crate::trace::RayPath;
+use egui::{Color32, Rect, pos2, vec2};
+
+/// Length of the colour bar in points, where there is room.
+const BAR: f32 = 210.0;
+
+/// What a legend tells.
+pub struct Legend<'a> {
+    pub settings: &'a Settings,
+    pub boxes: Option<&'a LeafBoxes>,
+    /// How many of the boxes are drawn.
+    pub drawn: u32,
+    pub path: Option<&'a RayPath>,
+    /// Objects that were left out.
+    pub left_out: usize,
+}
+
+/// Shows the legend in the lower left corner of the view.
+pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) {
+    // The ground is dark in both themes, and so is the legend.
+    let visuals = egui::Visuals {
+        override_text_color: Some(Color32::from_gray(225)),
+        ..egui::Visuals::dark()
+    };
+    // Its height is known once it was laid out: the last frame's tells where it begins.
+    let id = ui.scope_id().with("legend height");
+    let height = ui.data(|data| data.get_temp::<f32>(id)).unwrap_or(100.0);
+    let corner = view.left_bottom() + vec2(8.0, -8.0 - height);
+    let space = Rect::from_min_max(corner, view.right_bottom());
+    let builder = egui::UiBuilder::new()
+        .max_rect(space)
+        .layout(egui::Layout::top_down(egui::Align::LEFT));
+    let shown = ui.scope_builder(builder, |ui| {
+        *ui.visuals_mut() = visuals;
+        ui.shrink_clip_rect(view);
+        egui::Frame::new()
+            .fill(Color32::from_black_alpha(190))
+            .corner_radius(4)
+            .inner_margin(6)
+            .show(ui, |ui| {
+                ui.set_max_width((view.width() - 30.0).clamp(80.0, 330.0));
+                ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Wrap);
+                ui.spacing_mut().item_spacing.y = 2.0;
+                contents(legend, ui);
+            })
+    });
+    let now = shown.inner.response.rect.height();
+    if now != height {
+        ui.data_mut(|data| data.insert_temp(id, now));
+        ui.ctx().request_repaint();
+    }
+}
+
+fn contents(legend: &Legend<'_>, ui: &mut egui::Ui) {
+    let coloring = legend.settings.coloring;
+    match legend.boxes {
+        Some(boxes) if !legend.settings.only_visited => {
+            if coloring.unit.is_empty() {
+                ui.strong(format!("Leaves by {}", coloring.title.to_lowercase()));
+            } else {
+                ui.strong(format!("{} ({})", coloring.title, coloring.unit));
+            }
+            color_bar(coloring, boxes.highest, ui);
+            ui.label("solid edges: full leaf · dashed edges: empty leaf");
+            let shown = boxes.instances.len();
+            ui.label(format!(
+                "{} of {} leaves shown",
+                grouped(shown),
+                grouped(boxes.leaves)
+            ));
+            if (legend.drawn as usize) < shown {
+                ui.label(format!(
+                    "drawn by the processor: {} of them",
+                    grouped(legend.drawn as usize)
+                ));
+            }
+        }
+        None if legend.settings.boxes && !legend.settings.only_visited => {
+            ui.label("Preparing the leaf boxes …");
+        }
+        _ => {
+            ui.label("Leaf boxes are not shown");
+        }
+    }
+    if let Some(path) = legend.path {
+        path_key(path, ui);
+    }
+    if !legend.settings.linked {
+        ui.label("white pyramid: the picture's camera");
+    }
+    if legend.left_out > 0 {
+        ui.label(format!(
+            "{} objects left out: too many for the graphics card",
+            grouped(legend.left_out)
+        ));
+    }
+}
+
+/// The colours from the lowest to the highest value, with numbers.
+fn color_bar(coloring: &Coloring, highest: f64, ui: &mut egui::Ui) {
+    let bar = BAR.min(ui.available_width() - 24.0);
+    let (rect, _) = ui.allocate_exact_size(vec2(bar + 24.0, 28.0), egui::Sense::hover());
+    let painter = ui.painter();
+    let left = rect.left() + 6.0;
+    let text = ui.visuals().text_color();
+    let font = egui::FontId::proportional(11.0);
+    let color = |place: f64| {
+        let [r, g, b] = coloring.color_at(place);
+        Color32::from_rgb(r, g, b)
+    };
+    let marks = coloring.marks(highest);
+    if coloring.is_continuous() {
+        const STEPS: u32 = 64;
+        for i in 0..STEPS {
+            let x = left + bar * i as f32 / STEPS as f32;
+            let piece =
+                Rect::from_min_size(pos2(x, rect.top()), vec2(bar / STEPS as f32 + 0.5, 12.0));
+            painter.rect_filled(piece, 0.0, color(f64::from(i) / f64::from(STEPS - 1)));
+        }
+    }
+    for mark in marks {
+        let x = left + bar * mark.place as f32;
+        if coloring.is_continuous() {
+            painter.vline(
+                x,
+                rect.top() + 12.0..=rect.top() + 15.0,
+                egui::Stroke::new(1.0, text),
+            );
+            let at = pos2(x, rect.top() + 15.0);
+            painter.text(at, egui::Align2::CENTER_TOP, mark.text, font.clone(), text);
+        } else {
+            let x = left + bar * 0.5 * mark.place as f32;
+            let patch = Rect::from_min_size(pos2(x, rect.top() + 6.0), vec2(28.0, 12.0));
+            painter.rect_filled(patch, 0.0, color(mark.place));
+            let at = patch.right_center() + vec2(5.0, 0.0);
+            painter.text(at, egui::Align2::LEFT_CENTER, mark.text, font.clone(), text);
+        }
+    }
+}
+
+/// What is drawn of the picked ray.
+fn path_key(path: &RayPath, ui: &mut egui::Ui) {
+    let n = path.leaves().count();
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        for i in 0..6 {
+            let [r, g, b] = order_color(i, 6);
+            let (rect, _) = ui.allocate_exact_size(vec2(10.0, 10.0), egui::Sense::hover());
+            ui.painter()
+                .rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
+        }
+        ui.add_space(6.0);
+        ui.label(match n {
+            0 => "the picked ray visits no leaf".to_owned(),
+            1 => "the 1 leaf visited by the picked ray".to_owned(),
+            _ => format!("leaves visited by the ray, 1 to {n} in order"),
+        });
+    });
+    ui.label("white: the ray and the box of the object hit");
+}

@@ -1,0 +1,358 @@
+//! The 3D view: the scene, the leaves of its tree, and the path of the picked pixel's ray.
+
+mod camera;
+mod controls;
+mod leaf_boxes;
+mod legend;
+mod pipelines;
+mod renderer;
+mod scene_mesh;
+
+use super::background::Latest;
+use super::shortcuts::{Scope, pressed};
+use super::state::{Current, State};
+use crate::geometry::{Aabb, Vec3};
+use crate::overlay::{self, Line};
+use crate::scene::{Camera, Scene};
+use crate::trace::{RayKind, record_ray};
+use camera::ViewCamera;
+use controls::Settings;
+use eframe::egui_wgpu::{self, wgpu};
+use egui::{Color32, Rect, vec2};
+use renderer::{Frame3d, Globals};
+use std::sync::Arc;
+
+/// Behind everything, in both themes: the colour maps are made for a dark ground.
+const GROUND: [u8; 3] = [24, 27, 33];
+
+/// Boxes that a processor can draw fast enough to follow the mouse, and at rest.
+const BOXES_IN_SOFTWARE: [u32; 2] = [12_000, 250_000];
+
+/// How long after the last movement everything is drawn again, in seconds.
+const REST: f64 = 0.2;
+
+/// The 3D view's state.
+pub struct View3d {
+    /// `None` where there is no graphics adapter.
+    adapter: Option<Adapter>,
+    camera: ViewCamera,
+    settings: Settings,
+    /// The scene that the camera was set for.
+    scene: Option<Arc<Scene>>,
+    mesh: Latest<SceneKey, scene_mesh::SceneMesh>,
+    boxes: leaf_boxes::Boxes,
+    lines: Arc<Vec<Line>>,
+    /// When the camera moved last, in seconds.
+    moved: f64,
+}
+
+/// What draws.
+struct Adapter {
+    /// The processor does the drawing.
+    software: bool,
+}
+
+/// A scene by identity.
+#[derive(Clone)]
+struct SceneKey(Arc<Scene>);
+
+impl PartialEq for SceneKey {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl View3d {
+    pub fn new(graphics: Option<&egui_wgpu::RenderState>, start: Camera) -> Self {
+        let adapter = graphics.map(|state| {
+            renderer::install(state);
+            Adapter {
+                software: state.adapter.get_info().device_type == wgpu::DeviceType::Cpu,
+            }
+        });
+        View3d {
+            adapter,
+            camera: ViewCamera::new(start),
+            settings: Settings::default(),
+            scene: None,
+            mesh: Latest::default(),
+            boxes: leaf_boxes::Boxes::default(),
+            lines: Arc::default(),
+            moved: f64::NEG_INFINITY,
+        }
+    }
+
+    /// Shows the view and moves its camera.
+    pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
+        self.follow(state);
+        controls::toolbar(self, ui, state);
+        let size = super::rest_of(ui);
+        let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
+        response.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::Role::Canvas, true, "3D view of scene and tree")
+        });
+        self.camera.aspect = f64::from(rect.width() / rect.height());
+        if self.steer(ui, &response, state) {
+            self.moved = ui.input(|i| i.time);
+            if self.settings.linked {
+                state.wanted.render.camera = self.camera.camera;
+                state.wanted.own_camera = true;
+            }
+        }
+        let [r, g, b] = GROUND;
+        ui.painter()
+            .rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
+        match (&self.adapter, &state.current) {
+            (None, _) => {
+                note(
+                    ui,
+                    rect,
+                    "The 3D view needs a graphics adapter; there is none.",
+                );
+            }
+            (Some(_), None) => note(ui, rect, "No scene yet"),
+            (Some(_), Some(current)) => self.draw(ui, rect, current),
+        }
+    }
+
+    /// Takes over a new scene's camera, or the picture's while linked.
+    fn follow(&mut self, state: &State) {
+        let Some(current) = &state.current else {
+            return;
+        };
+        let shown = &current.shown;
+        let known = self
+            .scene
+            .as_ref()
+            .is_some_and(|scene| Arc::ptr_eq(scene, &shown.scene));
+        let reset = self.settings.linked && !state.wanted.own_camera && !state.is_previous();
+        if !known || reset {
+            self.camera.camera = shown.render.camera;
+        }
+        if !known {
+            self.scene = Some(Arc::clone(&shown.scene));
+            self.settings.filter.depth = overlay::Filter::default().depth;
+        }
+    }
+
+    /// Links the picture's camera to this view's, which goes where the picture's is.
+    fn link(&mut self, linked: bool, state: &State) {
+        self.settings.linked = linked;
+        if linked && let Some(current) = &state.current {
+            self.camera.camera = current.shown.render.camera;
+        }
+    }
+
+    /// Mouse and keys; says whether the camera moved.
+    fn steer(&mut self, ui: &egui::Ui, response: &egui::Response, state: &State) -> bool {
+        let rect = response.rect;
+        let mut moved = false;
+        let by = response.drag_delta() / rect.height();
+        let (dx, dy) = (f64::from(by.x), f64::from(by.y));
+        if by != egui::Vec2::ZERO {
+            if response.dragged_by(egui::PointerButton::Primary) {
+                self.camera.orbit(dx, dy);
+                moved = true;
+            } else if response.dragged_by(egui::PointerButton::Secondary)
+                || response.dragged_by(egui::PointerButton::Middle)
+            {
+                self.camera.pan(dx, dy);
+                moved = true;
+            }
+        }
+        if !response.hovered() {
+            return moved;
+        }
+        let (wheel, dt) = ui.input(|i| (i.smooth_scroll_delta().y, f64::from(i.stable_dt)));
+        if wheel != 0.0
+            && let Some(pointer) = response.hover_pos()
+        {
+            let factor = libm::exp(-f64::from(wheel) * 0.004);
+            self.camera
+                .zoom(factor, self.point_under(pointer, rect, state));
+            moved = true;
+        }
+        let before = self.camera;
+        for action in pressed(ui.ctx(), Scope::View3d) {
+            if controls::act(self, action, state, dt.min(0.1)) {
+                moved = true;
+                // A key that is held goes on moving.
+                ui.ctx().request_repaint();
+            }
+        }
+        moved && (by != egui::Vec2::ZERO || wheel != 0.0 || self.camera != before)
+    }
+
+    /// The point of the scene under the pointer; where there is none, at the orbited distance.
+    fn point_under(&self, pointer: egui::Pos2, rect: Rect, state: &State) -> Vec3 {
+        let half = rect.height() * 0.5;
+        let at = (pointer - rect.center()) / half;
+        let ray = self.camera.ray(f64::from(at.x), f64::from(-at.y));
+        if let Some(current) = &state.current {
+            let (scene, tree) = (&current.shown.scene, &current.shown.tree);
+            let hit = record_ray(scene, tree, RayKind::Primary, &ray).hit;
+            if hit.is_hit() {
+                return ray.at(hit.t);
+            }
+        }
+        self.camera.on_target_plane(&ray)
+    }
+
+    fn draw(&mut self, ui: &mut egui::Ui, rect: Rect, current: &Current) {
+        let (scene, tree) = (&current.shown.scene, &current.shown.tree);
+        let center = scene_mesh::center_of(scene);
+        let ctx = ui.ctx();
+        let path = current.picked.as_ref().map(|picked| &picked.path);
+        let mesh = if self.settings.scene {
+            let making = Arc::clone(scene);
+            let key = SceneKey(Arc::clone(scene));
+            self.mesh
+                .get(&key, ctx, move || scene_mesh::scene_mesh(&making, center))
+        } else {
+            None
+        };
+        let only_visited = self.settings.only_visited && path.is_some();
+        let boxes = (self.settings.boxes && !only_visited)
+            .then(|| {
+                let Settings {
+                    filter, coloring, ..
+                } = self.settings;
+                self.boxes.get(tree, filter, coloring, center, ctx)
+            })
+            .flatten();
+        let lines = self.lines_for(current, center);
+        if *self.lines != lines {
+            self.lines = Arc::new(lines);
+        }
+
+        let all = boxes.as_ref().map_or(0, |b| b.instances.len() as u32);
+        let resting = ui.input(|i| i.time) - self.moved;
+        let software = self.adapter.as_ref().is_some_and(|a| a.software);
+        let [moving, at_rest] = BOXES_IN_SOFTWARE;
+        let mut drawn = if software { all.min(at_rest) } else { all };
+        if software && all > moving && resting < REST {
+            drawn = moving;
+            ctx.request_repaint_after_secs((REST - resting) as f32 + 0.01);
+        }
+
+        let mut bounds = tree.root_cell();
+        if !self.settings.linked {
+            let eye = current.shown.render.camera.from;
+            bounds = bounds.union(&Aabb::new(eye, eye));
+        }
+        let left_out = mesh.as_ref().map_or(0, |mesh| mesh.left_out);
+        let pixels = ctx.pixels_per_point();
+        let frame = Frame3d {
+            globals: self.globals(rect, center, &bounds),
+            size: [
+                (rect.width() * pixels).round().max(1.0) as u32,
+                (rect.height() * pixels).round().max(1.0) as u32,
+            ],
+            ground: GROUND,
+            mesh,
+            boxes: boxes.clone(),
+            box_count: drawn,
+            lines: Arc::clone(&self.lines),
+        };
+        ui.painter()
+            .add(egui_wgpu::Callback::new_paint_callback(rect, frame));
+        if let Some(path) = path {
+            self.number_leaves(ui, rect, path);
+        }
+        let legend = legend::Legend {
+            settings: &self.settings,
+            boxes: boxes.as_deref(),
+            drawn,
+            path: path.map(|path| &**path),
+            left_out,
+        };
+        legend::show(&legend, ui, rect);
+    }
+
+    fn globals(&self, rect: Rect, center: Vec3, bounds: &Aabb) -> Globals {
+        let [forward, right, up] = self.camera.frame();
+        let eye = self.camera.camera.from - center;
+        let full = |v: Vec3, w: f32| v.as_vec3().extend(w).to_array();
+        let clip = self.camera.clip_from_scene(center, bounds);
+        Globals {
+            clip_from_scene: clip.as_mat4().to_cols_array_2d(),
+            eye: full(eye, f32::from(u8::from(self.camera.orthographic))),
+            forward: full(forward, 0.0),
+            right: full(right, 0.0),
+            up: full(up, 0.0),
+            size: [
+                rect.width(),
+                rect.height(),
+                bounds.size().length() as f32 * 0.5,
+                0.0,
+            ],
+        }
+    }
+
+    /// The picked ray with its leaves and the object hit, and the picture's camera if it is another.
+    fn lines_for(&self, current: &Current, center: Vec3) -> Vec<Line> {
+        const WHITE: [u8; 4] = [255; 4];
+        let mut lines = Vec::new();
+        if let Some(picked) = &current.picked {
+            lines.extend(overlay::path_lines(&picked.path, center));
+            if picked.path.hit.is_hit()
+                && let Some(bounds) = controls::selection(current)
+            {
+                lines.extend(overlay::box_lines(&bounds, center, WHITE, 1.0));
+            }
+        }
+        if !self.settings.linked {
+            let render = &current.shown.render;
+            let aspect = f64::from(render.width) / f64::from(render.height);
+            let length = render.camera.from.distance(render.camera.at);
+            lines.extend(overlay::frustum_lines(
+                &render.camera,
+                aspect,
+                length,
+                center,
+            ));
+        }
+        lines
+    }
+
+    /// Writes 1, 2, 3 … into the leaves that the ray visited.
+    fn number_leaves(&self, ui: &egui::Ui, rect: Rect, path: &crate::trace::RayPath) {
+        let painter = ui.painter().with_clip_rect(rect);
+        let mut taken: Vec<egui::Pos2> = Vec::new();
+        let n = path.leaves().count();
+        for (i, leaf) in path.leaves().enumerate() {
+            let Some([x, y]) = self.camera.place(leaf.bounds.center()) else {
+                continue;
+            };
+            let half = rect.height() * 0.5;
+            let at = rect.center() + vec2(x as f32, -y as f32) * half;
+            if !rect.contains(at) || taken.iter().any(|p| p.distance(at) < 13.0) {
+                continue;
+            }
+            taken.push(at);
+            let [r, g, b] = overlay::order_color(i, n);
+            let font = egui::FontId::proportional(12.0);
+            let text = (i + 1).to_string();
+            painter.text(
+                at + vec2(1.0, 1.0),
+                egui::Align2::CENTER_CENTER,
+                &text,
+                font.clone(),
+                Color32::BLACK,
+            );
+            let color = Color32::from_rgb(r, g, b);
+            painter.text(at, egui::Align2::CENTER_CENTER, text, font, color);
+        }
+    }
+}
+
+/// A line of text in the middle of the view.
+fn note(ui: &egui::Ui, rect: Rect, text: &str) {
+    ui.painter().text(
+        rect.center(),
+        egui::Align2::CENTER_CENTER,
+        text,
+        egui::FontId::proportional(14.0),
+        Color32::LIGHT_GRAY,
+    );
+}
