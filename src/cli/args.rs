@@ -350,7 +350,7 @@ fn heatmap_names() -> impl TypedValueParser<Value = ByHeatmap> {
     PossibleValuesParser::new(
         HEATMAPS
             .iter()
-            .map(|h| PossibleValue::new(h.symbol).help(format!("{}, {}", h.name, h.unit))),
+            .map(|h| PossibleValue::new(h.symbol).help(h.meaning)),
     )
     .try_map(|symbol| heatmap(&symbol).map(ByHeatmap).ok_or("no such heatmap"))
 }

@@ -2,8 +2,10 @@
 
 use super::args::{ByColormap, HeatArgs};
 use super::{bar, render};
-use crate::measure::heat::{HeatImage, HeatStatistics, Heatmap, PixelCounts, RayFilter, Source};
-use crate::measure::{parameter, significant};
+use crate::measure::heat::{
+    HeatImage, HeatStatistics, Heatmap, PixelCounts, RayFilter, Source, Whole,
+};
+use crate::measure::{grouped, parameter, significant};
 use crate::overlay::{
     COLORMAPS, Captions, Colormap, HeatPicture, HeatScale, blend, heat_colors, with_legend,
 };
@@ -144,13 +146,19 @@ fn figures(
     let mut words = Vec::new();
     if let Some(total) = heatmap.total(counts, rays) {
         let parameters = heatmap.parameters(rays);
-        let number = match parameters.first() {
-            Some(symbol) => parameter(symbol).number(total),
-            None => crate::measure::grouped(total),
-        };
-        words.push(match parameters {
-            [] => format!("total {number}"),
-            symbols => format!("{} {number}", symbols.join(" + ")),
+        words.push(match (parameters, heatmap.whole) {
+            ([first, ..], _) => {
+                let number = parameter(first).number(total);
+                format!("{} {number}", parameters.join(" + "))
+            }
+            ([], Whole::Sum) => {
+                // A sum over pixels is not per pixel any more.
+                let unit = heatmap.unit.trim_end_matches(" per pixel");
+                format!("total {} {unit}", number(total))
+            }
+            ([], Whole::Mean | Whole::RatioTo(_)) => {
+                format!("whole picture {} {}", number(total), heatmap.unit)
+            }
         });
     }
     if let Some(HeatStatistics {
@@ -160,7 +168,7 @@ fn figures(
         pixels,
     }) = image.statistics()
     {
-        let [lowest, mean, highest] = [lowest, mean, highest].map(significant);
+        let [lowest, mean, highest] = [lowest, mean, highest].map(number);
         words.push(format!(
             "a pixel: lowest {lowest}, mean {mean}, highest {highest}"
         ));
@@ -171,6 +179,15 @@ fn figures(
         }
     }
     words.join("; ")
+}
+
+/// A whole number in full, any other to four digits.
+fn number(value: f64) -> String {
+    if value.fract() == 0.0 {
+        grouped(value)
+    } else {
+        significant(value)
+    }
 }
 
 /// The values as 32-bit floats in one channel of this name; NaN where there is none.

@@ -109,7 +109,7 @@ impl HeatScale {
         }
     }
 
-    /// At most `most` round numbers (1, 2 or 5 times a power of ten, or steps of that) within the
+    /// At most `most` (3 or more) round numbers (1, 2 or 5 times a power of ten, or steps of that) within the
     /// range, ascending; where all values are the same, that one.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if self.lo == self.hi {
@@ -164,17 +164,15 @@ impl HeatScale {
     fn powers(&self, most: usize) -> Vec<Tick> {
         let top = self.lo.abs().max(self.hi.abs());
         let exponents = self.grain.log10().ceil() as i32..=top.log10().floor() as i32;
-        let choices: [(&[f64], usize); 5] = [
-            (&[1.0, 2.0, 5.0], 1),
-            (&[1.0], 1),
-            (&[1.0], 2),
-            (&[1.0], 3),
-            (&[1.0], 4),
-        ];
+        let every = |step| (&[1.0][..], step);
+        let choices = std::iter::once((&[1.0, 2.0, 5.0][..], 1))
+            .chain((1..=exponents.clone().count().max(1)).map(every));
         let mut ticks = Vec::new();
         for (folds, step) in choices {
+            // From the top: what is left out lies close to zero, where ticks crowd.
             let sizes = exponents
                 .clone()
+                .rev()
                 .step_by(step)
                 .flat_map(|e| folds.iter().map(move |fold| fold * 10f64.powi(e)));
             let mut values: Vec<f64> = sizes.flat_map(|size| [-size, size]).collect();
@@ -216,15 +214,16 @@ impl HeatScale {
 
 /// A number as text, with as many decimals as a step of this size needs.
 fn with_step(value: f64, step: f64) -> String {
+    let (sign, size) = (if value < 0.0 { "−" } else { "" }, value.abs());
     if value == 0.0 {
         "0".into()
-    } else if !(1e-4..1e7).contains(&value.abs()) {
-        format!("{value:e}")
+    } else if !(1e-4..1e7).contains(&size) {
+        format!("{sign}{size:e}")
     } else if step >= 1.0 {
-        grouped(value)
+        format!("{sign}{}", grouped(size))
     } else {
         let decimals = (-step.log10()).ceil().max(0.0) as usize;
-        format!("{value:.decimals$}")
+        format!("{sign}{size:.decimals$}")
     }
 }
 

@@ -163,7 +163,7 @@ impl BarLayout {
         }
         let number_top = bar_top + self.bar + self.tick;
         let [below, above] = scale.beyond(image);
-        let ticks = scale.ticks((width / (64 * sizes.unit)) as usize);
+        let ticks = scale.ticks((width / (44 * sizes.unit)) as usize);
         let mut free_from = 0;
         for tick in &ticks {
             let x = left + ((f64::from(width - sizes.unit)) * tick.place).round() as u32;

@@ -34,7 +34,7 @@ pub fn write(report: &PixelReport<'_>, out: &mut dyn Write) -> Result<()> {
          root."
     )?;
     for (method, record) in &report.records {
-        writeln!(out, "\n{} ({})\n", method.title, method.name)?;
+        writeln!(out, "\n{}: {}\n", method.name, method.title)?;
         write_record(report.scene, record, out)?;
     }
     Ok(())
@@ -134,7 +134,7 @@ fn write_ray(scene: &Scene, number: usize, ray: &RecordedRay, out: &mut dyn Writ
     for step in &path.steps {
         match step {
             Step::Inner(step) => writeln!(out, "{indent}  {}", inner(step))?,
-            Step::Leaf(step) => write_leaf(scene, &indent, step, out)?,
+            Step::Leaf(step) => write_leaf(scene, &indent, path.kind, step, out)?,
         }
     }
     Ok(())
@@ -161,7 +161,13 @@ fn inner(step: &InnerStep) -> String {
     )
 }
 
-fn write_leaf(scene: &Scene, indent: &str, leaf: &LeafStep, out: &mut dyn Write) -> Result<()> {
+fn write_leaf(
+    scene: &Scene,
+    indent: &str,
+    kind: RayKind,
+    leaf: &LeafStep,
+    out: &mut dyn Write,
+) -> Result<()> {
     writeln!(
         out,
         "{indent}  leaf {}, depth {}: {} to {}, t {} to {}; objects: {} ({})",
@@ -174,10 +180,14 @@ fn write_leaf(scene: &Scene, indent: &str, leaf: &LeafStep, out: &mut dyn Write)
         leaf.objects,
         leaf.stop.text()
     )?;
+    let missed = match kind {
+        RayKind::Shadow => "not before the light",
+        _ => "no nearer hit",
+    };
     for test in &leaf.tests {
-        let found = test.hit.map_or("no nearer hit".to_owned(), |t| {
-            format!("hit at t {}", number_of(t))
-        });
+        let found = test
+            .hit
+            .map_or(missed.to_owned(), |t| format!("hit at t {}", number_of(t)));
         writeln!(
             out,
             "{indent}      test {}: {found}",
