@@ -1,6 +1,7 @@
 //! What is wanted and what is shown. All that is shown belongs together: it is swapped as one.
 
 use super::StartOptions;
+use crate::measure::heat::PixelCounts;
 use crate::progress::Progress;
 use crate::scene::{SceneRequest, SceneSource};
 use crate::trace::{RayKind, RayPath, Tile, record_ray};
@@ -43,6 +44,8 @@ pub struct Current {
     /// The parts of the picture that the screen does not have yet.
     pub fresh: Fresh,
     pub picked: Option<Picked>,
+    /// What every pixel's rays did, once they were counted.
+    pub pixel_counts: Option<Arc<PixelCounts>>,
 }
 
 /// Parts of a picture.
@@ -67,6 +70,7 @@ impl Current {
             sample: 0,
             fresh: Fresh::All,
             picked: None,
+            pixel_counts: None,
         };
         if let Some(pixel) = pixel {
             current.pick(pixel);
@@ -292,6 +296,7 @@ impl Current {
                 self.shown.measurement = *measurement;
                 self.complete = complete;
             }
+            Update::PixelCounts(counts) => self.pixel_counts = Some(counts),
             Update::Done => self.done = true,
             Update::Stage(..) | Update::Shown(_) | Update::Failed(_) => {}
         }
