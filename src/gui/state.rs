@@ -3,6 +3,7 @@
 use super::StartOptions;
 use super::inspect::Inspect;
 use super::selection::Selection;
+use crate::measure::heat::PixelCounts;
 use crate::progress::Progress;
 use crate::scene::{SceneRequest, SceneSource};
 use crate::trace::{RayKind, RayPath, Tile, record_ray};
@@ -48,6 +49,8 @@ pub struct Current {
     pub fresh: Fresh,
     pub picked: Option<Picked>,
     pub selection: Selection,
+    /// What every pixel's rays did, once they were counted.
+    pub pixel_counts: Option<Arc<PixelCounts>>,
 }
 
 /// Parts of a picture.
@@ -73,6 +76,7 @@ impl Current {
             fresh: Fresh::All,
             picked: None,
             selection: Selection::default(),
+            pixel_counts: None,
         };
         if let Some(pixel) = pixel {
             current.pick(pixel);
@@ -312,6 +316,7 @@ impl Current {
                 self.shown.measurement = *measurement;
                 self.complete = complete;
             }
+            Update::PixelCounts(counts) => self.pixel_counts = Some(counts),
             Update::Done => self.done = true,
             Update::Stage(..) | Update::Shown(_) | Update::Failed(_) => {}
         }

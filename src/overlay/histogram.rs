@@ -13,21 +13,21 @@ pub static HISTOGRAMS: [Histogram; HISTOGRAM_COUNT] = [
         name: "depth",
         title: "Leaf depth",
         unit: "levels below the root",
-        scale: Scale::Whole,
+        spread: Spread::Whole,
         value: |leaf| f64::from(leaf.depth),
     },
     Histogram {
         name: "objects",
         title: "Objects a leaf",
         unit: "objects",
-        scale: Scale::Whole,
+        spread: Spread::Whole,
         value: |leaf| f64::from(leaf.objects),
     },
     Histogram {
         name: "volume",
         title: "Leaf volume",
         unit: "cubed units of length, powers of 10",
-        scale: Scale::Powers,
+        spread: Spread::Powers,
         value: |leaf| leaf.volume.max(f64::MIN_POSITIVE).log10(),
     },
 ];
@@ -40,13 +40,13 @@ pub struct Histogram {
     pub title: &'static str,
     /// What the numbers along the axis count.
     pub unit: &'static str,
-    pub scale: Scale,
+    pub spread: Spread,
     value: fn(&Leaf) -> f64,
 }
 
 /// How values spread over the axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
+pub enum Spread {
     /// Whole numbers: bars are a whole number of values wide.
     Whole,
     /// Values are exponents of ten.
@@ -111,10 +111,10 @@ impl Histogram {
                 counts: Vec::new(),
             };
         }
-        let (start, width) = match self.scale {
+        let (start, width) = match self.spread {
             // Bars lie around their whole numbers.
-            Scale::Whole => (lo - 0.5, ((hi - lo + 1.0) / most as f64).ceil()),
-            Scale::Powers => (lo, (hi - lo) / most as f64),
+            Spread::Whole => (lo - 0.5, ((hi - lo + 1.0) / most as f64).ceil()),
+            Spread::Powers => (lo, (hi - lo) / most as f64),
         };
         // Where all values are equal there is one bar around them.
         let width = if width > 0.0 { width } else { 1.0 };
@@ -132,9 +132,9 @@ impl Histogram {
 
     /// A value of the axis for people.
     pub fn format(&self, value: f64) -> String {
-        match self.scale {
-            Scale::Whole => format!("{value:.0}"),
-            Scale::Powers => {
+        match self.spread {
+            Spread::Whole => format!("{value:.0}"),
+            Spread::Powers => {
                 let value = libm::exp10(value);
                 if (0.01..1e4).contains(&value) {
                     format!("{value:.3}")

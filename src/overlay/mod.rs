@@ -1,16 +1,23 @@
 //! What is drawn over scenes and pictures, as plain colours, boxes and lines; knows no window.
 
 mod coloring;
+mod colormap;
+mod heat;
 mod histogram;
 mod leaf_boxes;
+mod legend;
 mod lines;
 mod selection;
+mod text;
 
 pub use coloring::{COLORINGS, Coloring, Leaf, Mark, coloring};
+pub use colormap::{COLORMAPS, Colormap, colormap};
+pub use heat::{HeatScale, Range, Scale, Tick, blend, heat_colors};
 pub use histogram::{
-    Bars, HISTOGRAM_COUNT, HISTOGRAMS, Histogram, Ranges, Scale, in_ranges, leaves,
+    Bars, HISTOGRAM_COUNT, HISTOGRAMS, Histogram, Ranges, Spread, in_ranges, leaves,
 };
 pub use leaf_boxes::{Filter, Instance, LeafBoxes, leaf_boxes};
+pub use legend::{Captions, HeatPicture, with_legend};
 pub use lines::{Line, box_lines, frustum_lines, order_color, path_lines};
 pub use selection::{
     CELL_COLOR, FaceCorner, PLANE_COLOR, REFERRING_COLOR, cell_faces, cell_lines, leaves_along,

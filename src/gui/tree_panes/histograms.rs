@@ -190,11 +190,11 @@ impl Plot<'_> {
     }
 
     fn text(&self, [lo, hi]: [f64; 2]) -> String {
-        use crate::overlay::Scale;
-        let (lo, hi) = match self.histogram.scale {
+        use crate::overlay::Spread;
+        let (lo, hi) = match self.histogram.spread {
             // Bars lie around whole numbers.
-            Scale::Whole => (lo + 0.5, hi - 0.5),
-            Scale::Powers => (lo, hi),
+            Spread::Whole => (lo + 0.5, hi - 0.5),
+            Spread::Powers => (lo, hi),
         };
         if lo == hi {
             self.histogram.format(lo)
@@ -292,16 +292,16 @@ impl Plot<'_> {
 
     /// Numbers below the bars: as many as there is room for.
     fn ticks(&self, painter: &egui::Painter, area: Rect, font: &FontId, color: Color32) {
-        use crate::overlay::Scale;
+        use crate::overlay::Spread;
         let n = self.bars.counts.len();
         let room = (area.width() / 48.0).max(1.0) as usize;
         let every = n.div_ceil(room).max(1);
         let step = area.width() / n as f32;
         for i in (0..n).step_by(every) {
             let [lo, hi] = self.values_of([i, i]);
-            let (x, value) = match self.histogram.scale {
-                Scale::Whole => (step * (i as f32 + 0.5), (lo + 0.5).min(hi - 0.5)),
-                Scale::Powers => (step * i as f32, lo),
+            let (x, value) = match self.histogram.spread {
+                Spread::Whole => (step * (i as f32 + 0.5), (lo + 0.5).min(hi - 0.5)),
+                Spread::Powers => (step * i as f32, lo),
             };
             let at = pos2(area.left() + x, area.bottom() + 2.0);
             painter.vline(at.x, area.bottom()..=at.y, Stroke::new(1.0, color));
