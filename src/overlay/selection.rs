@@ -49,11 +49,11 @@ pub fn cell_faces(cell: &Aabb, plane: Option<(Axis, f64)>, center: Vec3) -> Vec<
     };
     for axis in Axis::ALL {
         for at in [cell.lo[axis.index()], cell.hi[axis.index()]] {
-            add(quad(cell, axis, at), CELL_COLOR, 26);
+            add(quad(cell, axis, at), CELL_COLOR, 40);
         }
     }
     if let Some((axis, at)) = plane {
-        add(quad(cell, axis, at), PLANE_COLOR, 70);
+        add(quad(cell, axis, at), PLANE_COLOR, 110);
     }
     faces
 }
