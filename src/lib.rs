@@ -57,6 +57,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+// Module comments lead developers into private modules too.
+#![allow(rustdoc::private_intra_doc_links)]
+
 pub mod cli;
 pub mod geometry;
 #[cfg(feature = "gui")]

@@ -128,8 +128,12 @@ fn leaves(ui: &mut egui::Ui, picked: &Picked) {
                         leaf.stop.text().to_owned(),
                     ] {
                         line.col(|ui| {
-                            ui.add(egui::Label::new(text.as_str()).truncate())
-                                .on_hover_text(story(leaf));
+                            ui.add(
+                                egui::Label::new(text.as_str())
+                                    .truncate()
+                                    .show_tooltip_when_elided(false),
+                            )
+                            .on_hover_text(story(leaf));
                         });
                     }
                 });
