@@ -32,13 +32,13 @@ pub struct List<'a> {
 }
 
 impl List<'_> {
-    /// Shows the list; gives the row that was clicked. `mark` paints in front of a row's first
-    /// column, in the rectangle it is given.
+    /// Shows the list; gives the row that was clicked. `mark` paints into a row's first column, in
+    /// the rectangle and with the colour of text that it is given.
     pub fn show(
         self,
         ui: &mut egui::Ui,
         row: impl Fn(usize) -> Row,
-        mark: impl Fn(usize, &Painter, Rect),
+        mark: impl Fn(usize, &Painter, Rect, Color32),
     ) -> Option<usize> {
         ui.push_id(self.name, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
@@ -87,7 +87,7 @@ impl List<'_> {
         ui: &mut egui::Ui,
         height: f32,
         row: impl Fn(usize) -> Row,
-        mark: impl Fn(usize, &Painter, Rect),
+        mark: impl Fn(usize, &Painter, Rect, Color32),
     ) -> Option<usize> {
         let seen = ui.scope_id().with("seen");
         let now = (self.selected, self.rows);
@@ -123,7 +123,7 @@ impl List<'_> {
         height: f32,
         i: usize,
         row: &Row,
-        mark: &impl Fn(usize, &Painter, Rect),
+        mark: &impl Fn(usize, &Painter, Rect, Color32),
     ) -> bool {
         let size = vec2(ui.available_width(), height);
         let (line, response) = ui.allocate_exact_size(size, Sense::click());
@@ -142,7 +142,7 @@ impl List<'_> {
             };
             ui.painter().rect_filled(line, 2.0, fill);
             let columns = self.columns(line);
-            mark(i, ui.painter(), columns[0]);
+            mark(i, ui.painter(), columns[0], visuals.text_color());
             for (cell, rect) in row.cells.iter().zip(&columns) {
                 text(ui, *rect, cell.clone(), visuals.text_color());
             }

@@ -42,11 +42,11 @@ pub fn outcome(scene: &Scene, path: &RayPath) -> String {
     }
 }
 
-/// Which children, in few words.
+/// Which children, in a word.
 pub fn way(way: Way) -> &'static str {
     match way {
-        Way::Near => "near only",
-        Way::Far => "far only",
+        Way::Near => "near",
+        Way::Far => "far",
         Way::Both => "both",
     }
 }

@@ -22,12 +22,12 @@ const COLUMNS: &[Column] = &[
     Column {
         title: "ray",
         about: "Indented below the ray from whose hit it starts",
-        width: 116.0,
+        width: 104.0,
     },
     Column {
         title: "ends",
         about: "What it hits, or where it goes",
-        width: 118.0,
+        width: 110.0,
     },
     Column {
         title: "nodes",
@@ -91,8 +91,8 @@ const TOTALS: &[Column] = &[
 ];
 
 /// How far a ray is indented below its parent, in points, and at most.
-const INDENT: f32 = 9.0;
-const MOST_INDENT: f32 = 54.0;
+const INDENT: f32 = 8.0;
+const MOST_INDENT: f32 = 36.0;
 
 fn show(ui: &mut egui::Ui, state: &mut State) {
     let Some(current) = &mut state.current else {
@@ -126,13 +126,12 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
     let clicked = list.show(
         ui,
         |i| row(scene, i, &record.rays[i]),
-        |i, painter, rect| {
+        |i, painter, rect, color| {
             let kind = record.rays[i].path.kind;
             let at = pos2(rect.left() + indent(&record.rays[i]), rect.top() + 2.0);
             let chip_rect = Rect::from_min_size(at, vec2(14.0, rect.height() - 4.0));
             chip(painter, chip_rect, letter(kind), ray_style(kind).color);
             let name = at + vec2(18.0, chip_rect.height() * 0.5);
-            let color = painter.ctx().global_style().visuals.text_color();
             let font = egui::FontId::proportional(12.5);
             let left = egui::Align2::LEFT_CENTER;
             painter
@@ -236,6 +235,6 @@ fn totals(ui: &mut egui::Ui, tallies: &[Tally<u32>; 4]) {
                 cells,
             }
         },
-        |_, _, _| {},
+        |_, _, _, _| {},
     );
 }

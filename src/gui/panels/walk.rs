@@ -23,33 +23,33 @@ const COLUMNS: &[Column] = &[
     Column {
         title: "#",
         about: "Number of the step",
-        width: 30.0,
+        width: 28.0,
     },
     Column {
         title: "what",
         about: "Inner node (a fork), full leaf (a filled square in the colour of its box) or empty \
                 leaf (a hollow one)",
-        width: 62.0,
+        width: 58.0,
     },
     Column {
         title: "node",
         about: "Index of the node in the tree's array",
-        width: 54.0,
+        width: 48.0,
     },
     Column {
         title: "depth",
         about: "Levels below the root",
-        width: 40.0,
-    },
-    Column {
-        title: "what happens",
-        about: "The plane and the children taken, or the tests and the nearest hit of a leaf",
-        width: 124.0,
+        width: 36.0,
     },
     Column {
         title: "from – to",
         about: "Where on the ray the cell lies, in units of the scene",
-        width: 100.0,
+        width: 106.0,
+    },
+    Column {
+        title: "what happens",
+        about: "The plane and which children are visited, or the tests and the nearest hit of a leaf",
+        width: 110.0,
     },
 ];
 
@@ -89,7 +89,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
     let clicked = list.show(
         ui,
         |i| row(scene, steps[i], &path.steps[steps[i]]),
-        |i, painter, rect| icon(painter, rect, &path.steps[steps[i]], orders[steps[i]], n),
+        |i, painter, rect, _| icon(painter, rect, &path.steps[steps[i]], orders[steps[i]], n),
     );
     ui.add_space(3.0);
     detail(ui, scene, picked);
@@ -121,13 +121,13 @@ fn row(scene: &Scene, i: usize, step: &Step) -> Row {
             "     inner".to_owned(),
             grouped(inner.node as usize),
             inner.depth.to_string(),
+            step_text::interval(inner.t_enter, inner.t_exit),
             format!(
                 "{} = {}, {}",
                 inner.axis.name(),
                 step_text::short(inner.plane),
                 step_text::way(inner.way)
             ),
-            step_text::interval(inner.t_enter, inner.t_exit),
         ],
         Step::Leaf(leaf) => {
             let hit = leaf.tests.iter().rev().find_map(|test| test.hit);
@@ -137,12 +137,12 @@ fn row(scene: &Scene, i: usize, step: &Step) -> Row {
                 "     leaf".to_owned(),
                 grouped(leaf.node as usize),
                 leaf.depth.to_string(),
+                step_text::interval(leaf.t_enter, leaf.t_exit),
                 match (leaf.objects, hit) {
                     (0, _) => "empty".to_owned(),
                     (_, Some(t)) => format!("{tests}, hit at {}", step_text::short(t)),
                     (_, None) => format!("{tests}, no hit"),
                 },
-                step_text::interval(leaf.t_enter, leaf.t_exit),
             ]
         }
     };
@@ -155,7 +155,7 @@ fn row(scene: &Scene, i: usize, step: &Step) -> Row {
 /// A fork for an inner node; for a leaf a square in the colour of its box in the 3D view.
 fn icon(painter: &Painter, number: Rect, step: &Step, order: usize, n: usize) {
     let gray = Color32::from_gray(150);
-    let middle = pos2(number.right() + 12.0, number.center().y);
+    let middle = pos2(number.right() + 9.0, number.center().y);
     let square = Rect::from_center_size(middle, vec2(9.0, 9.0));
     match step {
         Step::Inner(_) => {
@@ -197,13 +197,19 @@ fn detail(ui: &mut egui::Ui, scene: &Scene, picked: &Picked) {
             let number = picked.step + 1;
             match step {
                 Step::Inner(inner) => {
-                    ui.strong(format!("Step {number}: inner node {}", inner.node));
+                    ui.strong(format!(
+                        "Step {number}: inner node {}",
+                        grouped(inner.node as usize)
+                    ));
                     let why = step_text::why(inner);
                     label(ui, format!("Because {why}."));
                 }
                 Step::Leaf(leaf) => {
                     let kind = if leaf.objects == 0 { "empty" } else { "full" };
-                    ui.strong(format!("Step {number}: {kind} leaf {}", leaf.node));
+                    ui.strong(format!(
+                        "Step {number}: {kind} leaf {}",
+                        grouped(leaf.node as usize)
+                    ));
                     let (lo, hi) = (leaf.bounds.lo, leaf.bounds.hi);
                     let short = step_text::short;
                     label(
