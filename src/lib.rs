@@ -20,7 +20,8 @@
 //! | [`tree::split`] | where a method splits a cell | a line in [`tree::split::SPLIT_RULES`] |
 //! | [`trace`] | traversal, timed and counting kernels, shading, passes over a picture | |
 //! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ; the judge of all trees | an entry of [`measure::PARAMETERS`] |
-//! | [`overlay`] | leaf cells and ray paths as plain colours and lines | a line in [`overlay::COLORINGS`] |
+//! | [`measure::heat`] | what every pixel cost | a line in [`measure::heat::HEATMAPS`] |
+//! | [`overlay`] | leaf cells, ray paths and heatmaps as plain colours and lines | a line in [`overlay::COLORINGS`] or [`overlay::COLORMAPS`] |
 //! | [`report`] | text, JSON, CSV, Markdown, LaTeX | a line in [`report::WRITERS`] |
 //! | [`worker`] | the thread between a window and all of the above: latest request wins | |
 //! | [`cli`], `gui` | the two faces; they never import each other but to start the window | |

@@ -1,6 +1,8 @@
 //! The background worker: the latest request wins, stages are reused, nothing is mixed, and a
 //! failure leaves the thread ready for the next request.
 
+use bspscope::measure::heat::{RayFilter, heatmap};
+use bspscope::measure::parameter;
 use bspscope::scene::SceneRequest;
 use bspscope::trace::RenderSettings;
 use bspscope::tree::{BuildSettings, MaxDepth, Method};
@@ -105,6 +107,20 @@ fn a_request_goes_from_picture_to_complete_figures() {
         })
         .collect();
     assert_eq!(complete.len(), 1);
+    let every_pixel: Vec<_> = updates
+        .iter()
+        .zip(&updates[1..])
+        .filter_map(|(update, next)| match (&update.update, &next.update) {
+            (Update::PixelCounts(counts), Update::Measured { complete: true, .. }) => Some(counts),
+            (Update::PixelCounts(_), next) => panic!("counts of pixels before {next:?}"),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(every_pixel.len(), 1);
+    assert_eq!(
+        heatmap("N_NODES").and_then(|nodes| nodes.total(every_pixel[0], RayFilter::All)),
+        (parameter("N_NODES").value)(complete[0])
+    );
     assert!(complete[0].rendering.is_some() && complete[0].counted.is_some());
 }
 

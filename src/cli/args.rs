@@ -1,6 +1,8 @@
 //! The arguments as they are typed; [`super::resolve`] makes settings of them.
 
 use crate::geometry::Axis;
+use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, heatmap};
+use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
 use crate::scene::builtin::BUILTINS;
 use crate::scene::{Cylinders, Sampling};
@@ -32,6 +34,7 @@ pub struct Arguments {
 pub enum Command {
     Measure(MeasureArgs),
     Render(RenderArgs),
+    Probe(ProbeArgs),
     Generate(GenerateArgs),
     Methods(MethodsArgs),
     Verify(VerifyArgs),
@@ -78,10 +81,13 @@ pub struct MeasureArgs {
     pub output: Option<PathBuf>,
 }
 
-/// Render the picture to a PNG or OpenEXR file
+/// Render the picture, or a heatmap of what its pixels cost, to a PNG or OpenEXR file
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope render balls -o balls.png\n\
-    bspscope render teaching --resolution 1280x960 --samples 16 -o teaching.exr"))]
+    bspscope render teaching --resolution 1280x960 --samples 16 -o teaching.exr\n\
+    bspscope render balls --show N_NODES -o heat.png\n\
+    bspscope render rings --show N_IT --rays shadow --scale log --range 0:500 -o tests.png\n\
+    bspscope render tetra --method sah-cut --show T_PIXEL --blend 0.6 -o time.png"))]
 pub struct RenderArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
@@ -97,9 +103,86 @@ pub struct RenderArgs {
     /// Samples a pixel, at least 1; the first lies where --sampling says
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..), help_heading = "Picture")]
     pub samples: u32,
-    /// Picture file: .png is 8-bit sRGB, .exr is linear 32-bit float
+    #[command(flatten)]
+    pub heat: HeatArgs,
+    /// Picture file: .png is 8-bit sRGB, .exr is linear 32-bit float. A heatmap as .png has its
+    /// legend, as .exr the raw values in one channel named after the symbol, NaN without a value
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: PathBuf,
+}
+
+/// A heatmap in place of the picture.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Heatmap")]
+pub struct HeatArgs {
+    /// What is shown of every pixel
+    #[arg(long, value_name = "SYMBOL", value_parser = heatmap_names(), ignore_case = true)]
+    pub show: Option<ByHeatmap>,
+    /// The rays that are looked at
+    #[arg(long, value_name = "KIND", value_parser = filter_names(), default_value = "all", requires = "show")]
+    pub rays: RayFilter,
+    /// How values spread over the colours [default: linear]
+    #[arg(long, value_name = "SCALE", value_parser = scale_names(), requires = "show")]
+    pub scale: Option<Scale>,
+    /// Values that the colours span, so that pictures can be compared [default: lowest to highest]
+    #[arg(long, value_name = "LO:HI", value_parser = range, requires = "show", allow_hyphen_values = true)]
+    pub range: Option<Range>,
+    /// Colours; colour-blind people can read all of them [default: viridis]
+    #[arg(long, value_name = "NAME", value_parser = colormap_names(), requires = "show")]
+    pub colors: Option<ByColormap>,
+    /// How much the colours hide of the picture below them, 0 to 1 [default: 1]
+    #[arg(long, value_name = "SHARE", value_parser = share, requires = "show")]
+    pub blend: Option<f64>,
+}
+
+/// A heatmap, chosen by its symbol.
+#[derive(Clone, Copy)]
+pub struct ByHeatmap(pub &'static Heatmap);
+
+impl std::fmt::Debug for ByHeatmap {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.0.symbol)
+    }
+}
+
+/// A colour map, chosen by its name.
+#[derive(Clone, Copy)]
+pub struct ByColormap(pub &'static Colormap);
+
+impl std::fmt::Debug for ByColormap {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.0.name)
+    }
+}
+
+/// Tell everything that the rays of one pixel did in the tree
+///
+/// The whole tree of rays; of every ray, in order, every inner node with its plane, every leaf with
+/// its tests, what was hit, and why the walk went on or ended.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope probe balls --pixel 256,256\n\
+    bspscope probe teaching --pixel 100,80 --resolution 320x240 --method sah-cut\n\
+    bspscope probe scenes/rings.nff --pixel 300,200 --format json -o pixel.json"))]
+pub struct ProbeArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Column and row of the pixel; 0,0 is the upper left
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true, help_heading = "Picture")]
+    pub pixel: [i64; 2],
+    #[command(flatten)]
+    pub methods: MethodListArgs,
+    #[command(flatten)]
+    pub build: BuildArgs,
+    #[command(flatten)]
+    pub trace: TraceArgs,
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// Form of the record
+    #[arg(long, value_enum, default_value_t = ListFormat::Text, help_heading = "Output")]
+    pub format: ListFormat,
+    /// Write to this file in place of standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: Option<PathBuf>,
 }
 
 /// Write a scene, generated or read, as a scene file
@@ -261,6 +344,55 @@ fn writer_names() -> PossibleValuesParser {
 fn method_names() -> impl TypedValueParser<Value = Method> {
     PossibleValuesParser::new(Method::all().map(|m| PossibleValue::new(m.name).help(m.title)))
         .try_map(|name| Method::named(&name))
+}
+
+fn heatmap_names() -> impl TypedValueParser<Value = ByHeatmap> {
+    PossibleValuesParser::new(
+        HEATMAPS
+            .iter()
+            .map(|h| PossibleValue::new(h.symbol).help(h.meaning)),
+    )
+    .try_map(|symbol| heatmap(&symbol).map(ByHeatmap).ok_or("no such heatmap"))
+}
+
+fn filter_names() -> impl TypedValueParser<Value = RayFilter> {
+    PossibleValuesParser::new(RayFilter::ALL.map(RayFilter::name))
+        .try_map(|name| RayFilter::named(&name).ok_or("no such kind of rays"))
+}
+
+fn scale_names() -> impl TypedValueParser<Value = Scale> {
+    PossibleValuesParser::new(Scale::ALL.map(Scale::name))
+        .try_map(|name| Scale::named(&name).ok_or("no such scale"))
+}
+
+fn colormap_names() -> impl TypedValueParser<Value = ByColormap> {
+    PossibleValuesParser::new(
+        COLORMAPS
+            .iter()
+            .map(|map| PossibleValue::new(map.name).help(map.about)),
+    )
+    .try_map(|name| colormap(&name).map(ByColormap).ok_or("no such colours"))
+}
+
+fn range(text: &str) -> Result<Range, String> {
+    text.split_once(':')
+        .and_then(|(lo, hi)| Some((lo.parse().ok()?, hi.parse().ok()?)))
+        .filter(|(lo, hi): &(f64, f64)| lo < hi && lo.is_finite() && hi.is_finite())
+        .map(|(lo, hi)| Range::Fixed { lo, hi })
+        .ok_or_else(|| "expected the lowest and a higher value, such as 0:200".into())
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|share| (0.0..=1.0).contains(share))
+        .ok_or_else(|| "expected a number from 0 to 1".into())
+}
+
+fn pixel(text: &str) -> Result<[i64; 2], String> {
+    text.split_once(',')
+        .and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]))
+        .ok_or_else(|| "expected a column and a row, such as 256,256".into())
 }
 
 fn sampling_names() -> impl TypedValueParser<Value = Sampling> {

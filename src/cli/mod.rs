@@ -5,9 +5,11 @@
 mod args;
 mod bar;
 mod generate;
+mod heat;
 mod measure;
 mod methods;
 mod output;
+mod probe;
 mod render;
 mod resolve;
 mod verify;
@@ -32,6 +34,7 @@ pub fn main() -> ExitCode {
         None => window::run(&arguments.window),
         Some(Command::Measure(args)) => measure::run(args),
         Some(Command::Render(args)) => render::run(args),
+        Some(Command::Probe(args)) => probe::run(args),
         Some(Command::Generate(args)) => generate::run(args),
         Some(Command::Methods(args)) => methods::run(args),
         Some(Command::Verify(args)) => verify::run(args),

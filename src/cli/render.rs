@@ -1,7 +1,7 @@
 //! `bspscope render`: the picture in a file.
 
 use super::args::RenderArgs;
-use super::{Outcome, bar, output, resolve};
+use super::{Outcome, bar, heat, output, resolve};
 use crate::scene::Scene;
 use crate::trace::{Picture, RenderSettings, thread_pool, timed_pass};
 use crate::tree::{Tree, build};
@@ -13,6 +13,7 @@ use std::sync::{Mutex, PoisonError};
 
 pub fn run(args: &RenderArgs) -> Result<Outcome> {
     let format = format_of(&args.output)?;
+    heat::check(&args.heat, format)?;
     output::check_place(Some(&args.output))?;
     let settings = resolve::builds(&[args.method], &args.build)?.remove(0);
     let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
@@ -26,7 +27,10 @@ pub fn run(args: &RenderArgs) -> Result<Outcome> {
         &format!("{}: building the tree", scene.name()),
         |progress| build(&scene, &settings, progress),
     )?;
-    let bytes = encoded(&picture(&scene, &tree, &render)?, format)?;
+    let bytes = match args.heat.show {
+        Some(shown) => heat::encoded(&scene, &tree, &render, shown.0, &args.heat, format)?,
+        None => encoded(&picture(&scene, &tree, &render)?, format)?,
+    };
     output::write_file(&args.output, |out| out.write_all(&bytes))?;
     Ok(Outcome::Done)
 }

@@ -40,14 +40,7 @@ fn open(args: &WindowArgs) -> Result<Option<String>> {
     };
     match crate::gui::run(start) {
         Ok(()) => Ok(None),
-        Err(GuiError::NoDisplay(why)) => {
-            // The reason proper stands last, behind places in the window system's source.
-            let reason = why.rsplit(": ").next().unwrap_or(&why);
-            Ok(Some(format!(
-                "no display ({})",
-                reason.trim_end_matches('.')
-            )))
-        }
+        Err(GuiError::NoDisplay(why)) => Ok(Some(format!("no display ({why})"))),
         Err(GuiError::NoGraphics(why)) => Ok(Some(format!("no graphics adapter ({why})"))),
         Err(error @ GuiError::Ended(_)) => Err(error.into()),
     }

@@ -29,6 +29,8 @@ use crate::geometry::Vec3;
 use crate::scene::{Camera, SceneRequest};
 use crate::trace::RenderSettings;
 use crate::tree::BuildSettings;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The room below what a pane shows already, never wider than the pane.
 fn rest_of(ui: &egui::Ui) -> egui::Vec2 {
@@ -102,15 +104,31 @@ pub fn run(start: StartOptions) -> Result<(), GuiError> {
             .with_min_inner_size([640.0, 400.0]),
         ..Default::default()
     };
+    let opened = Arc::new(AtomicBool::new(false));
+    let inside = Arc::clone(&opened);
     let open = || {
         eframe::run_native(
             "bspscope",
             options,
-            Box::new(|cc| Ok(Box::new(App::new(cc, start)))),
+            Box::new(move |cc| {
+                inside.store(true, Ordering::Relaxed);
+                Ok(Box::new(App::new(cc, start)))
+            }),
         )
     };
-    // Window systems panic where a library is missing, such as libxkbcommon-x11.
-    match std::panic::catch_unwind(std::panic::AssertUnwindSafe(open)) {
+    // Window systems panic where a library is missing, such as libxkbcommon-x11. Until the window is
+    // there, that is one more reason why there is none, not a fault to report at length.
+    let report: Arc<dyn Fn(&std::panic::PanicHookInfo<'_>) + Send + Sync> =
+        Arc::from(std::panic::take_hook());
+    let (loud, after) = (Arc::clone(&report), Arc::clone(&opened));
+    std::panic::set_hook(Box::new(move |panic| {
+        if after.load(Ordering::Relaxed) {
+            loud(panic);
+        }
+    }));
+    let ended = std::panic::catch_unwind(std::panic::AssertUnwindSafe(open));
+    std::panic::set_hook(Box::new(move |panic| report(panic)));
+    match ended {
         Ok(Ok(())) => Ok(()),
         Ok(Err(error)) => Err(match error {
             eframe::Error::WinitEventLoop(_) | eframe::Error::Winit(_) => {
@@ -126,10 +144,13 @@ pub fn run(start: StartOptions) -> Result<(), GuiError> {
             let text = panic
                 .downcast_ref::<String>()
                 .cloned()
-                .or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
-            Err(GuiError::Ended(
-                text.unwrap_or_else(|| "for an unknown reason".into()),
-            ))
+                .or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()))
+                .unwrap_or_else(|| "for an unknown reason".into());
+            Err(if opened.load(Ordering::Relaxed) {
+                GuiError::Ended(text)
+            } else {
+                GuiError::NoDisplay(text)
+            })
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::StartOptions;
 use super::selection::Selection;
 use super::walk::{Picked, Walking, Wish};
+use crate::measure::heat::PixelCounts;
 use crate::progress::Progress;
 use crate::scene::{SceneRequest, SceneSource};
 use crate::trace::Tile;
@@ -50,6 +51,8 @@ pub struct Current {
     pub wish: Option<Wish>,
     pub picked: Option<Picked>,
     pub selection: Selection,
+    /// What every pixel's rays did, once they were counted.
+    pub pixel_counts: Option<Arc<PixelCounts>>,
 }
 
 /// Parts of a picture.
@@ -70,6 +73,7 @@ impl Current {
             wish,
             picked: None,
             selection: Selection::default(),
+            pixel_counts: None,
         }
     }
 
@@ -274,6 +278,7 @@ impl Current {
                 self.shown.measurement = *measurement;
                 self.complete = complete;
             }
+            Update::PixelCounts(counts) => self.pixel_counts = Some(counts),
             Update::Done => self.done = true,
             Update::Stage(..) | Update::Shown(_) | Update::Failed(_) => {}
         }

@@ -1,6 +1,7 @@
 //! The paper's method: every parameter of its Tables 1 to 3, the septet Δ and the triplet Λ.
 
 mod facts;
+pub mod heat;
 mod measurement;
 mod parameter;
 mod parameters;
@@ -8,6 +9,6 @@ mod verify;
 
 pub use facts::{SceneFacts, TreeFacts};
 pub use measurement::{MeasureError, Measurement, Times, measure};
-pub use parameter::{Class, Parameter, Table, Unit};
+pub use parameter::{Class, Parameter, Table, Unit, grouped, significant};
 pub use parameters::{DELTA, LAMBDA, PARAMETERS, parameter};
 pub use verify::{Answers, RaySample, Verification, answer, compare, judge, sample_rays};

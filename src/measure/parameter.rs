@@ -108,7 +108,7 @@ impl Parameter {
 }
 
 /// A whole number with thin groups of three digits.
-fn grouped(value: f64) -> String {
+pub fn grouped(value: f64) -> String {
     let digits = format!("{value:.0}");
     let mut out = String::new();
     for (i, c) in digits.chars().enumerate() {
@@ -121,7 +121,7 @@ fn grouped(value: f64) -> String {
 }
 
 /// Four significant digits or more.
-fn significant(value: f64) -> String {
+pub fn significant(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {
         "0".into()

@@ -91,6 +91,16 @@ impl PrimitiveKind {
         PrimitiveKind::Cone,
     ];
 
+    /// Singular, in a word.
+    pub const fn name(self) -> &'static str {
+        match self {
+            PrimitiveKind::Sphere => "sphere",
+            PrimitiveKind::Triangle => "triangle",
+            PrimitiveKind::Polygon => "polygon",
+            PrimitiveKind::Cone => "cone",
+        }
+    }
+
     /// Plural, as in a list of what a scene holds.
     pub const fn plural(self) -> &'static str {
         match self {

@@ -4,6 +4,7 @@ mod csv;
 mod json;
 mod latex;
 mod markdown;
+pub mod pixel;
 mod sections;
 mod text;
 mod words;

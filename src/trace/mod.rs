@@ -16,15 +16,15 @@ mod whitted;
 
 pub use any_order::objects_along;
 pub use kernel::{Batch, Counting, Hit, RayKind, RayTracer, Timed};
-pub use picture::{Picture, TILE, Tile, tiles};
+pub use picture::{Picture, TILE, Tile, srgb8, tiles};
 pub use probe::{PixelTallies, Probe, RayCounts, Tally, Way};
 pub use record::{
     After, InnerStep, LeafStep, PixelRecord, RayPath, RecordedRay, Step, TestStep, record_pixel,
     record_pixel_within, record_ray,
 };
 pub use render::{
-    CountedPass, CountedTile, RenderError, TimedPass, counted_pass, preview, thread_pool,
-    timed_pass,
+    CountedPass, CountedTile, RenderError, TimedPass, counted_pass, pixel_times, preview,
+    thread_pool, timed_pass,
 };
 pub use settings::RenderSettings;
 pub use shapes::Shapes;

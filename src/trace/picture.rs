@@ -99,8 +99,8 @@ impl Picture {
     }
 }
 
-/// A linear value as 8-bit sRGB.
-fn srgb8(linear: f32) -> u8 {
+/// A linear value as 8-bit sRGB (IEC 61966-2-1), clipped to 0 to 1.
+pub fn srgb8(linear: f32) -> u8 {
     let linear = linear.clamp(0.0, 1.0);
     let encoded = if linear <= 0.003_130_8 {
         12.92 * linear

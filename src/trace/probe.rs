@@ -38,7 +38,7 @@ impl Probe for () {
 }
 
 /// What one ray did.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RayCounts {
     /// Inner nodes traversed.
     pub inner_nodes: u32,

@@ -86,7 +86,7 @@ pub struct LeafStep {
 
 /// One step of a walk through the tree.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(tag = "step", rename_all = "lowercase")]
 pub enum Step {
     Inner(InnerStep),
     Leaf(LeafStep),

@@ -7,6 +7,7 @@
 //! beside another's.
 
 use crate::geometry::Vec3;
+use crate::measure::heat::PixelCounts;
 use crate::measure::{Measurement, Times};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Camera, LoadError, Scene, SceneRequest, load};
@@ -85,6 +86,9 @@ pub enum Update {
         sample: u32,
         colors: Vec<Vec3>,
     },
+    /// What every pixel cost; comes right before the complete figures. Does not come for pictures
+    /// of more than [`PIXEL_COUNTS_LIMIT`] pixels.
+    PixelCounts(Arc<PixelCounts>),
     /// More is known. Figures are provisional until `complete`.
     Measured {
         measurement: Box<Measurement>,
@@ -289,6 +293,9 @@ impl Reporter<'_> {
 /// Edge, in pixels, of the squares of the coarse first picture.
 const PREVIEW_STEP: u32 = 8;
 
+/// The most pixels of which the counts are kept, at about 100 bytes each.
+pub const PIXEL_COUNTS_LIMIT: u64 = 4_000_000;
+
 /// How often provisional figures are sent while counting.
 const FIGURES_EVERY: Duration = Duration::from_millis(150);
 
@@ -405,10 +412,16 @@ fn serve(
     measurement.rendering = Some(trace(0)?);
 
     reporter.stage(Stage::Counting, progress);
-    let so_far = Mutex::new((measurement.clone(), Instant::now()));
+    let pixels = u64::from(render.width) * u64::from(render.height);
+    let every_pixel =
+        (pixels <= PIXEL_COUNTS_LIMIT).then(|| PixelCounts::new(render.width, render.height));
+    let so_far = Mutex::new((measurement.clone(), every_pixel, Instant::now()));
     let counted = counted_pass(&scene, &tree, &render, &pool, progress, |part| {
         let mut guard = lock(&so_far);
-        let (measurement, last) = &mut *guard;
+        let (measurement, every_pixel, last) = &mut *guard;
+        if let Some(counts) = every_pixel {
+            counts.add(&part);
+        }
         let sum = measurement.counted.unwrap_or_default().merge(part.sum);
         measurement.counted = Some(sum);
         if last.elapsed() >= FIGURES_EVERY {
@@ -420,6 +433,12 @@ fn serve(
         }
     })?;
     measurement.counted = Some(counted);
+    let (_, every_pixel, _) = so_far
+        .into_inner()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    if let Some(counts) = every_pixel {
+        reporter.send(Update::PixelCounts(Arc::new(counts)));
+    }
     reporter.send(Update::Measured {
         measurement: Box::new(measurement),
         complete: true,

@@ -298,12 +298,11 @@ impl View3d {
         const WHITE: [u8; 4] = [255; 4];
         let others = self.settings.all_rays;
         let mut lines = self.rays.get(current, others, center).to_vec();
-        if let Some(picked) = &current.picked {
-            if picked.path().hit.is_hit()
-                && let Some(bounds) = controls::selection(current)
-            {
-                lines.extend(overlay::box_lines(&bounds, center, WHITE, 1.0));
-            }
+        if let Some(picked) = &current.picked
+            && picked.path().hit.is_hit()
+            && let Some(bounds) = controls::selection(current)
+        {
+            lines.extend(overlay::box_lines(&bounds, center, WHITE, 1.0));
         }
         if !self.settings.linked {
             let render = &current.shown.render;

@@ -1,0 +1,48 @@
+//! `bspscope probe`: everything that the rays of one pixel did.
+
+use super::args::{ListFormat, ProbeArgs};
+use super::{Outcome, bar, output, resolve};
+use crate::report::pixel::{PixelReport, write_json, write_text};
+use crate::trace::record_pixel;
+use crate::tree::build;
+use anyhow::{Result, bail};
+
+pub fn run(args: &ProbeArgs) -> Result<Outcome> {
+    output::check_place(args.output.as_deref())?;
+    let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
+    let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
+    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
+    let view = render.view()?;
+    let [x, y] = pixel_of(args.pixel, args.picture.resolution)?;
+    let mut records = Vec::new();
+    for settings in &builds {
+        let stage = format!("{}, {}: building", scene.name(), settings.method.name);
+        let tree = bar::with_bar(&stage, |progress| build(&scene, settings, progress))?;
+        let record = record_pixel(&scene, &tree, &view, render.d_arec, x, y);
+        records.push((settings.method, record));
+    }
+    let report = PixelReport {
+        scene: &scene,
+        render,
+        records,
+    };
+    output::write_to(args.output.as_deref(), |out| match args.format {
+        ListFormat::Text => write_text(&report, out),
+        ListFormat::Json => write_json(&report, out),
+    })?;
+    Ok(Outcome::Done)
+}
+
+/// The pixel asked for, if the picture has it.
+fn pixel_of([x, y]: [i64; 2], [width, height]: [u32; 2]) -> Result<[u32; 2]> {
+    let within = |v: i64, limit: u32| u32::try_from(v).ok().filter(|&v| v < limit);
+    match (within(x, width), within(y, height)) {
+        (Some(x), Some(y)) => Ok([x, y]),
+        _ => bail!(
+            "--pixel {x},{y}: a picture of {width} × {height} pixels has columns 0 to {} and rows \
+             0 to {}",
+            i64::from(width) - 1,
+            i64::from(height) - 1
+        ),
+    }
+}

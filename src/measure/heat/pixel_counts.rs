@@ -1,0 +1,101 @@
+//! Everything that was counted, and if asked for timed, of every pixel of a picture.
+
+use crate::trace::{CountedTile, PixelTallies, RayKind, Tally};
+
+/// What was counted of every pixel, row by row from the upper left: about 100 bytes a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelCounts {
+    pub width: u32,
+    pub height: u32,
+    pub tallies: Vec<PixelTallies>,
+    /// Objects that each pixel's primary ray meets, hidden ones included.
+    pub depth_complexity: Vec<u32>,
+    /// Time that each pixel took; `None` unless taken ([`crate::trace::pixel_times`]).
+    pub seconds: Option<Vec<f32>>,
+}
+
+impl PixelCounts {
+    /// Nothing counted yet.
+    pub fn new(width: u32, height: u32) -> Self {
+        let pixels = width as usize * height as usize;
+        PixelCounts {
+            width,
+            height,
+            tallies: vec![PixelTallies::default(); pixels],
+            depth_complexity: vec![0; pixels],
+            seconds: None,
+        }
+    }
+
+    /// Takes in what was counted of a tile of this picture.
+    pub fn add(&mut self, part: &CountedTile) {
+        let columns = part.tile.width as usize;
+        let rows = part.pixels.chunks_exact(columns);
+        let rows = rows.zip(part.depth_complexity.chunks_exact(columns));
+        for (row, (tallies, depths)) in rows.enumerate() {
+            let start = (part.tile.y as usize + row) * self.width as usize + part.tile.x as usize;
+            self.tallies[start..start + columns].copy_from_slice(tallies);
+            self.depth_complexity[start..start + columns].copy_from_slice(depths);
+        }
+    }
+
+    /// What some of a pixel's rays did together.
+    pub fn tally(&self, pixel: usize, rays: RayFilter) -> Tally {
+        let tallies = &self.tallies[pixel];
+        let kinds = rays.kinds().iter();
+        kinds.map(|&kind| tallies[kind as usize]).sum()
+    }
+}
+
+/// Which rays are looked at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum RayFilter {
+    #[default]
+    All,
+    Primary,
+    Shadow,
+    /// Reflected and refracted ones.
+    Secondary,
+    Reflected,
+    Refracted,
+}
+
+impl RayFilter {
+    pub const ALL: [RayFilter; 6] = [
+        RayFilter::All,
+        RayFilter::Primary,
+        RayFilter::Shadow,
+        RayFilter::Secondary,
+        RayFilter::Reflected,
+        RayFilter::Refracted,
+    ];
+
+    /// Name in settings; with "rays" behind it, for people.
+    pub const fn name(self) -> &'static str {
+        match self {
+            RayFilter::All => "all",
+            RayFilter::Primary => "primary",
+            RayFilter::Shadow => "shadow",
+            RayFilter::Secondary => "secondary",
+            RayFilter::Reflected => "reflected",
+            RayFilter::Refracted => "refracted",
+        }
+    }
+
+    /// The one with this name.
+    pub fn named(name: &str) -> Option<RayFilter> {
+        RayFilter::ALL.into_iter().find(|f| f.name() == name)
+    }
+
+    /// The kinds that are looked at.
+    pub const fn kinds(self) -> &'static [RayKind] {
+        match self {
+            RayFilter::All => &RayKind::ALL,
+            RayFilter::Primary => &[RayKind::Primary],
+            RayFilter::Shadow => &[RayKind::Shadow],
+            RayFilter::Secondary => &[RayKind::Reflected, RayKind::Refracted],
+            RayFilter::Reflected => &[RayKind::Reflected],
+            RayFilter::Refracted => &[RayKind::Refracted],
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Text in pictures, drawn without a window.
+
+use ab_glyph::{Font, FontRef, PxScale, ScaleFont, point};
+use image::{Rgb, RgbImage};
+
+/// Text of one size and colour.
+pub struct Pen {
+    font: FontRef<'static>,
+    scale: PxScale,
+    color: [u8; 3],
+}
+
+impl Pen {
+    /// `size` is the height of a line in pixels.
+    pub fn new(size: f32, color: [u8; 3]) -> Pen {
+        let font = FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT)
+            .expect("the font is part of the program");
+        Pen {
+            font,
+            scale: PxScale::from(size),
+            color,
+        }
+    }
+
+    /// Distance from line to line, in pixels.
+    pub fn line_height(&self) -> u32 {
+        let font = self.font.as_scaled(self.scale);
+        (font.height() + font.line_gap()).ceil() as u32
+    }
+
+    /// Width in pixels.
+    pub fn width(&self, text: &str) -> u32 {
+        self.walk(text, |_, _| ()).ceil() as u32
+    }
+
+    /// The text in lines of at most this width, broken between words; a longer word stays whole.
+    pub fn wrapped(&self, text: &str, width: u32) -> Vec<String> {
+        let mut lines: Vec<String> = Vec::new();
+        for word in text.split(' ') {
+            match lines.last_mut() {
+                Some(line) if self.width(&format!("{line} {word}")) <= width => {
+                    line.push(' ');
+                    line.push_str(word);
+                }
+                _ => lines.push(word.to_owned()),
+            }
+        }
+        lines
+    }
+
+    /// Draws a line of text with its upper left corner here. What lies outside is cut off.
+    pub fn draw(&self, image: &mut RgbImage, x: u32, y: u32, text: &str) {
+        let top = y as f32 + self.font.as_scaled(self.scale).ascent();
+        self.walk(text, |glyph, along| {
+            let placed = glyph.with_scale_and_position(self.scale, point(x as f32 + along, top));
+            let Some(outline) = self.font.outline_glyph(placed) else {
+                return;
+            };
+            let corner = outline.px_bounds().min;
+            outline.draw(|column, row, covered| {
+                let (px, py) = (
+                    corner.x as i64 + i64::from(column),
+                    corner.y as i64 + i64::from(row),
+                );
+                let (Ok(px), Ok(py)) = (u32::try_from(px), u32::try_from(py)) else {
+                    return;
+                };
+                if let Some(Rgb(pixel)) = image.get_pixel_mut_checked(px, py) {
+                    for (value, ink) in pixel.iter_mut().zip(self.color) {
+                        let covered = covered.clamp(0.0, 1.0);
+                        let mixed =
+                            f32::from(*value) + (f32::from(ink) - f32::from(*value)) * covered;
+                        *value = mixed.round() as u8;
+                    }
+                }
+            });
+        });
+    }
+
+    /// Tells of every glyph and how far along the line it starts; gives the line's width.
+    fn walk(&self, text: &str, mut each: impl FnMut(ab_glyph::GlyphId, f32)) -> f32 {
+        let font = self.font.as_scaled(self.scale);
+        let (mut along, mut last) = (0.0, None);
+        for c in text.chars() {
+            let glyph = font.glyph_id(c);
+            along += last.map_or(0.0, |last| font.kern(last, glyph));
+            each(glyph, along);
+            along += font.h_advance(glyph);
+            last = Some(glyph);
+        }
+        along
+    }
+}

@@ -1,0 +1,166 @@
+//! The stream of words that a file is, with their lines.
+
+use crate::geometry::Vec3;
+use crate::progress::{Cancelled, Progress};
+use crate::scene::format::ReadError;
+use std::fmt::Display;
+
+/// Words between two looks at whether the task was cancelled.
+const WORDS_PER_CHECK: u32 = 4096;
+
+/// A word of the file and the line it stands in, counted from 1.
+#[derive(Clone, Copy)]
+pub(super) struct Word<'a> {
+    pub bytes: &'a [u8],
+    /// Counted from 1.
+    pub line: usize,
+}
+
+impl Word<'_> {
+    pub(super) fn parse<T: std::str::FromStr>(&self) -> Option<T> {
+        std::str::from_utf8(self.bytes).ok()?.parse().ok()
+    }
+
+    /// Quoted for a message: never long, and free of control characters, whatever the file holds.
+    pub(super) fn quoted(&self) -> String {
+        const SHOWN: usize = 32;
+        let head = &self.bytes[..self.bytes.len().min(4 * SHOWN)];
+        let text = String::from_utf8_lossy(head);
+        let mut shown: String = text.chars().take(SHOWN).collect();
+        if shown.len() < text.len() || head.len() < self.bytes.len() {
+            shown.push('…');
+        }
+        format!("'{}'", shown.escape_debug())
+    }
+
+    /// The mistake that this word is not what was expected here.
+    pub(super) fn instead_of(&self, expected: impl Display) -> ReadError {
+        syntax(self.line, expected, self.quoted())
+    }
+}
+
+pub(super) fn syntax(line: usize, expected: impl Display, found: impl Display) -> ReadError {
+    ReadError::Syntax {
+        line,
+        expected: expected.to_string(),
+        found: found.to_string(),
+    }
+}
+
+/// The words of a file, one after the other, without comments.
+pub(super) struct Words<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: usize,
+    taken: u32,
+    progress: &'a Progress,
+}
+
+impl<'a> Words<'a> {
+    pub(super) fn new(bytes: &'a [u8], progress: &'a Progress) -> Self {
+        Words {
+            bytes: bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes),
+            at: 0,
+            line: 1,
+            taken: 0,
+            progress,
+        }
+    }
+
+    /// Moves to the start of the next word or to the end. Lines end with LF, CR LF or CR.
+    fn skip_blanks(&mut self) {
+        while let Some(&byte) = self.bytes.get(self.at) {
+            match byte {
+                b'#' => {
+                    let rest = &self.bytes[self.at..];
+                    let end = rest.iter().position(|b| matches!(b, b'\n' | b'\r'));
+                    self.at += end.unwrap_or(rest.len());
+                    continue;
+                }
+                b'\n' => self.line += 1,
+                b'\r' if self.bytes.get(self.at + 1) != Some(&b'\n') => self.line += 1,
+                b'\r' | b' ' | b'\t' | b'\x0b' | b'\x0c' => {}
+                _ => break,
+            }
+            self.at += 1;
+        }
+    }
+
+    /// The next word; `None` at the end of the file.
+    pub(super) fn next(&mut self) -> Result<Option<Word<'a>>, Cancelled> {
+        self.taken += 1;
+        if self.taken >= WORDS_PER_CHECK {
+            self.taken = 0;
+            self.progress.check()?;
+            self.progress.set(self.at as f64 / self.bytes.len() as f64);
+        }
+        self.skip_blanks();
+        let rest = &self.bytes[self.at..];
+        let is_end = |b: &u8| matches!(b, b'\t'..=b'\r' | b' ' | b'#');
+        let length = rest.iter().position(is_end).unwrap_or(rest.len());
+        self.at += length;
+        Ok((length > 0).then_some(Word {
+            bytes: &rest[..length],
+            line: self.line,
+        }))
+    }
+
+    /// The next word, which must exist.
+    pub(super) fn expect(&mut self, expected: impl Display) -> Result<Word<'a>, ReadError> {
+        let word = self.next()?;
+        word.ok_or_else(|| syntax(self.last_line(), expected, "the end of the file"))
+    }
+
+    /// Whether the next word begins as a number does.
+    pub(super) fn number_follows(&mut self) -> bool {
+        self.skip_blanks();
+        let first = self.bytes.get(self.at);
+        first.is_some_and(|b| matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.'))
+    }
+
+    /// The next number and its word.
+    pub(super) fn number_word(&mut self, what: impl Display) -> Result<(f64, Word<'a>), ReadError> {
+        let word = self.expect(&what)?;
+        match word.parse::<f64>() {
+            Some(number) if number.is_finite() => Ok((number, word)),
+            _ => Err(word.instead_of(format_args!("{what} (a finite number)"))),
+        }
+    }
+
+    pub(super) fn number(&mut self, what: impl Display) -> Result<f64, ReadError> {
+        self.number_word(what).map(|(number, _)| number)
+    }
+
+    pub(super) fn triple(&mut self, names: [&str; 3], of: impl Display) -> Result<Vec3, ReadError> {
+        let mut numbers = [0.0; 3];
+        for (number, name) in numbers.iter_mut().zip(names) {
+            *number = self.number(format_args!("{name} of {of}"))?;
+        }
+        Ok(Vec3::from_array(numbers))
+    }
+
+    pub(super) fn point(&mut self, of: impl Display) -> Result<Vec3, ReadError> {
+        self.triple(["x", "y", "z"], of)
+    }
+
+    pub(super) fn color(&mut self, of: impl Display) -> Result<Vec3, ReadError> {
+        self.triple(["red", "green", "blue"], of)
+    }
+
+    /// A radius, 0 or more.
+    pub(super) fn radius(&mut self, what: &str) -> Result<f64, ReadError> {
+        let (radius, word) = self.number_word(what)?;
+        if radius < 0.0 {
+            return Err(word.instead_of(format_args!("{what}, 0 or more")));
+        }
+        Ok(radius)
+    }
+
+    /// The line of the last character; 1 for an empty file. Only at the end of the file.
+    pub(super) fn last_line(&self) -> usize {
+        match self.bytes.last() {
+            Some(b'\n' | b'\r') => self.line - 1,
+            _ => self.line,
+        }
+    }
+}
