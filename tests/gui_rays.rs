@@ -133,6 +133,7 @@ fn picking_shows_every_ray_and_what_they_sum_to() {
             assert!(label.contains(end) || label.contains("polygon"), "{label}");
             press(&mut window, Modifiers::NONE, Key::PageDown);
         }
+        assert!(has(&window, "sums as in the counted pass"));
         for (kind, t) in RayKind::ALL.into_iter().zip(record.tallies()) {
             assert!(has(
                 &window,

@@ -6,6 +6,7 @@ use crate::gui::shortcuts::{Action, text};
 use crate::gui::state::State;
 use crate::gui::step_text;
 use crate::gui::symbol::grouped;
+use crate::measure::heat::RayFilter;
 use crate::overlay::ray_style;
 use crate::scene::Scene;
 use crate::trace::{RayKind, RecordedRay, Tally};
@@ -114,6 +115,15 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         ));
         if record.cut {
             ui.strong("cut short: there are too many to keep");
+        } else if let Some(counts) = &current.pixel_counts {
+            // The same rays, counted apart from this record.
+            let [x, y] = picked.pixel;
+            let place = y as usize * current.shown.render.width as usize + x as usize;
+            if counts.tally(place, RayFilter::All) == record.tallies().into_iter().sum() {
+                ui.weak("· sums as in the counted pass");
+            } else {
+                ui.strong("· sums differ from the counted pass");
+            }
         }
     });
     let list = List {

@@ -39,12 +39,12 @@ const COLUMNS: &[Column] = &[
     Column {
         title: "depth",
         about: "Levels below the root",
-        width: 36.0,
+        width: 42.0,
     },
     Column {
         title: "from – to",
         about: "Where on the ray the cell lies, in units of the scene",
-        width: 106.0,
+        width: 103.0,
     },
     Column {
         title: "what happens",
