@@ -6,11 +6,15 @@ mod heat;
 mod leaf_boxes;
 mod legend;
 mod lines;
+mod rays;
 mod text;
+mod walk;
 
 pub use coloring::{COLORINGS, Coloring, Leaf, Mark, coloring};
 pub use colormap::{COLORMAPS, Colormap, colormap};
 pub use heat::{HeatScale, Range, Scale, Tick, blend, heat_colors};
 pub use leaf_boxes::{Filter, Instance, LeafBoxes, leaf_boxes};
 pub use legend::{Captions, HeatPicture, with_legend};
-pub use lines::{Line, box_lines, frustum_lines, order_color, path_lines};
+pub use lines::{Line, box_lines, frustum_lines, order_color};
+pub use rays::{RayStyle, RaysShown, ray_lines, ray_style};
+pub use walk::{CELL, PLANE, WAITING, step_lines, visited_lines};
