@@ -201,7 +201,7 @@ fn a_load_that_fails_keeps_the_scene_and_says_why() {
     finish(&mut window);
     let before = figure(&window, "leaves");
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::L);
-    let field = window.get_by_role(egui::accesskit::Role::TextInput);
+    let field = window.get_by_role_and_label(egui::accesskit::Role::TextInput, "Path of a scene");
     field.focus();
     field.type_text("/there/is/no.nff");
     window.run_steps(2);

@@ -7,6 +7,7 @@ use super::recent::Recent;
 use super::shortcuts::{Action, Scope, pressed};
 use super::state::State;
 use super::status::StatusLine;
+use super::tree_panes::{TreePane, TreePanes};
 use super::view3d::View3d;
 use super::walk::Go;
 use super::{StartOptions, help, top_bar, walk_bar};
@@ -27,11 +28,13 @@ pub struct App {
 enum Pane {
     Picture,
     View3d,
+    Tree(TreePane),
 }
 
 struct Panes {
     picture: PicturePane,
     view3d: View3d,
+    tree: TreePanes,
 }
 
 impl App {
@@ -49,13 +52,21 @@ impl App {
         start.render.height = start.render.height.min(largest);
         let mut tiles = egui_tiles::Tiles::default();
         let panes = [Pane::Picture, Pane::View3d].map(|pane| tiles.insert_pane(pane));
-        let root = tiles.insert_horizontal_tile(panes.to_vec());
+        let views = tiles.insert_horizontal_tile(panes.to_vec());
+        let about_tree = TreePane::ALL.map(|pane| tiles.insert_pane(Pane::Tree(pane)));
+        let about_tree = tiles.insert_tab_tile(about_tree.to_vec());
+        let mut column =
+            egui_tiles::Linear::new(egui_tiles::LinearDir::Vertical, vec![views, about_tree]);
+        column.shares.set_share(views, 0.6);
+        column.shares.set_share(about_tree, 0.4);
+        let root = tiles.insert_new(egui_tiles::Tile::Container(column.into()));
         App {
             state: State::new(&start, &cc.egui_ctx),
             files: Files::new(recent),
             panes: Panes {
                 picture: PicturePane::default(),
                 view3d: View3d::new(cc.wgpu_render_state.as_ref(), start.render.camera),
+                tree: TreePanes::default(),
             },
             tiles: egui_tiles::Tree::new(egui::Id::unique("panes"), root, tiles),
             status: StatusLine::default(),
@@ -75,7 +86,7 @@ impl App {
             Action::Cancel => {
                 if self.help_open {
                     self.help_open = false;
-                } else if state.failure.take().is_none() {
+                } else if state.failure.take().is_none() && !state.inspect.undo() {
                     state.cancel();
                 }
             }
@@ -164,6 +175,9 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
+        if let Some(current) = &self.state.current {
+            self.state.inspect.follow(current);
+        }
         for action in pressed(&ctx, Scope::Window) {
             self.act(action, &ctx);
         }
@@ -226,6 +240,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
         match pane {
             Pane::Picture => "Picture".into(),
             Pane::View3d => "3D view".into(),
+            Pane::Tree(pane) => pane.title().into(),
         }
     }
 
@@ -241,6 +256,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
             .show(ui, |ui| match pane {
                 Pane::Picture => self.panes.picture.ui(ui, self.state),
                 Pane::View3d => self.panes.view3d.ui(ui, self.state),
+                Pane::Tree(pane) => self.panes.tree.ui(*pane, ui, self.state),
             });
         egui_tiles::UiResponse::None
     }

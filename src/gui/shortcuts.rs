@@ -8,16 +8,29 @@ pub enum Scope {
     Window,
     Picture,
     View3d,
+    Tree,
+    Leaves,
+    Cost,
 }
 
 impl Scope {
-    pub const ALL: [Scope; 3] = [Scope::Window, Scope::Picture, Scope::View3d];
+    pub const ALL: [Scope; 6] = [
+        Scope::Window,
+        Scope::Picture,
+        Scope::View3d,
+        Scope::Tree,
+        Scope::Leaves,
+        Scope::Cost,
+    ];
 
     pub const fn title(self) -> &'static str {
         match self {
             Scope::Window => "Everywhere",
             Scope::Picture => "Pointer over the picture",
             Scope::View3d => "Pointer over the 3D view",
+            Scope::Tree => "Pointer over the outline of the tree",
+            Scope::Leaves => "Pointer over the leaf histograms",
+            Scope::Cost => "Pointer over the split cost",
         }
     }
 }
@@ -78,6 +91,15 @@ pub enum Action {
     FlyRight,
     FlyUp,
     FlyDown,
+    RowUp,
+    RowDown,
+    Fold,
+    Unfold,
+    FrameNode,
+    FindNext,
+    FindPrevious,
+    ClearRanges,
+    UndoWhatIf,
     /// Done with the mouse; listed for the help window alone.
     Mouse,
 }
@@ -148,6 +170,7 @@ shortcuts! {
     View3d Mouse NONE [] "Left-drag" "Orbit";
     View3d Mouse NONE [] "Right-drag" "Pan";
     View3d Mouse NONE [] "Wheel" "Zoom to the pointer";
+    View3d Mouse NONE [] "Click" "Select the nearest leaf shown; again: the next behind it";
     View3d FrameSelection NONE [F] "F" "Frame the selection";
     View3d FrameAll NONE [Home] "Home" "Frame everything";
     View3d Front NONE [Num1] "1" "Look along the y axis";
@@ -169,6 +192,17 @@ shortcuts! {
     View3d FlyRight NONE [D] "D" "Fly to the right";
     View3d FlyDown NONE [Q] "Q" "Fly down";
     View3d FlyUp NONE [E] "E" "Fly up";
+    Tree RowUp NONE [ArrowUp] "Up" "Select the row above";
+    Tree RowDown NONE [ArrowDown] "Down" "Select the row below";
+    Tree Unfold NONE [ArrowRight] "Right" "Unfold the node, or go to its first child";
+    Tree Fold NONE [ArrowLeft] "Left" "Fold the node, or go to its parent";
+    Tree FrameNode NONE [Enter] "Enter" "Show the selected node's cell in 3D";
+    Tree FindNext NONE [N] "N" "Select the next match";
+    Tree FindPrevious SHIFT [N] "Shift+N" "Select the match before";
+    Leaves Mouse NONE [] "Drag" "Select the leaves of these bars; click: of one bar, again: of all";
+    Leaves ClearRanges NONE [Delete] "Delete" "Select all leaves again";
+    Cost Mouse NONE [] "Drag" "Try a plane; it changes no tree";
+    Cost UndoWhatIf NONE [Delete] "Delete or Esc" "Take the tried plane away";
 }
 
 /// Flying goes on while a key is held; all else happens once.

@@ -1,6 +1,7 @@
 //! What is wanted and what is shown. All that is shown belongs together: it is swapped as one.
 
 use super::StartOptions;
+use super::inspect::Inspect;
 use super::selection::Selection;
 use super::walk::{Picked, Walking, Wish};
 use crate::measure::heat::PixelCounts;
@@ -27,6 +28,8 @@ pub struct State {
     pub failure: Option<Failure>,
     /// How the walks of rays are followed.
     pub walking: Walking,
+    /// What the panes about the tree share.
+    pub inspect: Inspect,
 }
 
 /// A request that failed.
@@ -115,6 +118,7 @@ impl State {
             stopped: false,
             failure: None,
             walking: Walking::default(),
+            inspect: Inspect::default(),
         }
     }
 
@@ -180,7 +184,10 @@ impl State {
                         opened.push(source.clone());
                     }
                     let wish = self.kept_pixel(&shown);
-                    self.current = Some(Current::new(news.request, *shown, wish));
+                    let selection = self.kept_selection(&shown);
+                    let mut current = Current::new(news.request, *shown, wish);
+                    current.selection = selection.unwrap_or(current.selection);
+                    self.current = Some(current);
                 }
                 update => {
                     if let Update::Failed(reason) = &update
@@ -214,6 +221,12 @@ impl State {
             ray: picked.ray,
         });
         before.wish.or(picked).filter(|_| same)
+    }
+
+    /// What is selected stays so in another picture of the same tree.
+    fn kept_selection(&self, shown: &Shown) -> Option<Selection> {
+        let before = self.current.as_ref()?;
+        Arc::ptr_eq(&before.shown.tree, &shown.tree).then_some(before.selection)
     }
 
     fn fail(&mut self, why: String) {

@@ -242,6 +242,8 @@ impl Current {
             move || record_pixel_within(&scene, &tree, &view, d_arec, wish.pixel, MOST_RECORDED);
         if let Some(record) = records.get_soon(&key, ctx, PATIENCE, make) {
             self.wish = None;
+            let hit = record.rays[0].path.hit;
+            self.selection.object = hit.is_hit().then_some(hit.object);
             self.picked = Some(Picked {
                 pixel: wish.pixel,
                 ray: wish.ray.min(record.rays.len() - 1),

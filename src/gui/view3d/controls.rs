@@ -171,7 +171,7 @@ pub fn act(view: &mut View3d, action: Action, state: &State, dt: f64) -> bool {
             }
         }
         Action::FrameSelection => {
-            if let Some(bounds) = state.current.as_ref().and_then(selection) {
+            if let Some(bounds) = state.current.as_ref().and_then(framed) {
                 view.camera.show(&bounds);
                 return true;
             }
@@ -196,6 +196,14 @@ fn look(view: &mut View3d, axis: Axis) -> bool {
     };
     view.camera.look(turned, up);
     true
+}
+
+/// What F shows: the selected node's cell, or else what is picked.
+fn framed(current: &Current) -> Option<crate::geometry::Aabb> {
+    match current.selection.node {
+        Some(node) => Some(current.shown.tree.cell_of(node).bounds),
+        None => selection(current),
+    }
 }
 
 /// The box of what is picked: the object hit, or else the leaves visited.

@@ -19,6 +19,8 @@ pub struct Legend<'a> {
     /// How many of the boxes are drawn.
     pub drawn: u32,
     pub picked: Option<&'a Picked>,
+    /// What the marks of the selection mean.
+    pub marks: Vec<String>,
     /// Objects that were left out.
     pub left_out: usize,
 }
@@ -92,6 +94,9 @@ fn contents(legend: &Legend<'_>, ui: &mut egui::Ui) {
     }
     if let Some(picked) = legend.picked {
         path_key(legend, picked, ui);
+    }
+    for line in &legend.marks {
+        ui.label(line);
     }
     if !legend.settings.linked {
         ui.label("white pyramid: the picture's camera");
