@@ -3,9 +3,7 @@
 use super::Settings;
 use crate::gui::symbol::grouped;
 use crate::gui::walk::Picked;
-use crate::overlay::{
-    CELL, Coloring, LeafBoxes, PLANE, RaysShown, WAITING, order_color, ray_style,
-};
+use crate::overlay::{Coloring, INTERVAL, LeafBoxes, RaysShown, WAITING, order_color, ray_style};
 use crate::trace::RayKind;
 use egui::{Color32, Rect, pos2, vec2};
 
@@ -188,8 +186,7 @@ fn path_key(legend: &Legend<'_>, picked: &Picked, ui: &mut egui::Ui) {
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 5.0;
             for (color, strokes, what) in [
-                (CELL, &[][..], "current cell and interval"),
-                (PLANE, &[], "its plane (hatched)"),
+                (INTERVAL, &[][..], "the ray in the current cell"),
                 (WAITING, &[1.0, 1.0], "cells that wait"),
             ] {
                 sample(ui, color, strokes);

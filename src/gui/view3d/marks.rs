@@ -137,11 +137,11 @@ impl Marks {
             let of = grouped(self.leaves);
             lines.push(if cells.len() < self.leaves {
                 format!(
-                    "thin green: {} of the {of} leaves of object {object}",
+                    "thin red: {} of the {of} leaves of object {object}",
                     cells.len()
                 )
             } else {
-                format!("thin green: the {of} leaves of object {object}")
+                format!("thin red: the {of} leaves of object {object}")
             });
         }
         lines
