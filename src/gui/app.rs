@@ -9,7 +9,8 @@ use super::state::State;
 use super::status::StatusLine;
 use super::tree_panes::{TreePane, TreePanes};
 use super::view3d::View3d;
-use super::{StartOptions, help, top_bar};
+use super::walk::Go;
+use super::{StartOptions, help, top_bar, walk_bar};
 use crate::tree::{BuildSettings, MaxDepth, Method};
 
 /// The window.
@@ -120,6 +121,14 @@ impl App {
             }
             Action::ResetMethod => *build = BuildSettings::for_method(build.method),
             Action::Theme => top_bar::toggle_theme(ctx),
+            Action::FirstStep => state.go(Go::First),
+            Action::PreviousStep => state.go(Go::Previous),
+            Action::NextStep => state.go(Go::Next),
+            Action::LastStep => state.go(Go::Last),
+            Action::Play => state.play_or_pause(ctx.input(|i| i.time)),
+            Action::LeavesOnly => state.set_leaves_only(!state.walking.leaves_only),
+            Action::PreviousRay => state.next_ray(-1),
+            Action::NextRay => state.next_ray(1),
             Action::SceneCamera => state.wanted.own_camera = false,
             _ => {}
         }
@@ -172,12 +181,14 @@ impl eframe::App for App {
         for action in pressed(&ctx, Scope::Window) {
             self.act(action, &ctx);
         }
+        self.state.follow_rays(&ctx);
         egui::Panel::top("top bar").show(ui, |ui| {
             top_bar::show(ui, &mut self.state, &mut self.files, &mut self.help_open);
         });
         egui::Panel::bottom("status line").show(ui, |ui| {
             self.status.ui(ui, &self.state, self.panes.picture.hovered);
         });
+        egui::Panel::bottom("walk bar").show(ui, |ui| walk_bar::show(ui, &mut self.state));
         egui::Panel::left("left")
             .default_size(255.0)
             .size_range(180.0..=480.0)

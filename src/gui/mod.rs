@@ -12,14 +12,18 @@ mod inspect;
 mod panels;
 mod picture_pane;
 mod recent;
+mod rows;
 mod selection;
 mod shortcuts;
 mod state;
 mod status;
+mod step_text;
 mod symbol;
 mod top_bar;
 mod tree_panes;
 mod view3d;
+mod walk;
+mod walk_bar;
 
 pub use app::App;
 pub use shortcuts::{Action, SHORTCUTS, Scope, Shortcut};

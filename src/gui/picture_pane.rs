@@ -47,8 +47,8 @@ impl PicturePane {
             Color32::WHITE
         };
         painter.image(texture.id(), rect, whole, tint);
-        if let Some(picked) = &current.picked {
-            cross_hair(&painter, rect, picture, picked.pixel);
+        if let Some(pixel) = current.picked_pixel() {
+            cross_hair(&painter, rect, picture, pixel);
         }
         let pixel_at = |pos: Pos2| -> Option<[u32; 2]> {
             let at = (pos - rect.min) / rect.size() * vec2(picture[0] as f32, picture[1] as f32);
@@ -61,6 +61,7 @@ impl PicturePane {
             && let Some(pixel) = response.interact_pointer_pos().and_then(pixel_at)
         {
             current.pick(pixel);
+            ui.ctx().request_repaint();
         }
     }
 
@@ -139,7 +140,7 @@ impl PicturePane {
                     self.zoom = Some(1.0 / ui.ctx().pixels_per_point());
                     self.offset = Vec2::ZERO;
                 }
-                Action::Unpick => current.picked = None,
+                Action::Unpick => current.unpick(),
                 Action::PickLeft => step(current, -1, 0),
                 Action::PickRight => step(current, 1, 0),
                 Action::PickUp => step(current, 0, -1),
@@ -153,14 +154,11 @@ impl PicturePane {
 /// Moves the picked pixel by one; without one, the picture's middle is picked.
 fn step(current: &mut Current, dx: i32, dy: i32) {
     let (width, height) = (current.shown.picture.width, current.shown.picture.height);
-    let pixel = match &current.picked {
-        Some(picked) => {
-            let [x, y] = picked.pixel;
-            [
-                x.saturating_add_signed(dx).min(width - 1),
-                y.saturating_add_signed(dy).min(height - 1),
-            ]
-        }
+    let pixel = match current.picked_pixel() {
+        Some([x, y]) => [
+            x.saturating_add_signed(dx).min(width - 1),
+            y.saturating_add_signed(dy).min(height - 1),
+        ],
         None => [width / 2, height / 2],
     };
     current.pick(pixel);

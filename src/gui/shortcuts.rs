@@ -55,6 +55,14 @@ pub enum Action {
     ResetMethod,
     SceneCamera,
     Theme,
+    FirstStep,
+    PreviousStep,
+    NextStep,
+    LastStep,
+    Play,
+    LeavesOnly,
+    PreviousRay,
+    NextRay,
     Fit,
     ActualSize,
     PickLeft,
@@ -71,6 +79,7 @@ pub enum Action {
     Link,
     ShowScene,
     ShowBoxes,
+    ShowRays,
     NextColoring,
     ShowFull,
     ShowEmpty,
@@ -139,6 +148,14 @@ shortcuts! {
     Window ResetMethod COMMAND [Backspace] "Ctrl+Backspace" "Settings of the method back to the paper's";
     Window SceneCamera COMMAND [Home] "Ctrl+Home" "Back to the scene's own camera";
     Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
+    Window PreviousRay NONE [PageUp] "Page up" "Previous ray of the picked pixel";
+    Window NextRay NONE [PageDown] "Page down" "Next ray of the picked pixel";
+    Window FirstStep SHIFT [Home] "Shift+Home" "First step of the ray's walk";
+    Window PreviousStep NONE [Comma] "," "One step of the walk back";
+    Window NextStep NONE [Period] "." "One step of the walk on";
+    Window LastStep SHIFT [End] "Shift+End" "Last step of the walk";
+    Window Play NONE [Space] "Space" "Play the walk, or pause it";
+    Window LeavesOnly NONE [K] "K" "Step through leaves only, or through inner nodes, too";
     Window Mouse NONE [] "Drop a file" "Open it";
     Picture Mouse NONE [] "Click" "Name the object in a pixel and follow its ray";
     Picture Mouse NONE [] "Wheel" "Zoom to the pointer";
@@ -163,6 +180,7 @@ shortcuts! {
     View3d Link NONE [L] "L" "Link the picture's camera to this view, or not";
     View3d ShowScene NONE [M] "M" "Show the scene's objects, or not";
     View3d ShowBoxes NONE [B] "B" "Show leaf boxes, or not";
+    View3d ShowRays NONE [R] "R" "Show all rays of the picked pixel, or only the selected one";
     View3d NextColoring NONE [C] "C" "Colour leaves by something else";
     View3d ShowFull NONE [O] "O" "Show full leaves, or not";
     View3d ShowEmpty NONE [P] "P" "Show empty leaves, or not";

@@ -7,8 +7,10 @@ mod histogram;
 mod leaf_boxes;
 mod legend;
 mod lines;
+mod rays;
 mod selection;
 mod text;
+mod walk;
 
 pub use coloring::{COLORINGS, Coloring, Leaf, Mark, coloring};
 pub use colormap::{COLORMAPS, Colormap, colormap};
@@ -18,7 +20,9 @@ pub use histogram::{
 };
 pub use leaf_boxes::{Filter, Instance, LeafBoxes, leaf_boxes};
 pub use legend::{Captions, HeatPicture, with_legend};
-pub use lines::{Line, box_lines, frustum_lines, order_color, path_lines};
+pub use lines::{Line, box_lines, frustum_lines, order_color};
+pub use rays::{RayStyle, RaysShown, ray_lines, ray_style};
 pub use selection::{
     CELL_COLOR, FaceCorner, PLANE_COLOR, REFERRING_COLOR, cell_faces, cell_lines, leaves_along,
 };
+pub use walk::{INTERVAL, WAITING, step_lines, visited_lines};

@@ -1,4 +1,4 @@
-//! The 3D view: the scene, the leaves of its tree, and the path of the picked pixel's ray.
+//! The 3D view: the scene, the leaves of its tree, and the rays of the picked pixel.
 
 mod camera;
 mod controls;
@@ -6,6 +6,7 @@ mod leaf_boxes;
 mod legend;
 mod marks;
 mod pipelines;
+mod ray_lines;
 mod renderer;
 mod scene_mesh;
 
@@ -42,6 +43,7 @@ pub struct View3d {
     scene: Option<Arc<Scene>>,
     mesh: Latest<SceneKey, scene_mesh::SceneMesh>,
     boxes: leaf_boxes::Boxes,
+    rays: ray_lines::RayLines,
     lines: Arc<Vec<Line>>,
     faces: Arc<Vec<overlay::FaceCorner>>,
     /// When the camera moved last, in seconds.
@@ -79,6 +81,7 @@ impl View3d {
             scene: None,
             mesh: Latest::default(),
             boxes: leaf_boxes::Boxes::default(),
+            rays: ray_lines::RayLines::default(),
             lines: Arc::default(),
             faces: Arc::default(),
             moved: f64::NEG_INFINITY,
@@ -233,7 +236,7 @@ impl View3d {
         let (scene, tree) = (&current.shown.scene, &current.shown.tree);
         let center = scene_mesh::center_of(scene);
         let ctx = ui.ctx();
-        let path = current.picked.as_ref().map(|picked| &picked.path);
+        let path = current.picked.as_ref().map(|picked| picked.path());
         let mesh = if self.settings.scene {
             let making = Arc::clone(scene);
             let key = SceneKey(Arc::clone(scene));
@@ -271,7 +274,8 @@ impl View3d {
             ctx.request_repaint_after_secs((REST - resting) as f32 + 0.01);
         }
 
-        let mut bounds = tree.root_cell();
+        let drawn_lines = ray_lines::bounds_of(&self.lines, center);
+        let mut bounds = tree.root_cell().union(&drawn_lines);
         if !self.settings.linked {
             let eye = current.shown.render.camera.from;
             bounds = bounds.union(&Aabb::new(eye, eye));
@@ -302,7 +306,7 @@ impl View3d {
             settings: &self.settings,
             boxes: boxes.as_deref(),
             drawn,
-            path: path.map(|path| &**path),
+            picked: current.picked.as_ref(),
             left_out,
         };
         legend::show(&legend, ui, rect);
@@ -328,17 +332,16 @@ impl View3d {
         }
     }
 
-    /// The picked ray with its leaves and the object hit, and the picture's camera if it is another.
-    fn lines_for(&self, current: &Current, center: Vec3) -> Vec<Line> {
+    /// The picked pixel's rays with the selected one's walk and the object hit, and the picture's camera if it is another.
+    fn lines_for(&mut self, current: &Current, center: Vec3) -> Vec<Line> {
         const WHITE: [u8; 4] = [255; 4];
-        let mut lines = Vec::new();
-        if let Some(picked) = &current.picked {
-            lines.extend(overlay::path_lines(&picked.path, center));
-            if picked.path.hit.is_hit()
-                && let Some(bounds) = controls::selection(current)
-            {
-                lines.extend(overlay::box_lines(&bounds, center, WHITE, 1.0));
-            }
+        let others = self.settings.all_rays;
+        let mut lines = self.rays.get(current, others, center).to_vec();
+        if let Some(picked) = &current.picked
+            && picked.path().hit.is_hit()
+            && let Some(bounds) = controls::selection(current)
+        {
+            lines.extend(overlay::box_lines(&bounds, center, WHITE, 1.0));
         }
         if !self.settings.linked {
             let render = &current.shown.render;
