@@ -10,6 +10,9 @@ use egui::{Color32, Rect, pos2, vec2};
 /// Length of the colour bar in points, where there is room.
 const BAR: f32 = 210.0;
 
+/// In a view of this height, in points, the whole legend hides little.
+const ROOMY: f32 = 640.0;
+
 /// What a legend tells.
 pub struct Legend<'a> {
     pub settings: &'a Settings,
@@ -49,7 +52,7 @@ pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) {
                 ui.set_max_width((view.width() - 30.0).clamp(80.0, 330.0));
                 ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Wrap);
                 ui.spacing_mut().item_spacing.y = 2.0;
-                contents(legend, ui);
+                contents(legend, view.height() > ROOMY, ui);
             })
     });
     let now = shown.inner.response.rect.height();
@@ -59,7 +62,8 @@ pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) {
     }
 }
 
-fn contents(legend: &Legend<'_>, ui: &mut egui::Ui) {
+/// `roomy` where there is room for all of it without hiding the view.
+fn contents(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
     let coloring = legend.settings.coloring;
     match legend.boxes {
         Some(boxes) if !legend.settings.only_visited => {
@@ -90,11 +94,17 @@ fn contents(legend: &Legend<'_>, ui: &mut egui::Ui) {
             ui.label("Leaf boxes are not shown");
         }
     }
-    if let Some(picked) = legend.picked {
-        path_key(legend, picked, ui);
-    }
-    for line in &legend.marks {
-        ui.label(line);
+    if legend.picked.is_some() || !legend.marks.is_empty() {
+        egui::CollapsingHeader::new("Lines and marks")
+            .default_open(roomy)
+            .show_unindented(ui, |ui| {
+                if let Some(picked) = legend.picked {
+                    path_key(legend, picked, ui);
+                }
+                for line in &legend.marks {
+                    ui.label(line);
+                }
+            });
     }
     if !legend.settings.linked {
         ui.label("white pyramid: the picture's camera");
