@@ -6,6 +6,7 @@
 mod app;
 mod background;
 mod files;
+mod heat;
 mod help;
 mod panels;
 mod picture_pane;

@@ -49,6 +49,12 @@ pub enum Action {
     PickUp,
     PickDown,
     Unpick,
+    NextHeatmap,
+    PreviousHeatmap,
+    LogScale,
+    LockRange,
+    LessExpensive,
+    MoreExpensive,
     FrameSelection,
     FrameAll,
     Front,
@@ -126,6 +132,12 @@ shortcuts! {
     Picture PickUp NONE [ArrowUp] "Up" "Pick the pixel above";
     Picture PickDown NONE [ArrowDown] "Down" "Pick the pixel below";
     Picture Unpick NONE [Delete] "Delete" "Pick no pixel";
+    Picture PreviousHeatmap SHIFT [H] "Shift+H" "Show the heatmap before";
+    Picture NextHeatmap NONE [H] "H" "Show the next heatmap";
+    Picture LogScale NONE [G] "G" "Heatmap's colours by the logarithm, or not";
+    Picture LockRange NONE [K] "K" "Lock the range of the heatmap's colours, or not";
+    Picture MoreExpensive SHIFT [N] "Shift+N" "Pick the pixel before in the order of expense";
+    Picture LessExpensive NONE [N] "N" "Pick the most expensive pixel, then the next";
     Picture ActualSize COMMAND [Num0] "Ctrl+0" "Actual size: one pixel on one pixel";
     Picture Fit NONE [Home] "Home" "Fit the picture into its pane";
     View3d Mouse NONE [] "Left-drag" "Orbit";

@@ -33,7 +33,8 @@ pub struct Failure {
 
 /// A picture with everything that belongs to it.
 pub struct Current {
-    number: u64,
+    /// Number of the request that it answers; no other picture has it.
+    pub number: u64,
     pub shown: Shown,
     /// Whether the figures are final.
     pub complete: bool,
