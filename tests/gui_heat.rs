@@ -191,7 +191,7 @@ fn one_kind_of_rays_is_told_from_all() {
     assert!(has(&window, &range), "{} is not {range}", legend(&window));
     // Depth complexity is of the primary ray alone.
     show(&mut window, "D_COMPX");
-    wait(&mut window, "all rays", |w| !has(w, "shadow rays"));
+    wait(&mut window, "all rays", |w| !has(w, "· shadow rays ·"));
     show(&mut window, "N_IT");
     wait_for(&mut window, "· shadow rays ·");
 }
@@ -268,7 +268,7 @@ fn the_most_expensive_pixels_are_picked_in_order() {
     };
     plain(&mut window, egui::Key::N);
     wait(&mut window, "the maximum", |w| is_picked(w, 0));
-    window.get_by_label("Next").click();
+    window.get_by_label("Next costliest pixel").click();
     wait(&mut window, "the second", |w| is_picked(w, 1));
     plain(&mut window, egui::Key::N);
     wait(&mut window, "the third", |w| is_picked(w, 2));

@@ -49,6 +49,8 @@ impl HeatView {
         let config =
             MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
         let (button, _) = MenuButton::new("Colours …").config(config).ui(ui, |ui| {
+            // Not a menu's style: here a button without a frame looks like text.
+            ui.reset_style();
             ui.set_min_width(230.0);
             ui.strong("Colours");
             for (place, map) in COLORMAPS.iter().enumerate() {
@@ -124,21 +126,24 @@ impl HeatView {
             .is_some_and(|look| look.values.statistics.is_some());
         ui.label("costliest:")
             .on_hover_text("Pixels in the order of the values shown, from the highest.");
-        for (name, action, about) in [
+        for (sign, action, name, about) in [
             (
-                "Previous",
+                "◀",
                 Action::MoreExpensive,
-                "Pick the pixel before this one in the order of the values shown.",
+                "Previous costliest pixel",
+                "pick the pixel before this one in the order of the values shown.",
             ),
             (
-                "Next",
+                "▶",
                 Action::LessExpensive,
-                "Pick the pixel of the highest value shown, then the one of the next.",
+                "Next costliest pixel",
+                "pick the pixel of the highest value shown, then the one of the next.",
             ),
         ] {
-            if ui
-                .add_enabled(some, egui::Button::new(name))
-                .on_hover_text(tip(about, action))
+            let button = ui.add_enabled(some, egui::Button::new(sign));
+            button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, some, name));
+            if button
+                .on_hover_text(tip(&format!("{name}: {about}"), action))
                 .clicked()
             {
                 self.act(action);

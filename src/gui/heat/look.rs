@@ -122,8 +122,8 @@ impl Look {
             text += &format!(" · {} rays", self.key.values.rays.name());
         }
         text += &format!(" · {} scale", self.key.scale.name());
-        if self.key.range != Range::Automatic {
-            text += " · locked";
+        if let Range::Fixed { lo, hi } = self.key.range {
+            text += &format!(" · locked {} to {}", exact(lo), exact(hi));
         }
         text
     }
