@@ -128,13 +128,13 @@ impl HeatView {
             .on_hover_text("Pixels in the order of the values shown, from the highest.");
         for (sign, action, name, about) in [
             (
-                "◀",
+                "<",
                 Action::MoreExpensive,
                 "Previous costliest pixel",
                 "pick the pixel before this one in the order of the values shown.",
             ),
             (
-                "▶",
+                ">",
                 Action::LessExpensive,
                 "Next costliest pixel",
                 "pick the pixel of the highest value shown, then the one of the next.",
