@@ -52,8 +52,8 @@
 //!     height: 64,
 //!     ..RenderSettings::for_camera(*scene.camera())
 //! };
-//! let (_tree, measurement) = measure(&scene, &build, &render, &progress)?;
-//! let leaves = (parameter("N_LS").value)(&measurement);
+//! let measured = measure(&scene, &build, &render, &progress)?;
+//! let leaves = (parameter("N_LS").value)(&measured.measurement);
 //! assert!(leaves > Some(1.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -513,3 +513,32 @@ fn help_is_there_for_every_command() {
         assert!(help.contains("Examples:\n  bspscope"), "{help}");
     }
 }
+
+#[test]
+fn a_comparison_is_made_under_equal_conditions_or_refused() {
+    let program = Program::new();
+    let report = program.json(
+        "compare tetra:3 --a method=midpoint,d-max=9 --b method=sah-cut,d-max=9,epsilon=1e-5 \
+         --resolution 16x16 --format json",
+    );
+    let methods: Vec<_> = report["runs"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|run| run["method"].as_str().unwrap())
+        .collect();
+    assert_eq!(methods, ["midpoint", "sah-cut"]);
+
+    let refused = program
+        .run("compare tetra:3 --a method=midpoint --b method=sah-cut,d-max=12 --resolution 16x16");
+    assert_eq!(refused.status.code(), Some(1));
+    let text = String::from_utf8(refused.stdout).unwrap();
+    assert!(
+        text.contains("D_MAX") && text.contains("20 in A and 12 in B"),
+        "{text}"
+    );
+
+    let wrong = program.run("compare tetra:3 --a method=midpoint --b method=sah-cut,gap=1");
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&wrong.stderr).contains("no setting 'gap'"));
+}

@@ -37,7 +37,7 @@ fn measured(scene: &Scene, method: &str, size: u32, sampling: Sampling) -> Measu
     };
     measure(scene, &settings, &render, &Progress::new())
         .unwrap()
-        .1
+        .measurement
 }
 
 fn value(m: &Measurement, symbol: &str) -> f64 {

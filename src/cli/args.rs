@@ -6,7 +6,7 @@ use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
 use crate::scene::builtin::BUILTINS;
 use crate::scene::{Cylinders, Sampling};
-use crate::tree::{MaxDepth, Method, OverlapRule};
+use crate::tree::{BuildSettings, MaxDepth, Method, OverlapRule};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -33,6 +33,7 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     Measure(MeasureArgs),
+    Compare(CompareArgs),
     Render(RenderArgs),
     Probe(ProbeArgs),
     Generate(GenerateArgs),
@@ -69,6 +70,35 @@ pub struct MeasureArgs {
     pub methods: MethodListArgs,
     #[command(flatten)]
     pub build: BuildArgs,
+    #[command(flatten)]
+    pub trace: TraceArgs,
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// Form of the report; without it the extension of -o decides, or text
+    #[arg(long, value_name = "FORM", value_parser = writer_names(), help_heading = "Output")]
+    pub format: Option<String>,
+    /// Write to this file in place of standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: Option<PathBuf>,
+}
+
+/// Compare two trees of a scene, if they may be compared
+///
+/// Parameters of class S and D must be equal, and so must the images; if not, says which differ,
+/// with exit code 1. Else all parameters of both, with the second relative to the first.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope compare balls --a method=midpoint --b method=sah-cut\n\
+    bspscope compare rings --a method=sah-cut --b method=sah-cut,gap-fraction=0.05 --format json"))]
+pub struct CompareArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// The first tree: method=NAME, and any of d-max, n-oilf, overlap, root-margin, first-axis and
+    /// the method's own settings, separated by commas
+    #[arg(long, value_name = "SETTINGS", value_parser = tree_settings, help_heading = "Tree")]
+    pub a: BuildSettings,
+    /// The second tree, likewise
+    #[arg(long, value_name = "SETTINGS", value_parser = tree_settings, help_heading = "Tree")]
+    pub b: BuildSettings,
     #[command(flatten)]
     pub trace: TraceArgs,
     #[command(flatten)]
@@ -412,6 +442,43 @@ fn constant(text: &str) -> Result<(String, f64), String> {
     text.split_once('=')
         .and_then(|(name, value)| Some((name.to_owned(), value.parse().ok()?)))
         .ok_or_else(|| "expected NAME=VALUE with a number, such as gap-fraction=0.05".into())
+}
+
+/// The settings of a tree, such as `method=sah-cut,d-max=16,gap-fraction=0.1`.
+fn tree_settings(text: &str) -> Result<BuildSettings, String> {
+    let pairs: Vec<(&str, &str)> = text
+        .split(',')
+        .map(|pair| {
+            pair.split_once('=')
+                .map(|(name, value)| (name.trim(), value.trim()))
+                .ok_or_else(|| format!("expected NAME=VALUE, found '{pair}'"))
+        })
+        .collect::<Result<_, _>>()?;
+    let method = pairs.iter().find(|(name, _)| *name == "method");
+    let (_, method) = method.ok_or("expected method=NAME among the settings")?;
+    let mut settings = BuildSettings::for_method(in_words(method.parse())?);
+    for (name, value) in pairs {
+        match name {
+            "method" => {}
+            "d-max" => settings.d_max = in_words(value.parse())?,
+            "n-oilf" => settings.n_oilf = in_words(value.parse())?,
+            "overlap" => settings.overlap = in_words(value.parse())?,
+            "root-margin" => settings.root_margin = in_words(value.parse())?,
+            "first-axis" => settings.first_axis = in_words(value.parse())?,
+            _ => {
+                let number = value
+                    .parse()
+                    .map_err(|_| format!("{name}: expected a number, found '{value}'"))?;
+                settings.constants.insert(name.to_owned(), number);
+            }
+        }
+    }
+    in_words(settings.check())?;
+    Ok(settings)
+}
+
+fn in_words<T, E: ToString>(result: Result<T, E>) -> Result<T, String> {
+    result.map_err(|error| error.to_string())
 }
 
 #[cfg(test)]

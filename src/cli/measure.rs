@@ -2,11 +2,11 @@
 
 use super::args::MeasureArgs;
 use super::{Outcome, bar, output, resolve};
-use crate::measure::{Measurement, measure};
+use crate::measure::{Measured, measure};
 use crate::report::Report;
 use crate::scene::Scene;
 use crate::trace::RenderSettings;
-use crate::tree::{BuildSettings, Tree};
+use crate::tree::BuildSettings;
 use anyhow::Result;
 
 pub fn run(args: &MeasureArgs) -> Result<Outcome> {
@@ -18,7 +18,7 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome> {
     render.view()?;
     let mut runs = Vec::new();
     for build in &builds {
-        runs.push(run_of(&scene, build, &render)?.1);
+        runs.push(run_of(&scene, build, &render)?.measurement);
     }
     let report = Report::new(&scene, &request, runs);
     let writer = resolve::writer(args.format.as_deref(), args.output.as_deref());
@@ -27,11 +27,7 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome> {
 }
 
 /// Measures one method under a progress bar.
-pub fn run_of(
-    scene: &Scene,
-    build: &BuildSettings,
-    render: &RenderSettings,
-) -> Result<(Tree, Measurement)> {
+pub fn run_of(scene: &Scene, build: &BuildSettings, render: &RenderSettings) -> Result<Measured> {
     let stage = format!(
         "{}, {}: building, tracing, counting",
         scene.name(),

@@ -4,6 +4,7 @@
 
 mod args;
 mod bar;
+mod compare;
 mod generate;
 mod heat;
 mod measure;
@@ -33,6 +34,7 @@ pub fn main() -> ExitCode {
     let outcome = match &arguments.command {
         None => window::run(&arguments.window),
         Some(Command::Measure(args)) => measure::run(args),
+        Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Probe(args)) => probe::run(args),
         Some(Command::Generate(args)) => generate::run(args),

@@ -3,7 +3,6 @@
 use super::args::WindowArgs;
 use super::{Outcome, measure, output, render, resolve};
 use crate::report::{Report, write_summary};
-use crate::tree::Tree;
 use anyhow::{Context, Result};
 use image::ImageFormat;
 use std::io::Write;
@@ -63,20 +62,17 @@ fn without_window(args: &WindowArgs) -> Result<Outcome> {
     let settings = resolve::render(*scene.camera(), &args.trace, &args.picture);
     settings.view()?;
     let mut runs = Vec::new();
-    let mut last: Option<Tree> = None;
+    let mut last = None;
     for build in &builds {
-        let (tree, run) = measure::run_of(&scene, build, &settings)?;
-        runs.push(run);
-        last = Some(tree);
+        let measured = measure::run_of(&scene, build, &settings)?;
+        runs.push(measured.measurement);
+        last = Some(measured.picture);
     }
     let report = Report::new(&scene, &request, runs);
     output::write_to(None, |out| write_summary(&report, out))?;
 
-    let tree = last.context("there is at least one method")?;
-    let bytes = render::encoded(
-        &render::picture(&scene, &tree, &settings)?,
-        ImageFormat::Png,
-    )?;
+    let picture = last.context("there is at least one method")?;
+    let bytes = render::encoded(&picture, ImageFormat::Png)?;
     let (path, mut file) = output::create_free(&file_stem(scene.name()), "png")?;
     file.write_all(&bytes)
         .with_context(|| path.display().to_string())?;

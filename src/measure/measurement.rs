@@ -4,11 +4,12 @@ use super::{SceneFacts, TreeFacts};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
 use crate::trace::{
-    CountedPass, RayKind, RenderError, RenderSettings, Tally, TimedPass, counted_pass, thread_pool,
-    timed_pass,
+    CountedPass, Picture, RayKind, RenderError, RenderSettings, Tally, TimedPass, counted_pass,
+    thread_pool, timed_pass,
 };
 use crate::tree::{BuildError, BuildSettings, MaxDepth, Tree, build};
 use cpu_time::ThreadTime;
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Why there is no measurement.
@@ -118,6 +119,15 @@ impl Measurement {
     }
 }
 
+/// A tree with everything measured of it, and the picture that was timed.
+#[derive(Debug)]
+pub struct Measured {
+    pub tree: Tree,
+    pub measurement: Measurement,
+    /// One sample a pixel.
+    pub picture: Picture,
+}
+
 /// Builds a tree and takes every measurement of it: the timed pass first, then the counted one.
 ///
 /// # Errors
@@ -127,11 +137,12 @@ pub fn measure(
     build_settings: &BuildSettings,
     render_settings: &RenderSettings,
     progress: &Progress,
-) -> Result<(Tree, Measurement), MeasureError> {
+) -> Result<Measured, MeasureError> {
     let (tree, building) = Times::of(|| build(scene, build_settings, progress));
     let tree = tree?;
     let mut measurement = Measurement::of_tree(scene, &tree, building, render_settings);
     let pool = thread_pool(render_settings.threads)?;
+    let picture = Mutex::new(Picture::new(render_settings.width, render_settings.height));
     measurement.rendering = Some(timed_pass(
         scene,
         &tree,
@@ -139,7 +150,10 @@ pub fn measure(
         0,
         &pool,
         progress,
-        |_, _| (),
+        |tile, colors| {
+            let mut picture = picture.lock().unwrap_or_else(PoisonError::into_inner);
+            picture.add_tile(tile, 0, colors);
+        },
     )?);
     measurement.counted = Some(counted_pass(
         scene,
@@ -149,5 +163,9 @@ pub fn measure(
         progress,
         |_| (),
     )?);
-    Ok((tree, measurement))
+    Ok(Measured {
+        tree,
+        measurement,
+        picture: picture.into_inner().unwrap_or_else(PoisonError::into_inner),
+    })
 }

@@ -1,5 +1,6 @@
 //! The paper's method: every parameter of its Tables 1 to 3, the septet Δ and the triplet Λ.
 
+mod comparison;
 mod facts;
 pub mod heat;
 mod measurement;
@@ -7,8 +8,9 @@ mod parameter;
 mod parameters;
 mod verify;
 
+pub use comparison::{Change, Unequal, change, unequal};
 pub use facts::{SceneFacts, TreeFacts};
-pub use measurement::{MeasureError, Measurement, Times, measure};
+pub use measurement::{MeasureError, Measured, Measurement, Times, measure};
 pub use parameter::{Class, Parameter, Table, Unit, grouped, significant};
 pub use parameters::{DELTA, LAMBDA, PARAMETERS, parameter};
 pub use verify::{Answers, RaySample, Verification, answer, compare, judge, sample_rays};

@@ -1,7 +1,7 @@
 //! The tables of a report, as all writers for people show them.
 
 use super::Report;
-use crate::measure::{Class, DELTA, LAMBDA, PARAMETERS, Parameter, Table, Unit, parameter};
+use crate::measure::{Class, DELTA, LAMBDA, PARAMETERS, Parameter, Table, change, parameter};
 
 /// What stands where there is no value.
 const NO_VALUE: &str = "–";
@@ -60,7 +60,10 @@ pub fn rows(section: &Section, report: &Report) -> Vec<Row> {
                 second_to_first: match values[..] {
                     // What is given is the same for both.
                     [_, _] if parameter.class == Class::S => Some(String::new()),
-                    [first, second] => Some(second_to_first(parameter.unit, first, second)),
+                    [first, second] => {
+                        let change = change(parameter, first, second);
+                        Some(change.map_or_else(|| NO_VALUE.into(), |c| c.to_string()))
+                    }
                     _ => None,
                 },
                 values: values
@@ -85,46 +88,9 @@ pub fn value_titles(report: &Report) -> Vec<String> {
     titles
 }
 
-/// The second value relative to the first in per cent; for shares the difference in points, as the
-/// paper has it. No value where either has none or the first is zero.
-fn second_to_first(unit: Unit, first: Option<f64>, second: Option<f64>) -> String {
-    match (first, second) {
-        (Some(first), Some(second)) if unit == Unit::Percent => {
-            let points = (second - first) * 100.0;
-            let decimals = usize::from(points.abs() < 1000.0);
-            format!("{points:+.decimals$} points")
-        }
-        (Some(first), Some(second)) if first != 0.0 => {
-            let percent = second / first * 100.0;
-            // Three significant digits, as many as the paper gives.
-            let decimals = if percent == 0.0 {
-                0
-            } else {
-                (2.0 - percent.abs().log10().floor()).clamp(0.0, 9.0) as usize
-            };
-            format!("{percent:.decimals$} %")
-        }
-        _ => NO_VALUE.into(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn relations_are_written_as_in_the_paper() {
-        let relation = |unit, a, b| second_to_first(unit, Some(a), Some(b));
-        assert_eq!(relation(Unit::Count, 3244.0, 19892.0), "613 %");
-        assert_eq!(relation(Unit::Count, 96056.0, 11322.0), "11.8 %");
-        assert_eq!(relation(Unit::Percent, 0.323, 0.254), "-6.9 points");
-        assert_eq!(relation(Unit::Percent, 0.159, 0.256), "+9.7 points");
-        assert_eq!(relation(Unit::Percent, 45.05, 13.37), "-3168 points");
-        assert_eq!(relation(Unit::Count, 1e6, 1.5), "0.000150 %");
-        assert_eq!(relation(Unit::Count, 5.0, 0.0), "0 %");
-        assert_eq!(relation(Unit::Count, 0.0, 1.0), NO_VALUE);
-        assert_eq!(second_to_first(Unit::Ratio, None, Some(1.0)), NO_VALUE);
-    }
 
     #[test]
     fn tables_hold_every_parameter_once() {

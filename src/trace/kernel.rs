@@ -134,41 +134,82 @@ impl LeafVisitor for Walk {
     }
 }
 
-#[inline(always)]
-fn closest<O: Objects + ?Sized, P: Probe>(
-    tree: &Tree,
-    objects: &O,
-    ray: &Ray,
-    scratch: &mut Scratch,
-    probe: &mut P,
-) -> Hit {
-    let best = Hit {
-        t: ray.t_max,
-        object: u32::MAX,
-    };
-    let mut visitor = Closest { objects, best };
-    traverse(tree, ray, scratch, &mut visitor, probe);
-    if visitor.best.is_hit() {
-        visitor.best
-    } else {
-        Hit::MISS
+/// What is asked of a ray: the one thing in which the kernels' two loops differ.
+trait Question {
+    type Answer: Copy;
+    /// The answer for a ray that hits nothing.
+    const MISS: Self::Answer;
+
+    fn ask<O: Objects + ?Sized, P: Probe>(
+        tree: &Tree,
+        objects: &O,
+        ray: &Ray,
+        scratch: &mut Scratch,
+        probe: &mut P,
+    ) -> Self::Answer;
+
+    fn is_hit(answer: Self::Answer) -> bool;
+}
+
+/// What is the nearest hit?
+struct WhatIsNearest;
+
+impl Question for WhatIsNearest {
+    type Answer = Hit;
+    const MISS: Hit = Hit::MISS;
+
+    #[inline(always)]
+    fn ask<O: Objects + ?Sized, P: Probe>(
+        tree: &Tree,
+        objects: &O,
+        ray: &Ray,
+        scratch: &mut Scratch,
+        probe: &mut P,
+    ) -> Hit {
+        let best = Hit {
+            t: ray.t_max,
+            object: u32::MAX,
+        };
+        let mut visitor = Closest { objects, best };
+        traverse(tree, ray, scratch, &mut visitor, probe);
+        if visitor.best.is_hit() {
+            visitor.best
+        } else {
+            Hit::MISS
+        }
+    }
+
+    fn is_hit(answer: Hit) -> bool {
+        answer.is_hit()
     }
 }
 
-#[inline(always)]
-fn any<O: Objects + ?Sized, P: Probe>(
-    tree: &Tree,
-    objects: &O,
-    ray: &Ray,
-    scratch: &mut Scratch,
-    probe: &mut P,
-) -> bool {
-    let mut visitor = Any {
-        objects,
-        blocked: false,
-    };
-    traverse(tree, ray, scratch, &mut visitor, probe);
-    visitor.blocked
+/// Is anything hit before the ray's end?
+struct IsAnythingHit;
+
+impl Question for IsAnythingHit {
+    type Answer = bool;
+    const MISS: bool = false;
+
+    #[inline(always)]
+    fn ask<O: Objects + ?Sized, P: Probe>(
+        tree: &Tree,
+        objects: &O,
+        ray: &Ray,
+        scratch: &mut Scratch,
+        probe: &mut P,
+    ) -> bool {
+        let mut visitor = Any {
+            objects,
+            blocked: false,
+        };
+        traverse(tree, ray, scratch, &mut visitor, probe);
+        visitor.blocked
+    }
+
+    fn is_hit(answer: bool) -> bool {
+        answer
+    }
 }
 
 /// The nearest hit of one ray, watched by a probe.
@@ -179,7 +220,7 @@ pub(super) fn closest_hit<P: Probe>(
     scratch: &mut Scratch,
     probe: &mut P,
 ) -> Hit {
-    with_objects!(shapes, objects => closest(tree, objects, ray, scratch, probe))
+    with_objects!(shapes, objects => WhatIsNearest::ask(tree, objects, ray, scratch, probe))
 }
 
 /// Whether anything lies on a ray before its end, watched by a probe.
@@ -190,7 +231,7 @@ pub(super) fn any_hit<P: Probe>(
     scratch: &mut Scratch,
     probe: &mut P,
 ) -> bool {
-    with_objects!(shapes, objects => any(tree, objects, ray, scratch, probe))
+    with_objects!(shapes, objects => IsAnythingHit::ask(tree, objects, ray, scratch, probe))
 }
 
 /// The kernel whose time counts: it counts nothing.
@@ -210,37 +251,30 @@ impl<'a> Timed<'a> {
             scratch: Scratch::default(),
         }
     }
+
+    fn ask_all<Q: Question>(&mut self, batch: Batch<'_>, answers: &mut Vec<Q::Answer>) {
+        answers.clear();
+        with_objects!(self.shapes, objects => {
+            for rays in batch.rays.chunks(RAYS_PER_LOOK) {
+                if self.progress.is_cancelled() {
+                    break;
+                }
+                answers.extend(rays.iter().map(|ray| {
+                    Q::ask(self.tree, objects, ray, &mut self.scratch, &mut ())
+                }));
+            }
+        });
+        answers.resize(batch.rays.len(), Q::MISS);
+    }
 }
 
 impl RayTracer for Timed<'_> {
     fn closest_hits(&mut self, batch: Batch<'_>, hits: &mut Vec<Hit>) {
-        hits.clear();
-        with_objects!(self.shapes, objects => {
-            for rays in batch.rays.chunks(RAYS_PER_LOOK) {
-                if self.progress.is_cancelled() {
-                    break;
-                }
-                hits.extend(rays.iter().map(|ray| {
-                    closest(self.tree, objects, ray, &mut self.scratch, &mut ())
-                }));
-            }
-        });
-        hits.resize(batch.rays.len(), Hit::MISS);
+        self.ask_all::<WhatIsNearest>(batch, hits);
     }
 
     fn any_hits(&mut self, batch: Batch<'_>, blocked: &mut Vec<bool>) {
-        blocked.clear();
-        with_objects!(self.shapes, objects => {
-            for rays in batch.rays.chunks(RAYS_PER_LOOK) {
-                if self.progress.is_cancelled() {
-                    break;
-                }
-                blocked.extend(rays.iter().map(|ray| {
-                    any(self.tree, objects, ray, &mut self.scratch, &mut ())
-                }));
-            }
-        });
-        blocked.resize(batch.rays.len(), false);
+        self.ask_all::<IsAnythingHit>(batch, blocked);
     }
 }
 
@@ -280,13 +314,37 @@ impl<'a> Counting<'a> {
         }
     }
 
-    fn finish(&mut self, batch: Batch<'_>, hit: impl Fn(usize) -> bool) {
-        for (i, counts) in self.counts.iter().enumerate() {
-            self.tallies[batch.kind as usize].add(counts, hit(i));
-            self.pixels[batch.pixels[i] as usize][batch.kind as usize].add(counts, hit(i));
+    fn ask_all<Q: Question>(&mut self, batch: Batch<'_>, answers: &mut Vec<Q::Answer>) {
+        answers.clear();
+        self.counts.clear();
+        with_objects!(self.shapes, objects => {
+            for rays in batch.rays.chunks(RAYS_PER_LOOK) {
+                if self.progress.is_cancelled() {
+                    break;
+                }
+                for ray in rays {
+                    let mut counts = RayCounts::default();
+                    let scratch = &mut self.scratch;
+                    answers.push(Q::ask(self.tree, objects, ray, scratch, &mut counts));
+                    self.counts.push(counts);
+                }
+            }
+        });
+        let answered = batch.pixels.iter().zip(&self.counts).zip(&*answers);
+        for ((&pixel, counts), &answer) in answered {
+            let hit = Q::is_hit(answer);
+            self.tallies[batch.kind as usize].add(counts, hit);
+            self.pixels[pixel as usize][batch.kind as usize].add(counts, hit);
         }
+        self.walk(batch.rays);
+        answers.resize(batch.rays.len(), Q::MISS);
+    }
+
+    /// Walks rays to the ends that were just counted, and takes the time.
+    fn walk(&mut self, rays: &[Ray]) {
         let start = ThreadTime::now();
-        for (ray, counts) in batch.rays.iter().zip(&self.counts) {
+        for (ray, counts) in rays.iter().zip(&self.counts) {
+            // A ray that misses the root cell visits no leaf; walking it ends there, too.
             let leaves = counts.leaves.max(1);
             let mut walk = Walk { leaves };
             traverse(self.tree, ray, &mut self.scratch, &mut walk, &mut ());
@@ -298,42 +356,10 @@ impl<'a> Counting<'a> {
 
 impl RayTracer for Counting<'_> {
     fn closest_hits(&mut self, batch: Batch<'_>, hits: &mut Vec<Hit>) {
-        hits.clear();
-        self.counts.clear();
-        with_objects!(self.shapes, objects => {
-            for rays in batch.rays.chunks(RAYS_PER_LOOK) {
-                if self.progress.is_cancelled() {
-                    break;
-                }
-                for ray in rays {
-                    let mut counts = RayCounts::default();
-                    let hit = closest(self.tree, objects, ray, &mut self.scratch, &mut counts);
-                    hits.push(hit);
-                    self.counts.push(counts);
-                }
-            }
-        });
-        hits.resize(batch.rays.len(), Hit::MISS);
-        self.finish(batch, |i| hits[i].is_hit());
+        self.ask_all::<WhatIsNearest>(batch, hits);
     }
 
     fn any_hits(&mut self, batch: Batch<'_>, blocked: &mut Vec<bool>) {
-        blocked.clear();
-        self.counts.clear();
-        with_objects!(self.shapes, objects => {
-            for rays in batch.rays.chunks(RAYS_PER_LOOK) {
-                if self.progress.is_cancelled() {
-                    break;
-                }
-                for ray in rays {
-                    let mut counts = RayCounts::default();
-                    let hit = any(self.tree, objects, ray, &mut self.scratch, &mut counts);
-                    blocked.push(hit);
-                    self.counts.push(counts);
-                }
-            }
-        });
-        blocked.resize(batch.rays.len(), false);
-        self.finish(batch, |i| blocked[i]);
+        self.ask_all::<IsAnythingHit>(batch, blocked);
     }
 }

@@ -118,6 +118,17 @@ impl<'a> Overlap<'a> {
     }
 }
 
+/// A cell in the coordinates of the root cell: lower and upper end by axis.
+type Local = [[f32; 2]; 3];
+
+/// The parts of a cell below and above a slab, which has no thickness for a split.
+fn beside(local: Local, axis: Axis, slab: [f32; 2]) -> [Local; 2] {
+    let (mut below, mut above) = (local, local);
+    below[axis.index()][1] = slab[0];
+    above[axis.index()][0] = slab[1];
+    [below, above]
+}
+
 struct Driver<'a> {
     overlap: Overlap<'a>,
     frame: &'a Frame,
@@ -140,7 +151,7 @@ impl Driver<'_> {
     fn cell(
         &mut self,
         bounds: Aabb,
-        local: [[f32; 2]; 3],
+        local: Local,
         from: usize,
         depth: u32,
     ) -> Result<(), BuildError> {
@@ -199,7 +210,7 @@ impl Driver<'_> {
     fn split(
         &mut self,
         bounds: Aabb,
-        local: [[f32; 2]; 3],
+        local: Local,
         from: usize,
         depth: u32,
         axis: Axis,
@@ -207,9 +218,7 @@ impl Driver<'_> {
     ) -> Result<(), BuildError> {
         let world = self.frame.to_world(axis, f64::from(plane));
         let (below, above) = bounds.split(axis, world);
-        let (mut local_below, mut local_above) = (local, local);
-        local_below[axis.index()][1] = plane;
-        local_above[axis.index()][0] = plane;
+        let [local_below, local_above] = beside(local, axis, [plane, plane]);
         let node = self.inner(depth)?;
         self.child(below, local_below, from, depth, axis)?;
         self.close(node, axis, plane);
@@ -220,7 +229,7 @@ impl Driver<'_> {
     fn cut(
         &mut self,
         bounds: Aabb,
-        local: [[f32; 2]; 3],
+        local: Local,
         from: usize,
         depth: u32,
         axis: Axis,
@@ -229,9 +238,7 @@ impl Driver<'_> {
         let [first, second] = slab.map(|plane| self.frame.to_world(axis, f64::from(plane)));
         let (below, rest) = bounds.split(axis, first);
         let (_, above) = rest.split(axis, second);
-        let (mut local_below, mut local_above) = (local, local);
-        local_below[axis.index()][1] = slab[0];
-        local_above[axis.index()][0] = slab[1];
+        let [local_below, local_above] = beside(local, axis, slab);
         let outer = self.inner(depth)?;
         self.child(below, local_below, from, depth, axis)?;
         self.close(outer, axis, slab[0]);
@@ -246,7 +253,7 @@ impl Driver<'_> {
     fn child(
         &mut self,
         bounds: Aabb,
-        local: [[f32; 2]; 3],
+        local: Local,
         parent_from: usize,
         parent_depth: u32,
         axis: Axis,

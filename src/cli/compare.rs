@@ -1,0 +1,30 @@
+//! `bspscope compare`: two trees of a scene beside each other, under equal conditions or not at all.
+
+use super::args::CompareArgs;
+use super::{Outcome, measure, output, resolve};
+use crate::measure::unequal;
+use crate::report::Report;
+use anyhow::Result;
+
+pub fn run(args: &CompareArgs) -> Result<Outcome> {
+    output::check_place(args.output.as_deref())?;
+    let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
+    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
+    render.view()?;
+    let a = measure::run_of(&scene, &args.a, &render)?;
+    let b = measure::run_of(&scene, &args.b, &render)?;
+    let reasons = unequal((&a.measurement, &a.picture), (&b.measurement, &b.picture));
+    if !reasons.is_empty() {
+        output::write_to(None, |out| {
+            writeln!(out, "A and B cannot be compared:")?;
+            reasons
+                .iter()
+                .try_for_each(|reason| writeln!(out, "- {reason}"))
+        })?;
+        return Ok(Outcome::CheckFailed);
+    }
+    let report = Report::new(&scene, &request, vec![a.measurement, b.measurement]);
+    let writer = resolve::writer(args.format.as_deref(), args.output.as_deref());
+    output::write_to(args.output.as_deref(), |out| (writer.write)(&report, out))?;
+    Ok(Outcome::Done)
+}

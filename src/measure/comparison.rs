@@ -1,0 +1,154 @@
+//! Whether two measurements may be compared, and what changes from one to the other.
+//!
+//! The paper's precondition (section 4): parameters of class S, and thus of class D, are equal, and
+//! so is the image. Everything else is the result.
+
+use super::{Class, Measurement, PARAMETERS, Parameter, Unit};
+use crate::trace::Picture;
+
+/// What keeps two measurements from being compared.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unequal {
+    /// A parameter of class S or D, with both values.
+    Parameter {
+        symbol: &'static str,
+        a: Option<f64>,
+        b: Option<f64>,
+    },
+    /// The camera (`OP_CAMERA`) or where samples lie.
+    Camera,
+    /// So many pixels have another colour; the first few by column and row.
+    Pixels { count: usize, first: Vec<[u32; 2]> },
+    /// The pictures have another size.
+    Size,
+}
+
+/// How many unequal pixels are named.
+const PIXELS_NAMED: usize = 5;
+
+/// What keeps `a` and `b` from being compared; nothing if they may.
+pub fn unequal(a: (&Measurement, &Picture), b: (&Measurement, &Picture)) -> Vec<Unequal> {
+    let mut found: Vec<Unequal> = PARAMETERS
+        .iter()
+        .filter(|p| matches!(p.class, Class::S | Class::D))
+        .filter_map(|p| {
+            let (a, b) = ((p.value)(a.0), (p.value)(b.0));
+            (a != b).then_some(Unequal::Parameter {
+                symbol: p.symbol,
+                a,
+                b,
+            })
+        })
+        .collect();
+    let (of_a, of_b) = (&a.0.render, &b.0.render);
+    if of_a.camera != of_b.camera || of_a.sampling != of_b.sampling {
+        found.push(Unequal::Camera);
+    }
+    if (a.1.width, a.1.height) != (b.1.width, b.1.height) {
+        found.push(Unequal::Size);
+    } else {
+        let differ = || {
+            let pairs = a.1.pixels().iter().zip(b.1.pixels()).enumerate();
+            pairs.filter(|(_, (a, b))| a != b).map(|(i, _)| i as u32)
+        };
+        let count = differ().count();
+        if count > 0 {
+            let place = |i: u32| [i % a.1.width, i / a.1.width];
+            found.push(Unequal::Pixels {
+                count,
+                first: differ().take(PIXELS_NAMED).map(place).collect(),
+            });
+        }
+    }
+    found
+}
+
+impl std::fmt::Display for Unequal {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Unequal::Parameter { symbol, a, b } => {
+                let parameter = super::parameter(symbol);
+                write!(
+                    f,
+                    "{symbol} ({}, class {:?}) is {} in A and {} in B",
+                    parameter.name,
+                    parameter.class,
+                    parameter.format(*a),
+                    parameter.format(*b)
+                )
+            }
+            Unequal::Camera => f.write_str("the camera or the places of the samples differ"),
+            Unequal::Size => f.write_str("the pictures have another size"),
+            Unequal::Pixels { count, first } => {
+                let places: Vec<_> = first.iter().map(|[x, y]| format!("{x},{y}")).collect();
+                let more = if *count > first.len() { ", …" } else { "" };
+                write!(f, "{count} pixels differ: {}{more}", places.join(" "))
+            }
+        }
+    }
+}
+
+/// How a value relates to another of the same parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    /// The second as a share of the first.
+    Ratio(f64),
+    /// For shares: the second less the first, in percentage points.
+    Points(f64),
+}
+
+/// The second value relative to the first, as the paper's Tables 5 and 6 have it. `None` where
+/// either has no value or the first is zero.
+pub fn change(parameter: &Parameter, first: Option<f64>, second: Option<f64>) -> Option<Change> {
+    let (first, second) = (first?, second?);
+    match parameter.unit {
+        Unit::Percent => Some(Change::Points((second - first) * 100.0)),
+        _ if first == 0.0 => None,
+        _ => Some(Change::Ratio(second / first)),
+    }
+}
+
+impl std::fmt::Display for Change {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match *self {
+            Change::Points(points) => {
+                let decimals = usize::from(points.abs() < 1000.0);
+                write!(f, "{points:+.decimals$} points")
+            }
+            Change::Ratio(ratio) => {
+                let percent = ratio * 100.0;
+                // Three significant digits, as many as the paper gives.
+                let decimals = if percent == 0.0 {
+                    0
+                } else {
+                    (2.0 - percent.abs().log10().floor()).clamp(0.0, 9.0) as usize
+                };
+                write!(f, "{percent:.decimals$} %")
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parameter;
+    use super::*;
+
+    #[test]
+    fn changes_are_written_as_in_the_paper() {
+        let text = |symbol, a, b| {
+            change(parameter(symbol), Some(a), Some(b))
+                .unwrap()
+                .to_string()
+        };
+        assert_eq!(text("N_LS", 3244.0, 19892.0), "613 %");
+        assert_eq!(text("N_LS", 96056.0, 11322.0), "11.8 %");
+        assert_eq!(text("R_ETNLS", 0.323, 0.254), "-6.9 points");
+        assert_eq!(text("R_ETNLS", 0.159, 0.256), "+9.7 points");
+        assert_eq!(text("N_ADL", 45.05, 13.37), "-3168 points");
+        assert_eq!(text("N_LS", 1e6, 1.5), "0.000150 %");
+        assert_eq!(text("N_ELS", 5.0, 0.0), "0 %");
+        assert_eq!(change(parameter("N_ELS"), Some(0.0), Some(1.0)), None);
+        assert_eq!(change(parameter("N_RPRT"), None, Some(1.0)), None);
+    }
+}
