@@ -327,3 +327,65 @@ fn times_come_by_a_pass_of_their_own_and_belong_to_one_picture() {
     plain(&mut window, egui::Key::N);
     wait_for(&mut window, "rank 1 of 2 304");
 }
+
+#[test]
+fn colours_ends_of_the_range_and_blending_are_set_in_a_menu() {
+    let mut window = open(small());
+    finish(&mut window);
+    show(&mut window, "N_IT");
+    window.get_by_label("Colours …").click();
+    window.run_steps(3);
+    window.get_by_label_contains("blue-red:").click();
+    let most = library_image("N_IT", RayFilter::All)
+        .statistics()
+        .unwrap()
+        .highest;
+    // A diverging map has its middle at zero.
+    let range = format!("Legend from -{most} to {most} tests");
+    wait_for(&mut window, &range);
+    let field = |window: &Harness<'_, App>, name: &str, value: f64| {
+        window
+            .get_by_role_and_label(egui::accesskit::Role::SpinButton, name)
+            .set_value_accesskit(value);
+    };
+    field(&window, "Range from", 1.0);
+    wait_for(&mut window, &format!("locked 1 to {most}"));
+    field(&window, "Range to", 3.0);
+    wait_for(&mut window, "Legend from 1 to 3 tests");
+    let slider = egui::accesskit::Role::Slider;
+    window
+        .get_by_role_and_label(slider, "Over the picture")
+        .set_value_accesskit(40.0);
+    wait_for(&mut window, "40 % over the picture");
+    window.get_by_label("Span this picture's values").click();
+    let least = library_image("N_IT", RayFilter::All)
+        .statistics()
+        .unwrap()
+        .lowest;
+    wait_for(&mut window, &format!("Legend from {least} to {most} tests"));
+}
+
+#[test]
+fn taking_times_is_cancelled_and_begun_anew() {
+    let mut start = small();
+    start.render.width = 400;
+    start.render.height = 400;
+    start.scene = SceneRequest::parse("balls:3");
+    let mut window = open(start);
+    finish(&mut window);
+    choose(&mut window, "Show:", &title(heatmap("T_PIXEL").unwrap()));
+    // The pass may be over before it is cancelled: then there is nothing to begin anew.
+    wait(&mut window, "the pass", |w| {
+        has(w, "Cancel timing") || has(w, "Legend from")
+    });
+    if let Some(button) = window.query_by_label("Cancel timing") {
+        button.click();
+        wait(&mut window, "its end", |w| {
+            has(w, "Not timed: cancelled") || has(w, "Legend from")
+        });
+        if let Some(button) = window.query_by_label("Take times") {
+            button.click();
+        }
+    }
+    wait_for(&mut window, "Legend from");
+}

@@ -99,7 +99,7 @@ impl HeatView {
                     .speed(speed)
                     .max_decimals(3)
                     .suffix(format!(" {}", heatmap.unit));
-                ui.name_inputs(&format!("Range {name}"), |ui| ui.add(edit));
+                ui.name_inputs(format!("Range {name}"), |ui| ui.add(edit));
             });
         }
         if [lo, hi] != before {

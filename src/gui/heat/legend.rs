@@ -13,6 +13,8 @@ const HISTOGRAM: f32 = 34.0;
 const BAR: f32 = 12.0;
 const TICK: f32 = 4.0;
 const NUMBERS: f32 = 14.0;
+/// Of the whole legend, until it was laid out once.
+const USUAL: f32 = 152.0;
 /// A mark's half width.
 const MARK: f32 = 5.0;
 /// What a tick's number takes at most.
@@ -24,7 +26,7 @@ impl HeatView {
         if self.choice.heatmap.is_none() {
             0.0
         } else {
-            self.legend_height.max(80.0)
+            self.legend_height.max(USUAL)
         }
     }
 
@@ -40,7 +42,7 @@ impl HeatView {
                 Some(look) => self.contents(ui, &look, state, hovered),
                 None => {
                     // The picture keeps its size while its values are on their way.
-                    ui.set_min_height(self.legend_height);
+                    ui.set_min_height(self.legend_height());
                     self.waiting(ui, state);
                 }
             }
@@ -53,30 +55,27 @@ impl HeatView {
     }
 
     fn waiting(&mut self, ui: &mut egui::Ui, state: &State) {
-        if let Some((_, heatmap)) = self.choice.heatmap() {
-            ui.strong(format!("{} · {}", heatmap.symbol, heatmap.name));
-            let timed = matches!(heatmap.source, Source::Time);
-            ui.add(egui::Label::new(self.note(state)).wrap());
+        let Some((_, heatmap)) = self.choice.heatmap() else {
+            return;
+        };
+        ui.strong(format!("{} · {}", heatmap.symbol, heatmap.name));
+        ui.add(egui::Label::new(self.note(state)).wrap());
+        if matches!(heatmap.source, Source::Time) {
+            self.timing_button(ui);
+        }
+    }
+
+    /// Stops the pass that takes the times, or begins it anew.
+    fn timing_button(&mut self, ui: &mut egui::Ui) {
+        let (name, about) = match self.timing.standing() {
+            Standing::Waiting => return,
+            Standing::Running(_) => ("Cancel timing", "Stop taking the time of every pixel."),
+            Standing::Ended(_) => ("Take times", "Take the time of every pixel after all."),
+        };
+        if ui.button(name).on_hover_text(about).clicked() {
             match self.timing.standing() {
-                Standing::Running(_) if timed => {
-                    if ui
-                        .button("Cancel timing")
-                        .on_hover_text("Stop taking the time of every pixel.")
-                        .clicked()
-                    {
-                        self.timing.cancel();
-                    }
-                }
-                Standing::Ended(_) if timed => {
-                    if ui
-                        .button("Take times")
-                        .on_hover_text("Take the time of every pixel once more.")
-                        .clicked()
-                    {
-                        self.timing.again();
-                    }
-                }
-                _ => {}
+                Standing::Running(_) => self.timing.cancel(),
+                _ => self.timing.again(),
             }
         }
     }
@@ -86,7 +85,12 @@ impl HeatView {
         let about = format!("{}\n{}", heatmap.meaning, look.whole());
         ui.strong(format!("{} · {}", heatmap.symbol, heatmap.name))
             .on_hover_text(&about);
-        ui.label(look.terms()).on_hover_text(&about);
+        let mut terms = look.terms();
+        if self.choice.opacity < 1.0 {
+            let percent = self.choice.opacity * 100.0;
+            terms += &format!(" · {percent:.0} % over the picture");
+        }
+        ui.label(&terms).on_hover_text(format!("{terms}\n{about}"));
         ui.label(look.summary()).on_hover_text(format!(
             "Over all pixels that have a value.\n{}",
             look.whole()
