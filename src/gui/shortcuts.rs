@@ -174,7 +174,8 @@ fn is_held(action: Action) -> bool {
     )
 }
 
-/// What the keys of this frame ask for. Plain keys belong to the focused widget or the open list, if
+/// What the keys of this frame ask for. A shortcut without Shift takes a key with Shift too, so the
+/// one with Shift comes before it in the table. Plain keys belong to the focused widget or the open list, if
 /// there is one.
 pub fn pressed(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
     let focused = ctx.egui_wants_keyboard_input() || egui::Popup::is_any_open(ctx);

@@ -60,13 +60,15 @@ impl HeatView {
             ui.separator();
             self.ends(ui, heatmap);
             ui.separator();
-            ui.label("Over the picture");
-            let mut percent = self.choice.opacity * 100.0;
-            let slider = egui::Slider::new(&mut percent, 0.0..=100.0)
-                .fixed_decimals(0)
-                .suffix(" %");
-            ui.name_inputs("Over the picture", |ui| ui.add(slider))
+            ui.label("Over the picture")
                 .on_hover_text("0 % leaves the picture, 100 % hides it.");
+            let mut percent = self.choice.opacity * 100.0;
+            ui.horizontal(|ui| {
+                // A suffix or a tooltip of its own would become the widget's name.
+                let slider = egui::Slider::new(&mut percent, 0.0..=100.0).fixed_decimals(0);
+                ui.name_inputs("Over the picture", |ui| ui.add(slider));
+                ui.label("%");
+            });
             self.choice.opacity = percent / 100.0;
         });
         button.on_hover_text("Colour map, ends of the range, blending with the picture.");
@@ -97,9 +99,9 @@ impl HeatView {
                     .range(range)
                     .clamp_existing_to_range(false)
                     .speed(speed)
-                    .max_decimals(3)
-                    .suffix(format!(" {}", heatmap.unit));
+                    .max_decimals(3);
                 ui.name_inputs(format!("Range {name}"), |ui| ui.add(edit));
+                ui.label(heatmap.unit);
             });
         }
         if [lo, hi] != before {
