@@ -201,7 +201,7 @@ fn a_load_that_fails_keeps_the_scene_and_says_why() {
     finish(&mut window);
     let before = figure(&window, "leaves");
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::L);
-    let field = window.get_by_role(egui::accesskit::Role::TextInput);
+    let field = window.get_by_role_and_label(egui::accesskit::Role::TextInput, "Path of a scene");
     field.focus();
     field.type_text("/there/is/no.nff");
     window.run_steps(2);
@@ -272,10 +272,10 @@ fn a_click_names_the_object_and_lists_the_leaves() {
     finish(&mut window);
     assert!(has(&window, "Click a pixel of the picture"));
     window.get_by_label("Traced picture").click();
-    wait(&mut window, "the object", |w| has(w, "Hits sphere number"));
+    wait(&mut window, "the object", |w| has(w, "Hits sphere "));
     assert!(has(&window, "at a distance of"));
     assert!(has(&window, "Kd "));
-    assert!(has(&window, "Its ray visits"));
+    assert!(has(&window, "The primary ray visits"));
     // Arrow keys go on to other pixels while the pointer is over the picture.
     assert!(has(&window, "Pixel 24, 24"));
     press(&mut window, egui::Modifiers::NONE, egui::Key::ArrowLeft);
@@ -394,7 +394,7 @@ fn the_window_looks_as_it_did() {
     let mut window = open_with_graphics(small("balls:1"));
     finish(&mut window);
     window.get_by_label("Traced picture").click();
-    wait(&mut window, "the object", |w| has(w, "Hits sphere number"));
+    wait(&mut window, "the object", |w| has(w, "Hits sphere "));
     wait(&mut window, "the boxes", |w| has(w, "leaves shown"));
     window.remove_cursor();
     window.run_steps(5);

@@ -202,14 +202,14 @@ fn a_locked_range_survives_another_tree() {
     finish(&mut window);
     show(&mut window, "N_IT");
     let before = legend(&window);
-    plain(&mut window, egui::Key::K);
+    plain(&mut window, egui::Key::R);
     wait_for(&mut window, "· locked");
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::M);
     wait_for(&mut window, "balls:1 · sah-cut");
     finish(&mut window);
     wait_for(&mut window, "Legend from");
     assert_eq!(legend(&window), before);
-    plain(&mut window, egui::Key::K);
+    plain(&mut window, egui::Key::R);
     let found = heatmap("N_IT")
         .unwrap()
         .image(&library_counts("sah-cut"), RayFilter::All)

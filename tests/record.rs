@@ -4,8 +4,8 @@
 use bspscope::progress::Progress;
 use bspscope::scene::{Scene, SceneRequest, load};
 use bspscope::trace::{
-    After, PixelTallies, RayKind, RenderSettings, Step, Way, counted_pass, record_pixel,
-    thread_pool, timed_pass,
+    After, PixelTallies, RayKind, RenderSettings, Step, Waiting, Way, counted_pass, record_pixel,
+    record_pixel_within, thread_pool, timed_pass,
 };
 use bspscope::tree::{BuildSettings, Method, NodeKind, Tree, build};
 use std::collections::HashMap;
@@ -98,6 +98,7 @@ fn a_walk_is_a_path_through_the_tree() {
     let settings = small(&scene);
     let view = settings.view().unwrap();
     let mut ways = [0; 3];
+    let mut popped = 0;
     for i in 0..300 {
         let (x, y) = (i * 37 % SIZE, i * 11 % SIZE);
         let record = record_pixel(&scene, &tree, &view, settings.d_arec, x, y);
@@ -127,6 +128,23 @@ fn a_walk_is_a_path_through_the_tree() {
                 };
                 assert_eq!(next.node(), expected);
             }
+            // What waits is what the walk goes on with after a leaf, with the same interval.
+            for i in 1..steps.len() {
+                if !matches!(steps[i - 1], Step::Leaf(_)) {
+                    continue;
+                }
+                let (t_enter, t_exit) = match &steps[i] {
+                    Step::Inner(inner) => (inner.t_enter, inner.t_exit),
+                    Step::Leaf(leaf) => (leaf.t_enter, leaf.t_exit),
+                };
+                let expected = Waiting {
+                    node: steps[i].node(),
+                    t_enter,
+                    t_exit,
+                };
+                assert_eq!(ray.path.waiting(i - 1).last(), Some(&expected));
+                popped += 1;
+            }
             let last = ray.path.leaves().last().map(|leaf| leaf.after);
             let done = [After::HitNearer, After::Blocked, After::NoLeafLeft];
             assert!(last.is_none_or(|after| done.contains(&after)));
@@ -136,6 +154,21 @@ fn a_walk_is_a_path_through_the_tree() {
         }
     }
     assert!(ways.iter().all(|&n| n > 100), "{ways:?}");
+    assert!(popped > 100, "{popped}");
+}
+
+#[test]
+fn a_record_stays_within_its_limit() {
+    let scene = scene_file("balls");
+    let tree = tree_of(&scene, "sah-cut");
+    let settings = small(&scene);
+    let view = settings.view().unwrap();
+    let middle = [SIZE / 2, SIZE / 2];
+    let record = |most| record_pixel_within(&scene, &tree, &view, 4, middle, most);
+    let (whole, cut) = (record(usize::MAX), record(1));
+    assert!(!whole.cut && whole.rays.len() > 2);
+    assert!(cut.cut);
+    assert_eq!(cut.rays, whole.rays[..1]);
 }
 
 /// All but the last of an iterator.

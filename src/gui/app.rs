@@ -7,8 +7,10 @@ use super::recent::Recent;
 use super::shortcuts::{Action, Scope, pressed};
 use super::state::State;
 use super::status::StatusLine;
+use super::tree_panes::{TreePane, TreePanes};
 use super::view3d::View3d;
-use super::{StartOptions, help, top_bar};
+use super::walk::Go;
+use super::{StartOptions, help, top_bar, walk_bar};
 use crate::tree::{BuildSettings, MaxDepth, Method};
 
 /// The window.
@@ -26,11 +28,13 @@ pub struct App {
 enum Pane {
     Picture,
     View3d,
+    Tree(TreePane),
 }
 
 struct Panes {
     picture: PicturePane,
     view3d: View3d,
+    tree: TreePanes,
 }
 
 impl App {
@@ -48,13 +52,21 @@ impl App {
         start.render.height = start.render.height.min(largest);
         let mut tiles = egui_tiles::Tiles::default();
         let panes = [Pane::Picture, Pane::View3d].map(|pane| tiles.insert_pane(pane));
-        let root = tiles.insert_horizontal_tile(panes.to_vec());
+        let views = tiles.insert_horizontal_tile(panes.to_vec());
+        let about_tree = TreePane::ALL.map(|pane| tiles.insert_pane(Pane::Tree(pane)));
+        let about_tree = tiles.insert_tab_tile(about_tree.to_vec());
+        let mut column =
+            egui_tiles::Linear::new(egui_tiles::LinearDir::Vertical, vec![views, about_tree]);
+        column.shares.set_share(views, 0.6);
+        column.shares.set_share(about_tree, 0.4);
+        let root = tiles.insert_new(egui_tiles::Tile::Container(column.into()));
         App {
             state: State::new(&start, &cc.egui_ctx),
             files: Files::new(recent),
             panes: Panes {
                 picture: PicturePane::default(),
                 view3d: View3d::new(cc.wgpu_render_state.as_ref(), start.render.camera),
+                tree: TreePanes::default(),
             },
             tiles: egui_tiles::Tree::new(egui::Id::unique("panes"), root, tiles),
             status: StatusLine::default(),
@@ -74,7 +86,7 @@ impl App {
             Action::Cancel => {
                 if self.help_open {
                     self.help_open = false;
-                } else if state.failure.take().is_none() {
+                } else if state.failure.take().is_none() && !state.inspect.undo() {
                     state.cancel();
                 }
             }
@@ -109,6 +121,14 @@ impl App {
             }
             Action::ResetMethod => *build = BuildSettings::for_method(build.method),
             Action::Theme => top_bar::toggle_theme(ctx),
+            Action::FirstStep => state.go(Go::First),
+            Action::PreviousStep => state.go(Go::Previous),
+            Action::NextStep => state.go(Go::Next),
+            Action::LastStep => state.go(Go::Last),
+            Action::Play => state.play_or_pause(ctx.input(|i| i.time)),
+            Action::LeavesOnly => state.set_leaves_only(!state.walking.leaves_only),
+            Action::PreviousRay => state.next_ray(-1),
+            Action::NextRay => state.next_ray(1),
             Action::SceneCamera => state.wanted.own_camera = false,
             _ => {}
         }
@@ -155,9 +175,13 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
+        if let Some(current) = &self.state.current {
+            self.state.inspect.follow(current);
+        }
         for action in pressed(&ctx, Scope::Window) {
             self.act(action, &ctx);
         }
+        self.state.follow_rays(&ctx);
         egui::Panel::top("top bar").show(ui, |ui| {
             top_bar::show(ui, &mut self.state, &mut self.files, &mut self.help_open);
         });
@@ -166,6 +190,7 @@ impl eframe::App for App {
             let value = picture.hovered.and_then(|p| picture.heat.value_text(p));
             self.status.ui(ui, &self.state, picture.hovered, value);
         });
+        egui::Panel::bottom("walk bar").show(ui, |ui| walk_bar::show(ui, &mut self.state));
         egui::Panel::left("left")
             .default_size(255.0)
             .size_range(180.0..=480.0)
@@ -218,6 +243,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
         match pane {
             Pane::Picture => "Picture".into(),
             Pane::View3d => "3D view".into(),
+            Pane::Tree(pane) => pane.title().into(),
         }
     }
 
@@ -233,6 +259,7 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
             .show(ui, |ui| match pane {
                 Pane::Picture => self.panes.picture.ui(ui, self.state),
                 Pane::View3d => self.panes.view3d.ui(ui, self.state),
+                Pane::Tree(pane) => self.panes.tree.ui(*pane, ui, self.state),
             });
         egui_tiles::UiResponse::None
     }

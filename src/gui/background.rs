@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::Duration;
 
 /// A value that follows a key, worked out in the background.
 pub struct Latest<K, T> {
@@ -54,6 +55,29 @@ impl<K: Clone + PartialEq, T: Send + 'static> Latest<K, T> {
             self.running = Some((key.clone(), receiver));
         }
         None
+    }
+
+    /// As [`Latest::get`], but waits a moment for what may be made quickly, once.
+    pub fn get_soon(
+        &mut self,
+        key: &K,
+        ctx: &egui::Context,
+        patience: Duration,
+        make: impl FnOnce() -> T + Send + 'static,
+    ) -> Option<Arc<T>> {
+        let was_running = self
+            .running
+            .as_ref()
+            .is_some_and(|(running, _)| running == key);
+        let there = self.get(key, ctx, make);
+        if let (None, false, Some((running, receiver))) = (&there, was_running, &self.running)
+            && running == key
+            && let Ok(value) = receiver.recv_timeout(patience)
+        {
+            self.running = None;
+            return Some(self.put(key.clone(), value));
+        }
+        there
     }
 
     /// Puts a value there at once, where working it out takes no time worth a thread.

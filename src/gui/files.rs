@@ -125,6 +125,8 @@ impl Files {
              then Enter.",
             Action::Path,
         ));
+        let name = |node: &mut egui::accesskit::Node| node.set_label("Path of a scene");
+        ui.ctx().accesskit_node_builder(field.id, name);
         if std::mem::take(&mut self.focus_path) {
             field.request_focus();
         }

@@ -1,22 +1,30 @@
 //! The window: a progressive picture, the tree in 3D, and the figures, all of one setting.
 //!
 //! [`app`] puts the parts together; [`state`] keeps what is wanted apart from what is shown;
-//! [`panels`] are one file and one line each; the two panes are [`picture_pane`] and [`view3d`].
+//! [`panels`] are one file and one line each; the panes are [`picture_pane`], [`view3d`] and
+//! [`tree_panes`], which share what [`inspect`] knows of the tree.
 
 mod app;
 mod background;
 mod files;
 mod heat;
 mod help;
+mod inspect;
 mod panels;
 mod picture_pane;
 mod recent;
+mod rows;
+mod selection;
 mod shortcuts;
 mod state;
 mod status;
+mod step_text;
 mod symbol;
 mod top_bar;
+mod tree_panes;
 mod view3d;
+mod walk;
+mod walk_bar;
 
 pub use app::App;
 pub use shortcuts::{Action, SHORTCUTS, Scope, Shortcut};

@@ -68,8 +68,8 @@ impl PicturePane {
         if let Some((heat, tint)) = self.heat.texture(ui.ctx()) {
             painter.image(heat, rect, whole, tint);
         }
-        if let Some(picked) = &current.picked {
-            cross_hair(&painter, rect, picture, picked.pixel);
+        if let Some(pixel) = current.picked_pixel() {
+            cross_hair(&painter, rect, picture, pixel);
         }
         let pixel_at = |pos: Pos2| -> Option<[u32; 2]> {
             let at = (pos - rect.min) / rect.size() * vec2(picture[0] as f32, picture[1] as f32);
@@ -82,6 +82,7 @@ impl PicturePane {
             && let Some(pixel) = response.interact_pointer_pos().and_then(pixel_at)
         {
             current.pick(pixel);
+            ui.ctx().request_repaint();
         }
     }
 
@@ -130,11 +131,11 @@ impl PicturePane {
     /// Moves the picture so that the picked pixel is in the pane.
     fn reveal(&mut self, pane: Rect, current: &Current) {
         let (width, height) = (current.shown.picture.width, current.shown.picture.height);
-        let Some(picked) = &current.picked else {
+        let Some(pixel) = current.picked_pixel() else {
             return;
         };
         let rect = self.place(pane, [width, height]);
-        let [x, y] = picked.pixel.map(|i| i as f32 + 0.5);
+        let [x, y] = pixel.map(|i| i as f32 + 0.5);
         let at = rect.min + vec2(x / width as f32, y / height as f32) * rect.size();
         if !pane.contains(at) {
             self.offset += pane.center() - at;
@@ -172,7 +173,7 @@ impl PicturePane {
                     self.zoom = Some(1.0 / ui.ctx().pixels_per_point());
                     self.offset = Vec2::ZERO;
                 }
-                Action::Unpick => current.picked = None,
+                Action::Unpick => current.unpick(),
                 Action::PickLeft => step(current, -1, 0),
                 Action::PickRight => step(current, 1, 0),
                 Action::PickUp => step(current, 0, -1),
@@ -186,14 +187,11 @@ impl PicturePane {
 /// Moves the picked pixel by one; without one, the picture's middle is picked.
 fn step(current: &mut Current, dx: i32, dy: i32) {
     let (width, height) = (current.shown.picture.width, current.shown.picture.height);
-    let pixel = match &current.picked {
-        Some(picked) => {
-            let [x, y] = picked.pixel;
-            [
-                x.saturating_add_signed(dx).min(width - 1),
-                y.saturating_add_signed(dy).min(height - 1),
-            ]
-        }
+    let pixel = match current.picked_pixel() {
+        Some([x, y]) => [
+            x.saturating_add_signed(dx).min(width - 1),
+            y.saturating_add_signed(dy).min(height - 1),
+        ],
         None => [width / 2, height / 2],
     };
     current.pick(pixel);

@@ -8,16 +8,29 @@ pub enum Scope {
     Window,
     Picture,
     View3d,
+    Tree,
+    Leaves,
+    Cost,
 }
 
 impl Scope {
-    pub const ALL: [Scope; 3] = [Scope::Window, Scope::Picture, Scope::View3d];
+    pub const ALL: [Scope; 6] = [
+        Scope::Window,
+        Scope::Picture,
+        Scope::View3d,
+        Scope::Tree,
+        Scope::Leaves,
+        Scope::Cost,
+    ];
 
     pub const fn title(self) -> &'static str {
         match self {
             Scope::Window => "Everywhere",
             Scope::Picture => "Pointer over the picture",
             Scope::View3d => "Pointer over the 3D view",
+            Scope::Tree => "Pointer over the outline of the tree",
+            Scope::Leaves => "Pointer over the leaf histograms",
+            Scope::Cost => "Pointer over the split cost",
         }
     }
 }
@@ -42,6 +55,14 @@ pub enum Action {
     ResetMethod,
     SceneCamera,
     Theme,
+    FirstStep,
+    PreviousStep,
+    NextStep,
+    LastStep,
+    Play,
+    LeavesOnly,
+    PreviousRay,
+    NextRay,
     Fit,
     ActualSize,
     PickLeft,
@@ -64,6 +85,7 @@ pub enum Action {
     Link,
     ShowScene,
     ShowBoxes,
+    ShowRays,
     NextColoring,
     ShowFull,
     ShowEmpty,
@@ -75,6 +97,15 @@ pub enum Action {
     FlyRight,
     FlyUp,
     FlyDown,
+    RowUp,
+    RowDown,
+    Fold,
+    Unfold,
+    FrameNode,
+    FindNext,
+    FindPrevious,
+    ClearRanges,
+    UndoWhatIf,
     /// Done with the mouse; listed for the help window alone.
     Mouse,
 }
@@ -123,6 +154,14 @@ shortcuts! {
     Window ResetMethod COMMAND [Backspace] "Ctrl+Backspace" "Settings of the method back to the paper's";
     Window SceneCamera COMMAND [Home] "Ctrl+Home" "Back to the scene's own camera";
     Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
+    Window PreviousRay NONE [PageUp] "Page up" "Previous ray of the picked pixel";
+    Window NextRay NONE [PageDown] "Page down" "Next ray of the picked pixel";
+    Window FirstStep SHIFT [Home] "Shift+Home" "First step of the ray's walk";
+    Window PreviousStep NONE [Comma] "," "One step of the walk back";
+    Window NextStep NONE [Period] "." "One step of the walk on";
+    Window LastStep SHIFT [End] "Shift+End" "Last step of the walk";
+    Window Play NONE [Space] "Space" "Play the walk, or pause it";
+    Window LeavesOnly NONE [K] "K" "Step through leaves only, or through inner nodes, too";
     Window Mouse NONE [] "Drop a file" "Open it";
     Picture Mouse NONE [] "Click" "Name the object in a pixel and follow its ray";
     Picture Mouse NONE [] "Wheel" "Zoom to the pointer";
@@ -135,7 +174,7 @@ shortcuts! {
     Picture PreviousHeatmap SHIFT [H] "Shift+H" "Show the heatmap before";
     Picture NextHeatmap NONE [H] "H" "Show the next heatmap";
     Picture LogScale NONE [G] "G" "Heatmap's colours by the logarithm, or not";
-    Picture LockRange NONE [K] "K" "Lock the range of the heatmap's colours, or not";
+    Picture LockRange NONE [R] "R" "Lock the range of the heatmap's colours, or not";
     Picture MoreExpensive SHIFT [N] "Shift+N" "Pick the pixel before in the order of expense";
     Picture LessExpensive NONE [N] "N" "Pick the most expensive pixel, then the next";
     Picture ActualSize COMMAND [Num0] "Ctrl+0" "Actual size: one pixel on one pixel";
@@ -143,6 +182,7 @@ shortcuts! {
     View3d Mouse NONE [] "Left-drag" "Orbit";
     View3d Mouse NONE [] "Right-drag" "Pan";
     View3d Mouse NONE [] "Wheel" "Zoom to the pointer";
+    View3d Mouse NONE [] "Click" "Select the nearest leaf shown; again: the next behind it";
     View3d FrameSelection NONE [F] "F" "Frame the selection";
     View3d FrameAll NONE [Home] "Home" "Frame everything";
     View3d Front NONE [Num1] "1" "Look along the y axis";
@@ -152,6 +192,7 @@ shortcuts! {
     View3d Link NONE [L] "L" "Link the picture's camera to this view, or not";
     View3d ShowScene NONE [M] "M" "Show the scene's objects, or not";
     View3d ShowBoxes NONE [B] "B" "Show leaf boxes, or not";
+    View3d ShowRays NONE [R] "R" "Show all rays of the picked pixel, or only the selected one";
     View3d NextColoring NONE [C] "C" "Colour leaves by something else";
     View3d ShowFull NONE [O] "O" "Show full leaves, or not";
     View3d ShowEmpty NONE [P] "P" "Show empty leaves, or not";
@@ -163,6 +204,17 @@ shortcuts! {
     View3d FlyRight NONE [D] "D" "Fly to the right";
     View3d FlyDown NONE [Q] "Q" "Fly down";
     View3d FlyUp NONE [E] "E" "Fly up";
+    Tree RowUp NONE [ArrowUp] "Up" "Select the row above";
+    Tree RowDown NONE [ArrowDown] "Down" "Select the row below";
+    Tree Unfold NONE [ArrowRight] "Right" "Unfold the node, or go to its first child";
+    Tree Fold NONE [ArrowLeft] "Left" "Fold the node, or go to its parent";
+    Tree FrameNode NONE [Enter] "Enter" "Show the selected node's cell in 3D";
+    Tree FindNext NONE [N] "N" "Select the next match";
+    Tree FindPrevious SHIFT [N] "Shift+N" "Select the match before";
+    Leaves Mouse NONE [] "Drag" "Select the leaves of these bars; click: of one bar, again: of all";
+    Leaves ClearRanges NONE [Delete] "Delete" "Select all leaves again";
+    Cost Mouse NONE [] "Drag" "Try a plane; it changes no tree";
+    Cost UndoWhatIf NONE [Delete] "Delete or Esc" "Take the tried plane away";
 }
 
 /// Flying goes on while a key is held; all else happens once.

@@ -1,10 +1,13 @@
 //! What is wanted and what is shown. All that is shown belongs together: it is swapped as one.
 
 use super::StartOptions;
+use super::inspect::Inspect;
+use super::selection::Selection;
+use super::walk::{Picked, Walking, Wish};
 use crate::measure::heat::PixelCounts;
 use crate::progress::Progress;
 use crate::scene::{SceneRequest, SceneSource};
-use crate::trace::{RayKind, RayPath, Tile, record_ray};
+use crate::trace::Tile;
 use crate::worker::{Request, Shown, Stage, Update, Worker};
 use std::sync::Arc;
 
@@ -23,6 +26,10 @@ pub struct State {
     pub stopped: bool,
     /// Why the last request failed, until dismissed.
     pub failure: Option<Failure>,
+    /// How the walks of rays are followed.
+    pub walking: Walking,
+    /// What the panes about the tree share.
+    pub inspect: Inspect,
 }
 
 /// A request that failed.
@@ -44,7 +51,10 @@ pub struct Current {
     pub sample: u32,
     /// The parts of the picture that the screen does not have yet.
     pub fresh: Fresh,
+    /// The pixel whose rays are to be followed, until they are.
+    pub wish: Option<Wish>,
     pub picked: Option<Picked>,
+    pub selection: Selection,
     /// What every pixel's rays did, once they were counted.
     pub pixel_counts: Option<Arc<PixelCounts>>,
 }
@@ -55,50 +65,20 @@ pub enum Fresh {
     Tiles(Vec<Tile>),
 }
 
-/// A pixel that was clicked, and its primary ray.
-pub struct Picked {
-    pub pixel: [u32; 2],
-    pub path: Arc<RayPath>,
-}
-
 impl Current {
-    fn new(number: u64, shown: Shown, pixel: Option<[u32; 2]>) -> Self {
-        let mut current = Current {
+    fn new(number: u64, shown: Shown, wish: Option<Wish>) -> Self {
+        Current {
             number,
             shown,
             complete: false,
             done: false,
             sample: 0,
             fresh: Fresh::All,
+            wish,
             picked: None,
+            selection: Selection::default(),
             pixel_counts: None,
-        };
-        if let Some(pixel) = pixel {
-            current.pick(pixel);
         }
-        current
-    }
-
-    /// Follows the primary ray of a pixel; one outside the picture picks none.
-    pub fn pick(&mut self, [x, y]: [u32; 2]) {
-        let Shown {
-            render,
-            scene,
-            tree,
-            ..
-        } = &self.shown;
-        self.picked = match render.view() {
-            Ok(view) if x < render.width && y < render.height => Some(Picked {
-                pixel: [x, y],
-                path: Arc::new(record_ray(
-                    scene,
-                    tree,
-                    RayKind::Primary,
-                    &view.primary_ray(x, y, 0),
-                )),
-            }),
-            _ => None,
-        };
     }
 
     /// The settings of what is shown, in one line.
@@ -138,6 +118,8 @@ impl State {
             work: None,
             stopped: false,
             failure: None,
+            walking: Walking::default(),
+            inspect: Inspect::default(),
         }
     }
 
@@ -202,8 +184,11 @@ impl State {
                     if known != Some(source) {
                         opened.push(source.clone());
                     }
-                    let pixel = self.kept_pixel(&shown);
-                    self.current = Some(Current::new(news.request, *shown, pixel));
+                    let wish = self.kept_pixel(&shown);
+                    let selection = self.kept_selection(&shown);
+                    let mut current = Current::new(news.request, *shown, wish);
+                    current.selection = selection.unwrap_or(current.selection);
+                    self.current = Some(current);
                 }
                 update => {
                     if let Update::Failed(reason) = &update
@@ -226,13 +211,23 @@ impl State {
         opened
     }
 
-    /// A picked pixel stays picked in a new picture of the same scene and size.
-    fn kept_pixel(&self, shown: &Shown) -> Option<[u32; 2]> {
+    /// A picked pixel stays picked in a new picture of the same scene and size, and so does its ray.
+    fn kept_pixel(&self, shown: &Shown) -> Option<Wish> {
         let before = self.current.as_ref()?;
         let same = Arc::ptr_eq(&before.shown.scene, &shown.scene)
             && before.shown.picture.width == shown.picture.width
             && before.shown.picture.height == shown.picture.height;
-        Some(before.picked.as_ref()?.pixel).filter(|_| same)
+        let picked = before.picked.as_ref().map(|picked| Wish {
+            pixel: picked.pixel,
+            ray: picked.ray,
+        });
+        before.wish.or(picked).filter(|_| same)
+    }
+
+    /// What is selected stays so in another picture of the same tree.
+    fn kept_selection(&self, shown: &Shown) -> Option<Selection> {
+        let before = self.current.as_ref()?;
+        Arc::ptr_eq(&before.shown.tree, &shown.tree).then_some(before.selection)
     }
 
     fn fail(&mut self, why: String) {

@@ -6,6 +6,8 @@ pub struct Leaf {
     pub depth: u32,
     /// Number of objects that it refers to.
     pub objects: u32,
+    /// Volume of its cell, in cubed units of length.
+    pub volume: f64,
 }
 
 /// How values spread over the colours.

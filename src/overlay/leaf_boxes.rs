@@ -1,16 +1,18 @@
 //! The cells of leaves as coloured boxes, filtered.
 
-use super::{Coloring, Leaf};
+use super::{Coloring, Leaf, Ranges, in_ranges};
 use crate::geometry::Vec3;
 use crate::tree::{NodeKind, Tree};
 
 /// Which leaves are shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Filter {
     /// Least and greatest depth shown.
     pub depth: [u32; 2],
     pub empty: bool,
     pub full: bool,
+    /// Ranges of the histograms.
+    pub ranges: Ranges,
 }
 
 impl Default for Filter {
@@ -20,6 +22,7 @@ impl Default for Filter {
             depth: [0, u32::MAX],
             empty: true,
             full: true,
+            ranges: Ranges::default(),
         }
     }
 }
@@ -33,7 +36,7 @@ impl Filter {
         } else {
             self.full
         };
-        wanted && (lowest..=highest).contains(&leaf.depth)
+        wanted && (lowest..=highest).contains(&leaf.depth) && in_ranges(&leaf, &self.ranges)
     }
 }
 
@@ -67,6 +70,7 @@ pub fn leaf_boxes(tree: &Tree, filter: &Filter, coloring: &Coloring, center: Vec
             let leaf = Leaf {
                 depth: tree.depth_reached(),
                 objects: count,
+                volume: tree.root_cell().volume(),
             };
             boxes.highest = boxes.highest.max(coloring.value(leaf));
         }
@@ -78,6 +82,7 @@ pub fn leaf_boxes(tree: &Tree, filter: &Filter, coloring: &Coloring, center: Vec
         let leaf = Leaf {
             depth: cell.depth,
             objects: count,
+            volume: cell.bounds.volume(),
         };
         if filter.passes(leaf) {
             let [r, g, b] = coloring.color(coloring.value(leaf), boxes.highest);
@@ -101,10 +106,12 @@ mod tests {
         let full = Leaf {
             depth: 3,
             objects: 2,
+            volume: 1.0,
         };
         let empty = Leaf {
             depth: 5,
             objects: 0,
+            volume: 1.0,
         };
         let all = Filter::default();
         assert!(all.passes(full) && all.passes(empty));

@@ -1,8 +1,7 @@
-//! Lines over a scene: the path of a ray, outlines of boxes, the view of a camera.
+//! Lines over a scene: outlines of boxes, the view of a camera.
 
 use crate::geometry::{Aabb, Vec3};
 use crate::scene::Camera;
-use crate::trace::RayPath;
 
 /// A line to draw, relative to a centre.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -17,7 +16,7 @@ pub struct Line {
 }
 
 impl Line {
-    fn new(a: Vec3, b: Vec3, center: Vec3, color: [u8; 4], width: f32) -> Self {
+    pub(super) fn new(a: Vec3, b: Vec3, center: Vec3, color: [u8; 4], width: f32) -> Self {
         Line {
             a: (a - center).as_vec3().to_array(),
             b: (b - center).as_vec3().to_array(),
@@ -58,29 +57,6 @@ pub fn order_color(i: usize, n: usize) -> [u8; 3] {
     let place = i as f64 / (n.max(2) - 1) as f64;
     let color = colorous::RED_PURPLE.eval_continuous(0.2 + 0.55 * place);
     [color.r, color.g, color.b]
-}
-
-/// A ray and the outlines of the leaves it visited, coloured by their order. Empty leaves are
-/// dashed. A ray that hits nothing is drawn through the last leaf's end.
-pub fn path_lines(path: &RayPath, center: Vec3) -> Vec<Line> {
-    let (ray, n) = (&path.ray, path.leaves().count());
-    let mut lines = Vec::new();
-    for (i, leaf) in path.leaves().enumerate() {
-        let [r, g, b] = order_color(i, n);
-        let dash = if leaf.objects == 0 { 0 } else { 255 };
-        lines.extend(box_lines(&leaf.bounds, center, [r, g, b, dash], 2.0));
-    }
-    if path.end().is_finite() {
-        let white = [255; 4];
-        lines.push(Line::new(
-            ray.origin,
-            ray.at(path.end()),
-            center,
-            white,
-            3.0,
-        ));
-    }
-    lines
 }
 
 /// The pyramid that a camera sees, `length` deep; nothing for a camera without a view.

@@ -11,6 +11,7 @@ mod render;
 mod settings;
 mod shapes;
 mod traverse;
+mod waiting;
 mod whitted;
 
 pub use any_order::objects_along;
@@ -19,7 +20,7 @@ pub use picture::{Picture, TILE, Tile, srgb8, tiles};
 pub use probe::{PixelTallies, Probe, RayCounts, Tally, Way};
 pub use record::{
     After, InnerStep, LeafStep, PixelRecord, RayPath, RecordedRay, Step, TestStep, record_pixel,
-    record_ray,
+    record_pixel_within, record_ray,
 };
 pub use render::{
     CountedPass, CountedTile, RenderError, TimedPass, counted_pass, pixel_times, preview,
@@ -28,4 +29,5 @@ pub use render::{
 pub use settings::RenderSettings;
 pub use shapes::Shapes;
 pub use traverse::{LeafVisitor, Scratch, traverse};
+pub use waiting::Waiting;
 pub use whitted::trace_samples;

@@ -171,6 +171,8 @@ pub struct PixelRecord {
     pub color: Vec3,
     /// Depth first: a ray before the rays that start from its hit.
     pub rays: Vec<RecordedRay>,
+    /// Whether rays are missing because the record would have become too large.
+    pub cut: bool,
 }
 
 impl PixelRecord {
@@ -194,6 +196,19 @@ pub fn record_pixel(
     x: u32,
     y: u32,
 ) -> PixelRecord {
+    record_pixel_within(scene, tree, view, d_arec, [x, y], usize::MAX)
+}
+
+/// As [`record_pixel`], but starts no further ray once the record holds `most` steps and tests: the
+/// tree of rays of a glass scene doubles with every level of `d_arec`.
+pub fn record_pixel_within(
+    scene: &Scene,
+    tree: &Tree,
+    view: &View,
+    d_arec: u32,
+    [x, y]: [u32; 2],
+    most: usize,
+) -> PixelRecord {
     let mut recording = Recording {
         scene,
         tree,
@@ -202,7 +217,9 @@ pub fn record_pixel(
             pixel: [x, y],
             color: Vec3::ZERO,
             rays: Vec::new(),
+            cut: false,
         },
+        left: most,
     };
     let ray = view.primary_ray(x, y, 0);
     recording.follow(RayKind::Primary, ray, Vec3::ONE, None, 0);
@@ -239,11 +256,19 @@ struct Recording<'a> {
     tree: &'a Tree,
     depth: u32,
     record: PixelRecord,
+    /// Steps and tests that may still be recorded.
+    left: usize,
 }
 
 impl Recording<'_> {
     fn follow(&mut self, kind: RayKind, ray: Ray, weight: Vec3, parent: Option<usize>, depth: u32) {
+        if self.left == 0 {
+            self.record.cut = true;
+            return;
+        }
         let path = record_ray(self.scene, self.tree, kind, &ray);
+        let size = 1 + path.steps.len() + path.counts().tests as usize;
+        self.left = self.left.saturating_sub(size);
         let hit = path.hit;
         let place = self.record.rays.len();
         self.record.rays.push(RecordedRay {

@@ -44,7 +44,7 @@ fn later(t: f64) -> f64 {
 }
 
 #[inline(always)]
-fn earlier(t: f64) -> f64 {
+pub(super) fn earlier(t: f64) -> f64 {
     t - t.abs() * ROUNDING
 }
 

@@ -4,14 +4,20 @@
 //! method ([`split`]) only says where, if anywhere, a cell is split.
 
 mod build;
+mod cost;
+mod find;
 mod frame;
+mod index;
 mod node;
 mod settings;
 pub mod split;
 mod validate;
 
 pub use build::{BuildError, build};
+pub use cost::{CostCurve, NodeCost, SplitCost};
+pub use find::{Field, Order, Query};
 pub use frame::Frame;
+pub use index::{NodeFacts, TreeIndex};
 pub use node::{Node, NodeKind, StopReason};
 pub use settings::{BuildSettings, Constants, MaxDepth, Method, OverlapRule, SettingsError};
 pub use validate::{Invalid, validate};

@@ -95,8 +95,7 @@ impl HeatView {
             "Over all pixels that have a value.\n{}",
             look.whole()
         ));
-        let picked = state.current.as_ref().and_then(|c| c.picked.as_ref());
-        let picked = picked.map(|picked| picked.pixel);
+        let picked = state.current.as_ref().and_then(|c| c.picked_pixel());
         scale(ui, look, hovered, picked);
         let text = |pixel: Option<[u32; 2]>| {
             pixel.map_or_else(|| "–".to_owned(), |pixel| look.value_text(pixel))

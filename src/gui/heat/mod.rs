@@ -139,7 +139,7 @@ impl HeatView {
 
     /// The rank of the picked pixel, if it was found by it.
     fn rank_of_picked(&self, current: &Current) -> Option<&Ranked> {
-        let picked = current.picked.as_ref()?.pixel;
+        let picked = current.picked_pixel()?;
         let key = self.look.as_ref()?.key.values;
         self.ranked
             .as_ref()

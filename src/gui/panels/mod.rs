@@ -5,7 +5,9 @@ mod figures;
 mod parameters;
 mod picture_settings;
 mod pixel;
+mod rays;
 mod scene_facts;
+mod walk;
 
 use super::state::State;
 
@@ -33,6 +35,8 @@ pub static PANELS: &[Panel] = &[
     figures::DELTA_PANEL,
     figures::LAMBDA_PANEL,
     pixel::PANEL,
+    rays::PANEL,
+    walk::PANEL,
     parameters::PANEL,
 ];
 

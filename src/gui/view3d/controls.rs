@@ -17,6 +17,8 @@ pub struct Settings {
     pub linked: bool,
     /// Of all leaves, only those that the picked ray visited.
     pub only_visited: bool,
+    /// Of the picked pixel, all rays rather than the selected one.
+    pub all_rays: bool,
 }
 
 impl Default for Settings {
@@ -28,6 +30,7 @@ impl Default for Settings {
             filter: Filter::default(),
             linked: true,
             only_visited: false,
+            all_rays: true,
         }
     }
 }
@@ -85,6 +88,11 @@ pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &State) {
             .on_hover_text(tip(
                 "Of all leaves, show only those that the picked pixel's ray visited.",
                 Action::Shown,
+            ));
+        ui.checkbox(&mut settings.all_rays, "All rays")
+            .on_hover_text(tip(
+                "Show all rays of the picked pixel, or only the selected one.",
+                Action::ShowRays,
             ));
         ui.checkbox(&mut linked, "Linked").on_hover_text(tip(
             "One camera for this view and the picture. Unlinked, the picture's camera is drawn \
@@ -150,6 +158,7 @@ pub fn act(view: &mut View3d, action: Action, state: &State, dt: f64) -> bool {
         Action::ShowBoxes => settings.boxes ^= true,
         Action::ShowFull => settings.filter.full ^= true,
         Action::ShowEmpty => settings.filter.empty ^= true,
+        Action::ShowRays => settings.all_rays ^= true,
         Action::Shown => settings.only_visited ^= true,
         Action::NextColoring => settings.next_coloring(),
         Action::AllDepths => settings.filter.depth = Filter::default().depth,
@@ -162,7 +171,7 @@ pub fn act(view: &mut View3d, action: Action, state: &State, dt: f64) -> bool {
             }
         }
         Action::FrameSelection => {
-            if let Some(bounds) = state.current.as_ref().and_then(selection) {
+            if let Some(bounds) = state.current.as_ref().and_then(framed) {
                 view.camera.show(&bounds);
                 return true;
             }
@@ -189,10 +198,18 @@ fn look(view: &mut View3d, axis: Axis) -> bool {
     true
 }
 
+/// What F shows: the selected node's cell, or else what is picked.
+fn framed(current: &Current) -> Option<crate::geometry::Aabb> {
+    match current.selection.node {
+        Some(node) => Some(current.shown.tree.cell_of(node).bounds),
+        None => selection(current),
+    }
+}
+
 /// The box of what is picked: the object hit, or else the leaves visited.
 pub fn selection(current: &Current) -> Option<crate::geometry::Aabb> {
     use crate::primitive::Shape;
-    let path = &current.picked.as_ref()?.path;
+    let path = current.picked.as_ref()?.path();
     if path.hit.is_hit() {
         return Some(current.shown.scene.objects()[path.hit.object as usize].bounds());
     }

@@ -2,8 +2,11 @@
 
 use super::Settings;
 use crate::gui::symbol::grouped;
-use crate::overlay::{Coloring, LeafBoxes, order_color};
-use crate::trace::RayPath;
+use crate::gui::walk::Picked;
+use crate::overlay::{
+    CELL, Coloring, LeafBoxes, PLANE, RaysShown, WAITING, order_color, ray_style,
+};
+use crate::trace::RayKind;
 use egui::{Color32, Rect, pos2, vec2};
 
 /// Length of the colour bar in points, where there is room.
@@ -15,7 +18,9 @@ pub struct Legend<'a> {
     pub boxes: Option<&'a LeafBoxes>,
     /// How many of the boxes are drawn.
     pub drawn: u32,
-    pub path: Option<&'a RayPath>,
+    pub picked: Option<&'a Picked>,
+    /// What the marks of the selection mean.
+    pub marks: Vec<String>,
     /// Objects that were left out.
     pub left_out: usize,
 }
@@ -87,8 +92,11 @@ fn contents(legend: &Legend<'_>, ui: &mut egui::Ui) {
             ui.label("Leaf boxes are not shown");
         }
     }
-    if let Some(path) = legend.path {
-        path_key(path, ui);
+    if let Some(picked) = legend.picked {
+        path_key(legend, picked, ui);
+    }
+    for line in &legend.marks {
+        ui.label(line);
     }
     if !legend.settings.linked {
         ui.label("white pyramid: the picture's camera");
@@ -143,8 +151,9 @@ fn color_bar(coloring: &Coloring, highest: f64, ui: &mut egui::Ui) {
     }
 }
 
-/// What is drawn of the picked ray.
-fn path_key(path: &RayPath, ui: &mut egui::Ui) {
+/// What is drawn of the picked pixel's rays and of the current step.
+fn path_key(legend: &Legend<'_>, picked: &Picked, ui: &mut egui::Ui) {
+    let path = picked.path();
     let n = path.leaves().count();
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
@@ -156,10 +165,65 @@ fn path_key(path: &RayPath, ui: &mut egui::Ui) {
         }
         ui.add_space(6.0);
         ui.label(match n {
-            0 => "the picked ray visits no leaf".to_owned(),
-            1 => "the 1 leaf visited by the picked ray".to_owned(),
+            0 => "the selected ray visits no leaf".to_owned(),
+            1 => "the 1 leaf visited by the selected ray".to_owned(),
             _ => format!("leaves visited by the ray, 1 to {n} in order"),
         });
     });
-    ui.label("white: the ray and the box of the object hit");
+    ui.label("thick: the selected ray · white box: the object hit");
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        let kinds = RayKind::ALL.into_iter().filter(|kind| {
+            let mut rays = picked.record.rays.iter();
+            legend.settings.all_rays && rays.any(|ray| ray.path.kind == *kind) || path.kind == *kind
+        });
+        for kind in kinds {
+            let style = ray_style(kind);
+            sample(ui, style.color, style.strokes);
+            ui.label(format!("{} ray, {}", kind.name(), style.text));
+        }
+    });
+    ui.label("cross: a hit · star: a light that is reached");
+    if picked.current().is_some() {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 5.0;
+            for (color, strokes, what) in [
+                (CELL, &[][..], "current cell and interval"),
+                (PLANE, &[], "its plane (hatched)"),
+                (WAITING, &[1.0, 1.0], "cells that wait"),
+            ] {
+                sample(ui, color, strokes);
+                ui.label(what);
+            }
+        });
+    }
+    let rays = picked.record.rays.len();
+    if legend.settings.all_rays && rays > RaysShown::MOST {
+        ui.label(format!(
+            "{} of {} rays drawn",
+            grouped(RaysShown::MOST),
+            grouped(rays)
+        ));
+    }
+}
+
+/// A short piece of a line.
+fn sample(ui: &mut egui::Ui, [r, g, b]: [u8; 3], strokes: &[f64]) {
+    let (rect, _) = ui.allocate_exact_size(vec2(26.0, 10.0), egui::Sense::hover());
+    let stroke = egui::Stroke::new(2.5, Color32::from_rgb(r, g, b));
+    let pattern: &[f64] = if strokes.is_empty() {
+        &[f64::INFINITY, 0.0]
+    } else {
+        strokes
+    };
+    let mut x = rect.left();
+    for pair in pattern.chunks(2).cycle() {
+        if x >= rect.right() {
+            break;
+        }
+        let [on, off] = [pair[0] as f32 * 3.0, pair[1] as f32 * 3.0];
+        let end = (x + on).min(rect.right());
+        ui.painter().hline(x..=end, rect.center().y, stroke);
+        x = end + off;
+    }
 }

@@ -1,10 +1,12 @@
-//! The 3D view: the scene, the leaves of its tree, and the path of the picked pixel's ray.
+//! The 3D view: the scene, the leaves of its tree, and the rays of the picked pixel.
 
 mod camera;
 mod controls;
 mod leaf_boxes;
 mod legend;
+mod marks;
 mod pipelines;
+mod ray_lines;
 mod renderer;
 mod scene_mesh;
 
@@ -41,7 +43,9 @@ pub struct View3d {
     scene: Option<Arc<Scene>>,
     mesh: Latest<SceneKey, scene_mesh::SceneMesh>,
     boxes: leaf_boxes::Boxes,
+    rays: ray_lines::RayLines,
     lines: Arc<Vec<Line>>,
+    faces: Arc<Vec<overlay::FaceCorner>>,
     /// When the camera moved last, in seconds.
     moved: f64,
 }
@@ -77,7 +81,9 @@ impl View3d {
             scene: None,
             mesh: Latest::default(),
             boxes: leaf_boxes::Boxes::default(),
+            rays: ray_lines::RayLines::default(),
             lines: Arc::default(),
+            faces: Arc::default(),
             moved: f64::NEG_INFINITY,
         }
     }
@@ -85,6 +91,7 @@ impl View3d {
     /// Shows the view and moves its camera.
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
         self.follow(state);
+        let marks = marks::Marks::of(state, ui.ctx());
         controls::toolbar(self, ui, state);
         let size = super::rest_of(ui);
         let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
@@ -92,13 +99,16 @@ impl View3d {
             egui::WidgetInfo::labeled(egui::Role::Canvas, true, "3D view of scene and tree")
         });
         self.camera.aspect = f64::from(rect.width() / rect.height());
-        if self.steer(ui, &response, state) {
+        let framed = self.frame_wanted(state);
+        if self.steer(ui, &response, state) || framed {
             self.moved = ui.input(|i| i.time);
             if self.settings.linked {
                 state.wanted.render.camera = self.camera.camera;
                 state.wanted.own_camera = true;
             }
         }
+        self.settings.filter.ranges = state.inspect.ranges;
+        self.pick(rect, &response, state);
         let [r, g, b] = GROUND;
         ui.painter()
             .rect_filled(rect, 0.0, Color32::from_rgb(r, g, b));
@@ -111,8 +121,17 @@ impl View3d {
                 );
             }
             (Some(_), None) => note(ui, rect, "No scene yet"),
-            (Some(_), Some(current)) => self.draw(ui, rect, current),
+            (Some(_), Some(current)) => self.draw(ui, rect, current, &marks),
         }
+    }
+
+    /// Shows the node that another pane asks for; says whether there was one.
+    fn frame_wanted(&mut self, state: &mut State) -> bool {
+        let (Some(node), Some(current)) = (state.inspect.frame.take(), &state.current) else {
+            return false;
+        };
+        self.camera.show(&current.shown.tree.cell_of(node).bounds);
+        true
     }
 
     /// Takes over a new scene's camera, or the picture's while linked.
@@ -183,6 +202,21 @@ impl View3d {
         moved && (by != egui::Vec2::ZERO || wheel != 0.0 || self.camera != before)
     }
 
+    /// Selects the leaf whose box is clicked.
+    fn pick(&self, rect: Rect, response: &egui::Response, state: &mut State) {
+        if let Some(at) = response.interact_pointer_pos()
+            && response.clicked()
+            && self.settings.boxes
+        {
+            let at = (at - rect.center()) / (rect.height() * 0.5);
+            let ray = self.camera.ray(f64::from(at.x), f64::from(-at.y));
+            let leaf = marks::pick_leaf(state, &self.settings.filter, &ray);
+            if let Some(current) = &mut state.current {
+                current.selection.node = leaf;
+            }
+        }
+    }
+
     /// The point of the scene under the pointer; where there is none, at the orbited distance.
     fn point_under(&self, pointer: egui::Pos2, rect: Rect, state: &State) -> Vec3 {
         let half = rect.height() * 0.5;
@@ -198,11 +232,11 @@ impl View3d {
         self.camera.on_target_plane(&ray)
     }
 
-    fn draw(&mut self, ui: &mut egui::Ui, rect: Rect, current: &Current) {
+    fn draw(&mut self, ui: &mut egui::Ui, rect: Rect, current: &Current, marks: &marks::Marks) {
         let (scene, tree) = (&current.shown.scene, &current.shown.tree);
         let center = scene_mesh::center_of(scene);
         let ctx = ui.ctx();
-        let path = current.picked.as_ref().map(|picked| &picked.path);
+        let path = current.picked.as_ref().map(|picked| picked.path());
         let mesh = if self.settings.scene {
             let making = Arc::clone(scene);
             let key = SceneKey(Arc::clone(scene));
@@ -220,7 +254,12 @@ impl View3d {
                 self.boxes.get(tree, filter, coloring, center, ctx)
             })
             .flatten();
-        let lines = self.lines_for(current, center);
+        let mut lines = self.lines_for(current, center);
+        lines.extend(marks.lines(center));
+        let faces = marks.faces(center);
+        if *self.faces != faces {
+            self.faces = Arc::new(faces);
+        }
         if *self.lines != lines {
             self.lines = Arc::new(lines);
         }
@@ -235,7 +274,8 @@ impl View3d {
             ctx.request_repaint_after_secs((REST - resting) as f32 + 0.01);
         }
 
-        let mut bounds = tree.root_cell();
+        let drawn_lines = ray_lines::bounds_of(&self.lines, center);
+        let mut bounds = tree.root_cell().union(&drawn_lines);
         if !self.settings.linked {
             let eye = current.shown.render.camera.from;
             bounds = bounds.union(&Aabb::new(eye, eye));
@@ -253,17 +293,20 @@ impl View3d {
             boxes: boxes.clone(),
             box_count: drawn,
             lines: Arc::clone(&self.lines),
+            faces: Arc::clone(&self.faces),
         };
         ui.painter()
             .add(egui_wgpu::Callback::new_paint_callback(rect, frame));
         if let Some(path) = path {
             self.number_leaves(ui, rect, path);
         }
+        marks.name(self, ui, rect);
         let legend = legend::Legend {
+            marks: marks.key(),
             settings: &self.settings,
             boxes: boxes.as_deref(),
             drawn,
-            path: path.map(|path| &**path),
+            picked: current.picked.as_ref(),
             left_out,
         };
         legend::show(&legend, ui, rect);
@@ -289,17 +332,16 @@ impl View3d {
         }
     }
 
-    /// The picked ray with its leaves and the object hit, and the picture's camera if it is another.
-    fn lines_for(&self, current: &Current, center: Vec3) -> Vec<Line> {
+    /// The picked pixel's rays with the selected one's walk and the object hit, and the picture's camera if it is another.
+    fn lines_for(&mut self, current: &Current, center: Vec3) -> Vec<Line> {
         const WHITE: [u8; 4] = [255; 4];
-        let mut lines = Vec::new();
-        if let Some(picked) = &current.picked {
-            lines.extend(overlay::path_lines(&picked.path, center));
-            if picked.path.hit.is_hit()
-                && let Some(bounds) = controls::selection(current)
-            {
-                lines.extend(overlay::box_lines(&bounds, center, WHITE, 1.0));
-            }
+        let others = self.settings.all_rays;
+        let mut lines = self.rays.get(current, others, center).to_vec();
+        if let Some(picked) = &current.picked
+            && picked.path().hit.is_hit()
+            && let Some(bounds) = controls::selection(current)
+        {
+            lines.extend(overlay::box_lines(&bounds, center, WHITE, 1.0));
         }
         if !self.settings.linked {
             let render = &current.shown.render;

@@ -1,7 +1,7 @@
 //! The render pipelines of the 3D view.
 
 use super::scene_mesh::{Ball, Vertex};
-use crate::overlay::{Instance, Line};
+use crate::overlay::{FaceCorner, Instance, Line};
 use eframe::egui_wgpu::wgpu;
 
 /// Samples a pixel.
@@ -13,6 +13,7 @@ pub struct Pipelines {
     pub mesh: wgpu::RenderPipeline,
     pub spheres: wgpu::RenderPipeline,
     pub boxes: wgpu::RenderPipeline,
+    pub faces: wgpu::RenderPipeline,
     pub lines: wgpu::RenderPipeline,
     pub hidden_lines: wgpu::RenderPipeline,
     pub blit: wgpu::RenderPipeline,
@@ -96,6 +97,18 @@ impl Pipelines {
             blend: Some(wgpu::BlendState::ALPHA_BLENDING),
             alpha_covers: false,
         });
+        let faces = make(Kind {
+            vertex: "face_vertex",
+            fragment: "face_fragment",
+            topology: PrimitiveTopology::TriangleList,
+            step: VertexStepMode::Vertex,
+            stride: size_of::<FaceCorner>() as u64,
+            attributes: wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4].to_vec(),
+            depth_write: false,
+            depth_compare: CompareFunction::LessEqual,
+            blend: Some(wgpu::BlendState::ALPHA_BLENDING),
+            alpha_covers: false,
+        });
         let line = |fragment, depth_compare, blend| {
             make(Kind {
                 vertex: "line_vertex",
@@ -126,6 +139,7 @@ impl Pipelines {
             mesh,
             spheres,
             boxes,
+            faces,
             lines,
             hidden_lines,
             blit,

@@ -5,7 +5,7 @@
 
 use super::pipelines::{MSAA, Pipelines};
 use super::scene_mesh::SceneMesh;
-use crate::overlay::{LeafBoxes, Line};
+use crate::overlay::{FaceCorner, LeafBoxes, Line};
 use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, ScreenDescriptor, wgpu};
 use std::sync::Arc;
 
@@ -32,6 +32,8 @@ pub struct Frame3d {
     /// How many of the boxes are drawn.
     pub box_count: u32,
     pub lines: Arc<Vec<Line>>,
+    /// Translucent triangles.
+    pub faces: Arc<Vec<FaceCorner>>,
 }
 
 /// What makes one frame differ from another.
@@ -40,7 +42,7 @@ struct Drawn {
     globals: Globals,
     ground: [u8; 3],
     box_count: u32,
-    parts: [usize; 3],
+    parts: [usize; 4],
 }
 
 /// A buffer and what was uploaded into it. Holding on to the source keeps its address its own.
@@ -116,6 +118,7 @@ struct Gpu {
     mesh: Uploaded<SceneMesh>,
     boxes: Uploaded<LeafBoxes>,
     lines: Uploaded<Vec<Line>>,
+    faces: Uploaded<Vec<FaceCorner>>,
     drawn: Option<Drawn>,
 }
 
@@ -144,6 +147,7 @@ pub fn install(state: &egui_wgpu::RenderState) {
         mesh: Uploaded::default(),
         boxes: Uploaded::default(),
         lines: Uploaded::default(),
+        faces: Uploaded::default(),
         drawn: None,
     });
 }
@@ -211,11 +215,19 @@ impl CallbackTrait for Frame3d {
         gpu.lines.update(device, Some(&self.lines), |lines| {
             vec![(bytemuck::cast_slice(lines), lines.len())]
         });
+        gpu.faces.update(device, Some(&self.faces), |corners| {
+            vec![(bytemuck::cast_slice(corners), corners.len())]
+        });
         let drawn = Drawn {
             globals: self.globals,
             ground: self.ground,
             box_count: self.box_count,
-            parts: [gpu.mesh.address(), gpu.boxes.address(), gpu.lines.address()],
+            parts: [
+                gpu.mesh.address(),
+                gpu.boxes.address(),
+                gpu.lines.address(),
+                gpu.faces.address(),
+            ],
         };
         let fits = gpu.target.as_ref().is_some_and(|t| t.size == self.size);
         if fits && gpu.drawn.as_ref() == Some(&drawn) {
@@ -293,6 +305,13 @@ impl Frame3d {
                 pass.set_vertex_buffer(0, boxes.slice(..));
                 pass.draw(0..24, 0..count);
             }
+        }
+        if let [(corners, count)] = &gpu.faces.buffers[..]
+            && *count > 0
+        {
+            pass.set_pipeline(&gpu.pipelines.faces);
+            pass.set_vertex_buffer(0, corners.slice(..));
+            pass.draw(0..*count, 0..1);
         }
         if let [(lines, count)] = &gpu.lines.buffers[..]
             && *count > 0

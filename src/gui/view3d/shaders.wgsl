@@ -150,6 +150,23 @@ fn box_fragment(in: BoxOut) -> @location(0) vec4f {
     return vec4f(in.color.rgb, 0.55);
 }
 
+// Translucent faces of the selected cell
+
+struct FaceOut {
+    @builtin(position) clip: vec4f,
+    @location(0) color: vec4f,
+}
+
+@vertex
+fn face_vertex(@location(0) place: vec3f, @location(1) color: vec4f) -> FaceOut {
+    return FaceOut(globals.clip_from_scene * vec4f(place, 1.0), color);
+}
+
+@fragment
+fn face_fragment(in: FaceOut) -> @location(0) vec4f {
+    return in.color;
+}
+
 // Lines of a width in pixels
 
 struct LineOut {

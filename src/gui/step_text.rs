@@ -1,0 +1,163 @@
+//! Rays and the steps of their walks in words.
+
+use crate::primitive::Primitive;
+use crate::scene::Scene;
+use crate::trace::{InnerStep, LeafStep, RayKind, RayPath, Step, TestStep, Way};
+
+use super::symbol::grouped;
+
+/// A distance in few characters.
+pub fn short(t: f64) -> String {
+    if t.abs() >= 1e5 || (t != 0.0 && t.abs() < 1e-3) {
+        format!("{t:.2e}")
+    } else {
+        format!("{t:.4}")
+    }
+}
+
+/// A stretch of a ray.
+pub fn interval(t_enter: f64, t_exit: f64) -> String {
+    format!("{} – {}", short(t_enter), short(t_exit))
+}
+
+/// A kind of primitive in the singular, and the object's number.
+pub fn object(scene: &Scene, number: u32) -> String {
+    let kind = match &scene.objects()[number as usize] {
+        Primitive::Sphere(_) => "sphere",
+        Primitive::Triangle(_) => "triangle",
+        Primitive::Polygon(_) => "polygon",
+        Primitive::Cone(c) if c.is_cylinder() => "cylinder",
+        Primitive::Cone(_) => "cone",
+    };
+    format!("{kind} {number}")
+}
+
+/// How a ray ends.
+pub fn outcome(scene: &Scene, path: &RayPath) -> String {
+    match (path.kind, path.hit.is_hit()) {
+        (RayKind::Shadow, true) => format!("blocked by {}", object(scene, path.hit.object)),
+        (RayKind::Shadow, false) => "reaches the light".to_owned(),
+        (_, true) => object(scene, path.hit.object),
+        (_, false) => "background".to_owned(),
+    }
+}
+
+/// Which children, in a word.
+pub fn way(way: Way) -> &'static str {
+    match way {
+        Way::Near => "near",
+        Way::Far => "far",
+        Way::Both => "both",
+    }
+}
+
+/// How many of something.
+pub fn count(n: u32, one: &str, many: &str) -> String {
+    format!(
+        "{} {}",
+        grouped(n as usize),
+        if n == 1 { one } else { many }
+    )
+}
+
+/// Why the walk took the way it took at an inner node.
+pub fn why(step: &InnerStep) -> String {
+    let (axis, plane) = (step.axis.name(), short(step.plane));
+    let (near, far) = (grouped(step.near as usize), grouped(step.far as usize));
+    let between = format!("{} to {} units", short(step.t_enter), short(step.t_exit));
+    match (step.way, step.t_plane) {
+        (Way::Near, Some(t)) => format!(
+            "the plane {axis} = {plane} lies at t = {} units, beyond the interval's end {}: only \
+             the near child, node {near}",
+            short(t),
+            short(step.t_exit)
+        ),
+        (Way::Near, None) => format!(
+            "the ray runs along the plane {axis} = {plane}, on its near side: only node {near}"
+        ),
+        (Way::Far, Some(t)) => format!(
+            "the plane {axis} = {plane} lies at t = {} units, before the interval's begin {}: only \
+             the far child, node {far}",
+            short(t),
+            short(step.t_enter)
+        ),
+        (Way::Far, None) => format!(
+            "the ray runs along the plane {axis} = {plane}, on its far side: only node {far}"
+        ),
+        (Way::Both, Some(t)) => format!(
+            "the plane {axis} = {plane} lies at t = {} units, inside the interval {between}: the \
+             near child, node {near}, first; the far child, node {far}, waits",
+            short(t)
+        ),
+        (Way::Both, None) => format!(
+            "the ray runs inside the plane {axis} = {plane}: both children, node {near} first; \
+             node {far} waits"
+        ),
+    }
+}
+
+/// What happened in a leaf.
+pub fn in_leaf(scene: &Scene, leaf: &LeafStep) -> String {
+    if leaf.objects == 0 {
+        return format!("empty ({}); {}", leaf.stop.text(), leaf.after.text());
+    }
+    let hits: Vec<String> = leaf
+        .tests
+        .iter()
+        .filter_map(|test| {
+            let t = test.hit?;
+            Some(format!(
+                "{} at {} units",
+                object(scene, test.object),
+                short(t)
+            ))
+        })
+        .collect();
+    let hits = if hits.is_empty() {
+        "nothing new hit".to_owned()
+    } else {
+        format!("hit {}", hits.join(", then nearer "))
+    };
+    format!(
+        "{}, {}: {hits}; {}",
+        count(leaf.objects, "object", "objects"),
+        count(
+            leaf.tests.len() as u32,
+            "intersection test",
+            "intersection tests"
+        ),
+        leaf.after.text()
+    )
+}
+
+/// An intersection test.
+pub fn test(scene: &Scene, kind: RayKind, test: &TestStep) -> String {
+    let object = object(scene, test.object);
+    match test.hit {
+        Some(t) if kind == RayKind::Shadow => {
+            format!("{object}: hit at t = {} units, before the light", short(t))
+        }
+        Some(t) => format!("{object}: hit at t = {} units, nearest so far", short(t)),
+        None => format!("{object}: miss"),
+    }
+}
+
+/// A step in one sentence, with its number.
+pub fn step(scene: &Scene, number: usize, step: &Step) -> String {
+    match step {
+        Step::Inner(inner) => format!(
+            "Step {number}: inner node {}, depth {}: {}.",
+            grouped(inner.node as usize),
+            inner.depth,
+            why(inner)
+        ),
+        Step::Leaf(leaf) => format!(
+            "Step {number}: leaf {}, depth {}, from {} to {} units: {}.",
+            grouped(leaf.node as usize),
+            leaf.depth,
+            short(leaf.t_enter),
+            short(leaf.t_exit),
+            in_leaf(scene, leaf)
+        ),
+    }
+}

@@ -1,0 +1,341 @@
+//! The tree as an icicle: every node a piece of its parent's width, one row a level of depth.
+//!
+//! Pieces narrower than a pixel and a half are left out with all below them, so that a tree of
+//! millions of nodes draws as fast as a small one.
+
+use super::{short, waiting};
+use crate::gui::inspect::TreeKey;
+use crate::gui::state::State;
+use crate::gui::symbol::grouped;
+use crate::overlay::{COLORINGS, Coloring, Leaf};
+use crate::tree::{NodeKind, Tree, TreeIndex};
+use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, pos2, vec2};
+use std::sync::Arc;
+
+/// The narrowest piece that is drawn, in points.
+const NARROWEST: f32 = 1.5;
+
+/// What a node's width stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Width {
+    Leaves,
+    Area,
+}
+
+/// The icicle's settings and its latest pieces.
+pub struct Icicle {
+    width: Width,
+    coloring: &'static Coloring,
+    /// The node that spans the whole width.
+    top: u32,
+    made: Option<(Key, Pieces)>,
+}
+
+impl Default for Icicle {
+    fn default() -> Self {
+        Icicle {
+            width: Width::Leaves,
+            coloring: &COLORINGS[0],
+            top: 0,
+            made: None,
+        }
+    }
+}
+
+/// What decides the pieces.
+#[derive(Clone, PartialEq)]
+struct Key {
+    tree: TreeKey,
+    width: Width,
+    coloring: &'static str,
+    top: u32,
+    area: Rect,
+}
+
+/// The pieces that are drawn; those drawn later lie on top.
+struct Pieces {
+    rects: Vec<(Rect, u32)>,
+    mesh: Arc<egui::Mesh>,
+}
+
+impl Icicle {
+    pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
+        let Some(current) = &mut state.current else {
+            return;
+        };
+        let Some(index) = state.inspect.index(current, ui.ctx()) else {
+            waiting(ui);
+            return;
+        };
+        let tree = Arc::clone(&current.shown.tree);
+        let key = TreeKey(Arc::clone(&tree));
+        if self.made.as_ref().is_none_or(|(made, _)| made.tree != key) {
+            self.top = 0;
+        }
+        self.toolbar(ui, current.selection.node, &index);
+        let (outer, response) =
+            ui.allocate_exact_size(crate::gui::rest_of(ui), Sense::click_and_drag());
+        response.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Icicle of the tree")
+        });
+        let area = Rect::from_min_max(outer.min + vec2(26.0, 0.0), outer.max);
+        if !area.is_positive() {
+            return;
+        }
+        let key = Key {
+            tree: key,
+            width: self.width,
+            coloring: self.coloring.name,
+            top: self.top,
+            area,
+        };
+        let pieces = match self.made.take() {
+            Some((made, pieces)) if made == key => pieces,
+            _ => self.pieces(&tree, &index, area),
+        };
+        let painter = ui.painter().with_clip_rect(outer);
+        painter.add(egui::Shape::mesh(Arc::clone(&pieces.mesh)));
+        self.labels(
+            &painter,
+            &tree,
+            &index,
+            &pieces,
+            ui.visuals().text_color(),
+            area,
+        );
+        let node_at = |at: egui::Pos2| {
+            let hit = pieces
+                .rects
+                .iter()
+                .rev()
+                .find(|(rect, _)| rect.contains(at));
+            hit.map(|(_, node)| *node)
+        };
+        if let Some(node) = response.interact_pointer_pos().and_then(node_at) {
+            if response.double_clicked() {
+                self.top = node;
+            }
+            if response.clicked() {
+                current.selection.node = Some(node);
+            }
+        }
+        if let Some(node) = current.selection.node {
+            mark(&painter, &index, &pieces, node);
+        }
+        if let Some(node) = response.hover_pos().and_then(node_at) {
+            response.on_hover_text_at_pointer(about(&tree, &index, node));
+        }
+        self.made = Some((key, pieces));
+    }
+
+    fn toolbar(&mut self, ui: &mut egui::Ui, selected: Option<u32>, index: &TreeIndex) {
+        ui.horizontal(|ui| {
+            ui.label("Width");
+            for (width, name, about) in [
+                (
+                    Width::Leaves,
+                    "by leaves",
+                    "A node is as wide as it has leaves below.",
+                ),
+                (
+                    Width::Area,
+                    "by area",
+                    "A node shares its width out by the surface areas of its children: by the \
+                     chance that rays meet them.",
+                ),
+            ] {
+                ui.selectable_value(&mut self.width, width, name)
+                    .on_hover_text(about);
+            }
+            egui::ComboBox::from_id_salt("icicle coloring")
+                .selected_text(format!("Shade: {}", self.coloring.title))
+                .width(120.0)
+                .show_ui(ui, |ui| {
+                    for coloring in COLORINGS {
+                        let chosen = coloring.name == self.coloring.name;
+                        if ui.selectable_label(chosen, coloring.title).clicked() {
+                            self.coloring = coloring;
+                        }
+                    }
+                })
+                .response
+                .on_hover_text("What nodes are coloured by; inner nodes by all objects below.");
+            let to = selected.filter(|&node| node != self.top);
+            if ui
+                .add_enabled(to.is_some(), egui::Button::new("Zoom in"))
+                .on_hover_text("Give the selected node the whole width.\nAlso: double-click a node")
+                .clicked()
+                && let Some(node) = to
+            {
+                self.top = node;
+            }
+            if ui
+                .add_enabled(self.top != 0, egui::Button::new("Zoom out"))
+                .on_hover_text("Give the whole width to the node above.")
+                .clicked()
+            {
+                self.top = index.of(self.top).parent;
+            }
+            let mut scale = self.scale(index);
+            if let Some((_, pieces)) = &self.made {
+                scale += &format!(
+                    " · {} of {} nodes drawn",
+                    grouped(pieces.rects.len()),
+                    grouped((index.of(self.top).end - self.top) as usize)
+                );
+            }
+            ui.add(egui::Label::new(&scale).truncate())
+                .on_hover_text(&scale);
+        });
+    }
+
+    /// What the colours run from and to, in words.
+    fn scale(&self, index: &TreeIndex) -> String {
+        let highest = self.highest(index);
+        let marks = self.coloring.marks(highest);
+        let unit = self.coloring.unit;
+        match (marks.first(), marks.last()) {
+            (Some(a), Some(b)) => format!("dark: {} · light: {} {unit}", a.text, b.text),
+            _ => String::new(),
+        }
+    }
+
+    /// The value at the light end of the colours.
+    fn highest(&self, index: &TreeIndex) -> f64 {
+        (0..index.len() as u32)
+            .map(|node| self.coloring.value(leaf_like(index, node)))
+            .fold(0.0, f64::max)
+    }
+
+    fn pieces(&self, tree: &Tree, index: &TreeIndex, area: Rect) -> Pieces {
+        let top = index.of(self.top).depth;
+        let mut spans = Vec::new();
+        let mut stack = vec![(self.top, area.left(), area.right())];
+        while let Some((node, left, right)) = stack.pop() {
+            spans.push((node, left, right));
+            if let NodeKind::Inner { below, above, .. } = tree.kind(node) {
+                let share = |child: u32| match self.width {
+                    Width::Leaves => f64::from(index.of(child).leaves),
+                    Width::Area => index.of(child).area,
+                };
+                let (a, b) = (share(below), share(above));
+                let middle = left + (right - left) * (a / (a + b)) as f32;
+                for (child, from, to) in [(above, middle, right), (below, left, middle)] {
+                    if to - from >= NARROWEST {
+                        stack.push((child, from, to));
+                    }
+                }
+            }
+        }
+        // Rows that nothing is drawn in take no room.
+        let depths = spans.iter().map(|&(node, ..)| index.of(node).depth - top);
+        let height = area.height() / (depths.max().unwrap_or(0) + 1) as f32;
+        let highest = self.highest(index);
+        let mut rects = Vec::with_capacity(spans.len());
+        let mut mesh = egui::Mesh::default();
+        for (node, left, right) in spans {
+            let y = area.top() + height * (index.of(node).depth - top) as f32;
+            let rect = Rect::from_min_max(pos2(left, y), pos2(right, y + height));
+            let [r, g, b] = self
+                .coloring
+                .color(self.coloring.value(leaf_like(index, node)), highest);
+            let gap = if rect.width() > 4.0 { 0.5 } else { 0.0 };
+            let drawn = rect.shrink2(vec2(gap, if height > 4.0 { 0.5 } else { 0.0 }));
+            mesh.add_colored_rect(drawn, Color32::from_rgb(r, g, b));
+            rects.push((rect, node));
+        }
+        Pieces {
+            rects,
+            mesh: Arc::new(mesh),
+        }
+    }
+
+    /// Depths beside the rows, and values in the pieces that have room.
+    fn labels(
+        &self,
+        painter: &egui::Painter,
+        tree: &Tree,
+        index: &TreeIndex,
+        pieces: &Pieces,
+        color: Color32,
+        area: Rect,
+    ) {
+        let font = FontId::proportional(10.5);
+        let Some((first, _)) = pieces.rects.first() else {
+            return;
+        };
+        let height = first.height();
+        let top = index.of(self.top).depth;
+        let every = (12.0 / height).ceil().max(1.0) as u32;
+        let rows = (area.height() / height).round() as u32;
+        for row in (0..rows).step_by(every as usize) {
+            let at = pos2(area.left() - 4.0, area.top() + height * (row as f32 + 0.5));
+            let text = (top + row).to_string();
+            painter.text(at, Align2::RIGHT_CENTER, text, font.clone(), color);
+        }
+        if height < 11.0 {
+            return;
+        }
+        for (rect, node) in pieces.rects.iter().filter(|(rect, _)| rect.width() > 46.0) {
+            let objects = index.of(*node).objects;
+            let text = match tree.kind(*node) {
+                NodeKind::Leaf { count: 0, .. } => "empty".to_owned(),
+                _ if rect.width() > 80.0 => format!("{} objects", grouped(objects as usize)),
+                _ => format!("{} obj.", grouped(objects as usize)),
+            };
+            // Readable on dark and on light pieces.
+            let galley = painter.layout_no_wrap(text, font.clone(), Color32::WHITE);
+            let place = Align2::CENTER_CENTER.anchor_size(rect.center(), galley.size());
+            painter.rect_filled(place.expand(1.0), 2.0, Color32::from_black_alpha(150));
+            painter.galley(place.min, galley, Color32::WHITE);
+        }
+    }
+}
+
+/// A node as colourings see it.
+fn leaf_like(index: &TreeIndex, node: u32) -> Leaf {
+    let facts = index.of(node);
+    Leaf {
+        depth: facts.depth,
+        objects: facts.objects,
+        volume: facts.volume,
+    }
+}
+
+/// Outlines the selected node, or the nearest above it that is drawn.
+fn mark(painter: &egui::Painter, index: &TreeIndex, pieces: &Pieces, node: u32) {
+    let path = index.path_to(node);
+    let drawn = path.iter().rev().find_map(|node| {
+        let piece = pieces.rects.iter().find(|(_, drawn)| drawn == node);
+        piece.map(|(rect, _)| *rect)
+    });
+    if let Some(rect) = drawn {
+        let rect = rect.expand(1.0);
+        for (width, color) in [(4.0, Color32::BLACK), (2.0, Color32::WHITE)] {
+            painter.rect_stroke(
+                rect,
+                0.0,
+                Stroke::new(width, color),
+                egui::StrokeKind::Middle,
+            );
+        }
+    }
+}
+
+/// A node in words.
+fn about(tree: &Tree, index: &TreeIndex, node: u32) -> String {
+    let facts = index.of(node);
+    let kind = match (tree.kind(node), tree.plane(node)) {
+        (NodeKind::Leaf { stop, .. }, _) => format!("a leaf: {}", stop.text()),
+        (_, Some((axis, at))) => format!("split at {axis} = {at:.6}"),
+        _ => String::new(),
+    };
+    format!(
+        "node {node}, depth {}, {kind}\n{} objects, {} leaves\nvolume {}, area {} % of the root's",
+        facts.depth,
+        grouped(facts.objects as usize),
+        grouped(facts.leaves as usize),
+        short(facts.volume),
+        short(100.0 * facts.area / index.of(0).area),
+    )
+}

@@ -1,0 +1,91 @@
+//! The panes about the tree: its outline, histograms of its leaves, its shape, and the cost of
+//! splitting the selected node. A pane is one file and one line in [`TreePane::ALL`].
+
+mod cost;
+mod find_bar;
+mod histograms;
+mod icicle;
+mod outline;
+mod rows;
+
+use super::state::State;
+
+/// One of the panes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TreePane {
+    Outline,
+    Histograms,
+    Icicle,
+    Cost,
+}
+
+impl TreePane {
+    pub const ALL: [TreePane; 4] = [
+        TreePane::Outline,
+        TreePane::Histograms,
+        TreePane::Icicle,
+        TreePane::Cost,
+    ];
+
+    /// What its tab says.
+    pub const fn title(self) -> &'static str {
+        match self {
+            TreePane::Outline => "Outline",
+            TreePane::Histograms => "Leaf histograms",
+            TreePane::Icicle => "Icicle",
+            TreePane::Cost => "Split cost",
+        }
+    }
+}
+
+/// What the panes keep.
+#[derive(Default)]
+pub struct TreePanes {
+    outline: outline::Outline,
+    histograms: histograms::Histograms,
+    icicle: icicle::Icicle,
+    cost: cost::CostPane,
+}
+
+impl TreePanes {
+    pub fn ui(&mut self, pane: TreePane, ui: &mut egui::Ui, state: &mut State) {
+        if state.current.is_none() {
+            ui.weak("No tree yet");
+            return;
+        }
+        match pane {
+            TreePane::Outline => self.outline.ui(ui, state),
+            TreePane::Histograms => self.histograms.ui(ui, state),
+            TreePane::Icicle => self.icicle.ui(ui, state),
+            TreePane::Cost => self.cost.ui(ui, state),
+        }
+    }
+}
+
+/// What is shown while facts of the tree are being worked out.
+fn waiting(ui: &mut egui::Ui) {
+    ui.horizontal(|ui| {
+        ui.spinner();
+        ui.label("Working out the facts of the tree …");
+    });
+}
+
+/// Whether the pointer is in a pane, so that keys go there.
+fn is_under_pointer(ui: &egui::Ui) -> bool {
+    let rect = ui.max_rect();
+    ui.ctx().rect_contains_pointer(ui.layer_id(), rect)
+}
+
+/// A number in few characters.
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".to_owned()
+    } else if !(1e-3..1e5).contains(&size) {
+        format!("{value:.2e}")
+    } else if size >= 100.0 {
+        format!("{value:.1}")
+    } else {
+        format!("{value:.3}")
+    }
+}

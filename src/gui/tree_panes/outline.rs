@@ -1,0 +1,310 @@
+//! The outline of the tree: a table of the unfolded nodes, of which only the visible rows are laid
+//! out.
+
+use super::find_bar::{self, FindBar, Step};
+use super::rows::Rows;
+use super::{is_under_pointer, short, waiting};
+use crate::gui::inspect::TreeKey;
+use crate::gui::shortcuts::{Action, Scope, pressed, tip};
+use crate::gui::state::{Current, State};
+use crate::gui::symbol::grouped;
+use crate::tree::{NodeKind, Tree, TreeIndex};
+use egui::{Align, Sense};
+use egui_extras::{Column, TableBuilder, TableRow};
+use std::sync::Arc;
+
+/// The outline.
+#[derive(Default)]
+pub struct Outline {
+    rows: Option<(TreeKey, Rows)>,
+    /// The selection that was scrolled to.
+    followed: Option<u32>,
+    find: FindBar,
+}
+
+const COLUMNS: [(&str, f32, &str); 8] = [
+    (
+        "node",
+        164.0,
+        "Index of the node in the tree's array; 0 is the root",
+    ),
+    ("depth", 42.0, "Levels below the root"),
+    (
+        "plane, or why a leaf",
+        164.0,
+        "Axis and place of the split plane, in units of length; or why the cell was not split",
+    ),
+    ("objects", 54.0, "Objects in the cell, each counted once"),
+    ("refs", 66.0, "References of all leaves below"),
+    (
+        "area",
+        58.0,
+        "Surface area of the cell, in percent of the root's",
+    ),
+    (
+        "tests",
+        54.0,
+        "Expected cost: intersection tests of a ray through the cell if nothing stops it \
+         (MacDonald and Booth 1990)",
+    ),
+    (
+        "visits",
+        50.0,
+        "Nodes that such a ray is expected to visit, this one included",
+    ),
+];
+
+impl Outline {
+    pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
+        let Some(current) = &mut state.current else {
+            return;
+        };
+        let Some(index) = state.inspect.index(current, ui.ctx()) else {
+            waiting(ui);
+            return;
+        };
+        let tree = Arc::clone(&current.shown.tree);
+        let key = TreeKey(Arc::clone(&tree));
+        if self.rows.as_ref().is_none_or(|(of, _)| *of != key) {
+            self.rows = Some((key.clone(), Rows::new(&tree)));
+            self.followed = None;
+        }
+        let matches = self.find.matches(&key, &index, ui.ctx());
+        let found = matches.as_deref().map(Vec::as_slice);
+        let before = current.selection.node;
+        if let Some(to) = self.find.ui(ui, found, before) {
+            current.selection.node =
+                find_bar::step(found.unwrap_or_default(), before, to).or(before);
+        }
+        let Some((_, rows)) = &mut self.rows else {
+            return;
+        };
+        if is_under_pointer(ui) {
+            for action in pressed(ui.ctx(), Scope::Tree) {
+                match action {
+                    Action::FrameNode => state.inspect.frame = current.selection.node,
+                    // In a list of matches, up and down go from match to match.
+                    Action::FindNext | Action::FindPrevious | Action::RowDown | Action::RowUp
+                        if self.find.only || !matches!(action, Action::RowDown | Action::RowUp) =>
+                    {
+                        let next = matches!(action, Action::FindNext | Action::RowDown);
+                        let to = if next { Step::Next } else { Step::Previous };
+                        let at = current.selection.node;
+                        current.selection.node =
+                            find_bar::step(found.unwrap_or_default(), at, to).or(at);
+                    }
+                    _ => walk(action, &mut current.selection.node, rows, &tree, &index),
+                }
+            }
+        }
+        summary(ui, current, &index, &mut self.find);
+        let listed = found.filter(|_| self.find.only);
+        let mut scroll = None;
+        if current.selection.node != self.followed {
+            self.followed = current.selection.node;
+            if let Some(node) = current.selection.node {
+                let row = rows.reveal(&tree, &index, node);
+                scroll = match listed {
+                    Some(list) => list.binary_search(&node).ok(),
+                    None => row,
+                };
+            }
+        }
+        let shown: Vec<u32>;
+        let nodes = match listed {
+            Some(list) => list,
+            None => {
+                shown = rows.nodes().to_vec();
+                &shown
+            }
+        };
+        let mut table = Table {
+            tree: &tree,
+            index: &index,
+            rows,
+            selected: &mut current.selection.node,
+            flat: listed.is_some(),
+        };
+        table.ui(ui, nodes, scroll);
+    }
+}
+
+/// Moves the selection by a key.
+fn walk(
+    action: Action,
+    selected: &mut Option<u32>,
+    rows: &mut Rows,
+    tree: &Tree,
+    index: &TreeIndex,
+) {
+    let Some(node) = *selected else {
+        *selected = Some(0);
+        return;
+    };
+    let inner = matches!(tree.kind(node), NodeKind::Inner { .. });
+    let row = rows.row_of(node).unwrap_or(0);
+    match action {
+        Action::RowUp => *selected = rows.nodes().get(row.saturating_sub(1)).copied(),
+        Action::RowDown => {
+            *selected = rows.nodes().get(row + 1).copied().or(Some(node));
+        }
+        Action::Unfold if inner && rows.is_unfolded(node) => *selected = Some(node + 1),
+        Action::Unfold => rows.set(tree, node, inner),
+        Action::Fold if inner && rows.is_unfolded(node) => rows.set(tree, node, false),
+        Action::Fold => *selected = Some(index.of(node).parent),
+        _ => {}
+    }
+}
+
+/// What is selected, in words.
+fn summary(ui: &mut egui::Ui, current: &Current, index: &TreeIndex, find: &mut FindBar) {
+    ui.horizontal(|ui| {
+        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
+        if let Some(object) = current.selection.object {
+            let leaves = index.leaves_of(object).len();
+            if ui
+                .button(format!("Object {object} is in {} leaves", grouped(leaves)))
+                .on_hover_text("List the leaves that refer to the selected object.")
+                .clicked()
+            {
+                find.text = format!("object {object}");
+                find.only = true;
+            }
+        }
+        let Some(node) = current.selection.node else {
+            ui.weak("No node selected: click one here, in 3D or in the icicle.");
+            return;
+        };
+        let facts = index.of(node);
+        let mut text = format!("Selected: node {node}, depth {}, ", facts.depth);
+        text += &if facts.end == node + 1 {
+            format!("a leaf with {} objects", facts.objects)
+        } else {
+            format!(
+                "{} leaves and {} nodes below",
+                grouped(facts.leaves as usize),
+                grouped((facts.end - node - 1) as usize)
+            )
+        };
+        text += &format!(", volume {}", short(facts.volume));
+        ui.label(&text).on_hover_text(&text);
+    });
+}
+
+/// One frame of the table.
+struct Table<'a> {
+    tree: &'a Tree,
+    index: &'a TreeIndex,
+    rows: &'a mut Rows,
+    selected: &'a mut Option<u32>,
+    /// A list of matches instead of an outline.
+    flat: bool,
+}
+
+impl Table<'_> {
+    fn ui(&mut self, ui: &mut egui::Ui, nodes: &[u32], scroll: Option<usize>) {
+        let height = ui.text_style_height(&egui::TextStyle::Body) + 2.0;
+        let width = ui.available_width();
+        egui::ScrollArea::horizontal()
+            .auto_shrink(false)
+            .show(ui, |ui| {
+                ui.spacing_mut().item_spacing.x = 6.0;
+                ui.set_min_width(width);
+                let mut builder = TableBuilder::new(ui)
+                    .striped(true)
+                    .sense(Sense::click())
+                    .auto_shrink(false)
+                    .cell_layout(egui::Layout::left_to_right(Align::Center))
+                    .animate_scrolling(false);
+                for (_, width, _) in COLUMNS {
+                    builder = builder.column(Column::exact(width).clip(true));
+                }
+                if let Some(row) = scroll {
+                    builder = builder.scroll_to_row(row, Some(Align::Center));
+                }
+                builder
+                    .header(height, |mut header| {
+                        for (title, _, about) in COLUMNS {
+                            header.col(|ui| {
+                                ui.strong(title).on_hover_text(about);
+                            });
+                        }
+                    })
+                    .body(|body| {
+                        body.rows(height, nodes.len(), |mut row| {
+                            let node = nodes[row.index()];
+                            self.row(&mut row, node);
+                        });
+                    });
+            });
+    }
+
+    fn row(&mut self, row: &mut TableRow<'_, '_>, node: u32) {
+        let facts = *self.index.of(node);
+        row.set_selected(*self.selected == Some(node));
+        row.col(|ui| {
+            if !self.flat {
+                self.fold(ui, node, facts.depth);
+            }
+            let label = egui::Label::new(format!("node {node}"))
+                .selectable(false)
+                .sense(Sense::click());
+            if ui.add(label).clicked() {
+                *self.selected = Some(node);
+            }
+        });
+        let (about, objects) = match self.tree.kind(node) {
+            NodeKind::Inner { .. } => {
+                let plane = self.tree.plane(node);
+                let text = plane.map(|(axis, at)| format!("{axis} = {at:.6}"));
+                (text.unwrap_or_default(), facts.objects)
+            }
+            NodeKind::Leaf { count, stop, .. } => (format!("leaf: {}", stop.text()), count),
+        };
+        let root = self.index.of(0).area;
+        for text in [
+            facts.depth.to_string(),
+            about,
+            grouped(objects as usize),
+            grouped(facts.references as usize),
+            format!("{} %", short(100.0 * facts.area / root)),
+            short(facts.tests),
+            short(facts.visits),
+        ] {
+            row.col(|ui| {
+                ui.add(egui::Label::new(text).selectable(false).truncate());
+            });
+        }
+        if row.response().clicked() {
+            *self.selected = Some(node);
+        }
+    }
+
+    /// The indentation and the triangle that folds and unfolds.
+    fn fold(&mut self, ui: &mut egui::Ui, node: u32, depth: u32) {
+        // The deepest node still has room for its name.
+        let levels = self.tree.depth_reached().max(1);
+        ui.add_space(depth as f32 * (64.0 / levels as f32).min(8.0));
+        let size = egui::vec2(14.0, ui.available_height());
+        if !matches!(self.tree.kind(node), NodeKind::Inner { .. }) {
+            ui.allocate_space(size);
+            return;
+        }
+        let unfolded = self.rows.is_unfolded(node);
+        let (_, response) = ui.allocate_exact_size(size, Sense::click());
+        let verb = if unfolded { "Fold" } else { "Unfold" };
+        response.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::Role::Button, true, format!("{verb} node {node}"))
+        });
+        let icon = response.clone().with_new_rect(response.rect.shrink(2.0));
+        egui::collapsing_header::paint_default_icon(ui, f32::from(u8::from(unfolded)), &icon);
+        let action = if unfolded {
+            Action::Fold
+        } else {
+            Action::Unfold
+        };
+        if response.on_hover_text(tip(verb, action)).clicked() {
+            self.rows.set(self.tree, node, !unfolded);
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Which nodes the outline shows: those whose parents are all unfolded.
+
+use crate::tree::{NodeKind, Tree, TreeIndex};
+use std::collections::HashSet;
+
+/// The unfolded nodes and the rows that follow from them.
+pub struct Rows {
+    unfolded: HashSet<u32>,
+    rows: Vec<u32>,
+}
+
+impl Rows {
+    /// The root unfolded, all else folded.
+    pub fn new(tree: &Tree) -> Self {
+        let mut rows = Rows {
+            unfolded: HashSet::from([0]),
+            rows: Vec::new(),
+        };
+        rows.lay_out(tree);
+        rows
+    }
+
+    /// The nodes shown, from top to bottom: in the order of the array.
+    pub fn nodes(&self) -> &[u32] {
+        &self.rows
+    }
+
+    /// The row of a node that is shown.
+    pub fn row_of(&self, node: u32) -> Option<usize> {
+        self.rows.binary_search(&node).ok()
+    }
+
+    pub fn is_unfolded(&self, node: u32) -> bool {
+        self.unfolded.contains(&node)
+    }
+
+    /// Folds or unfolds a node.
+    pub fn set(&mut self, tree: &Tree, node: u32, unfolded: bool) {
+        let changed = if unfolded {
+            self.unfolded.insert(node)
+        } else {
+            self.unfolded.remove(&node)
+        };
+        if changed {
+            self.lay_out(tree);
+        }
+    }
+
+    /// Unfolds all above a node; gives its row.
+    pub fn reveal(&mut self, tree: &Tree, index: &TreeIndex, node: u32) -> Option<usize> {
+        let before = self.unfolded.len();
+        let path = index.path_to(node);
+        self.unfolded.extend(&path[..path.len() - 1]);
+        if self.unfolded.len() != before {
+            self.lay_out(tree);
+        }
+        self.row_of(node)
+    }
+
+    fn lay_out(&mut self, tree: &Tree) {
+        self.rows.clear();
+        let mut stack = vec![0];
+        while let Some(node) = stack.pop() {
+            self.rows.push(node);
+            if let NodeKind::Inner { below, above, .. } = tree.kind(node)
+                && self.unfolded.contains(&node)
+            {
+                stack.extend([above, below]);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::progress::Progress;
+    use crate::scene::{SceneRequest, load};
+    use crate::tree::{BuildSettings, build};
+
+    #[test]
+    fn revealing_a_node_unfolds_the_way_to_it_alone() {
+        let progress = Progress::new();
+        let scene = load(&SceneRequest::parse("balls:1"), &progress).unwrap();
+        let tree = build(&scene, &BuildSettings::default(), &progress).unwrap();
+        let index = TreeIndex::new(&tree, scene.objects().len());
+        let mut rows = Rows::new(&tree);
+        assert_eq!(rows.nodes().len(), 3);
+        let node = tree.nodes().len() as u32 / 2;
+        let row = rows.reveal(&tree, &index, node).unwrap();
+        assert_eq!(rows.nodes()[row], node);
+        let levels = index.path_to(node).len();
+        assert_eq!(rows.nodes().len(), 2 * levels - 1);
+        rows.set(&tree, 0, false);
+        assert_eq!(rows.nodes(), [0]);
+        assert_eq!(rows.row_of(node), None);
+    }
+}

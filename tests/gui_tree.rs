@@ -1,0 +1,225 @@
+//! The window's panes about the tree: outline, find, histograms, icicle and split cost, found by
+//! their labels.
+
+use bspscope::gui::{App, StartOptions};
+use bspscope::scene::SceneRequest;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use std::time::{Duration, Instant};
+
+/// Enough for two slow cores that do other things, too.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A window with a finished picture; with the 3D view where `graphics`.
+fn open<'a>(scene: &str, method: &str, graphics: bool) -> Harness<'a, App> {
+    use bspscope::tree::{BuildSettings, Method};
+    let mut start = StartOptions {
+        scene: SceneRequest::parse(scene),
+        build: BuildSettings::for_method(Method::named(method).unwrap()),
+        remember: false,
+        ..StartOptions::default()
+    };
+    start.render.width = 32;
+    start.render.height = 32;
+    start.render.threads = 2;
+    let mut builder = Harness::builder()
+        .with_size([1500.0, 1000.0])
+        .with_max_steps(40);
+    if graphics {
+        builder = builder.wgpu();
+    }
+    let mut window = builder.build_eframe(|cc| App::new(cc, start));
+    wait(&mut window, "finished", |w| {
+        w.query_by_label("finished").is_some()
+    });
+    window
+}
+
+/// Runs the window until `done`.
+fn wait(window: &mut Harness<'_, App>, what: &str, done: impl Fn(&Harness<'_, App>) -> bool) {
+    let start = Instant::now();
+    loop {
+        window.run_steps(2);
+        if done(window) {
+            return;
+        }
+        assert!(start.elapsed() < PATIENCE, "still waiting for: {what}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn has(window: &Harness<'_, App>, text: &str) -> bool {
+    window.query_all_by_label_contains(text).next().is_some()
+}
+
+fn click(window: &mut Harness<'_, App>, label: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(3);
+}
+
+/// The text of the one label that contains this.
+fn text_with(window: &Harness<'_, App>, part: &str) -> String {
+    let node = window
+        .query_all_by_label_contains(part)
+        .next()
+        .unwrap_or_else(|| panic!("no label with {part}"));
+    let node = node.accesskit_node();
+    node.label().or(node.value()).unwrap_or_default()
+}
+
+/// Looks for nodes and waits for what the line then says.
+fn find(window: &mut Harness<'_, App>, query: &str, says: &str) {
+    let field = window.get_by_role_and_label(Role::TextInput, "Find nodes");
+    field.focus();
+    field.type_text(query);
+    wait(window, says, |w| has(w, says));
+}
+
+#[test]
+fn the_outline_unfolds_from_the_root() {
+    let mut window = open("balls:1", "midpoint", false);
+    assert!(window.query_by_label("node 0").is_some());
+    assert!(window.query_by_label("node 1").is_some());
+    assert!(window.query_by_label("node 2").is_none());
+    click(&mut window, "Unfold node 1");
+    assert!(window.query_by_label("node 2").is_some());
+    click(&mut window, "Fold node 0");
+    assert!(window.query_by_label("node 1").is_none());
+}
+
+#[test]
+fn a_node_selected_in_the_outline_is_marked_in_3d() {
+    let mut window = open("balls:1", "midpoint", true);
+    assert!(!has(&window, "thick box"));
+    click(&mut window, "node 0");
+    assert!(has(&window, "Selected: node 0, depth 0"));
+    assert!(has(
+        &window,
+        "thick box: selected node 0, depth 0; crossed: x ="
+    ));
+    // Keys walk on while the pointer is over the outline.
+    window.key_press(egui::Key::ArrowDown);
+    window.run_steps(3);
+    assert!(has(&window, "thick box: selected node 1, depth 1"));
+    window.key_press(egui::Key::ArrowLeft);
+    window.run_steps(3);
+    assert!(has(&window, "Selected: node 0"));
+}
+
+#[test]
+fn a_leaf_clicked_in_3d_is_selected_in_the_outline() {
+    let mut window = open("balls:1", "midpoint", true);
+    click(&mut window, "3D view of scene and tree");
+    wait(&mut window, "the leaf", |w| has(w, "Selected: node"));
+    let node = text_with(&window, "Selected: node");
+    let node = node["Selected: ".len()..]
+        .split(',')
+        .next()
+        .unwrap()
+        .to_owned();
+    assert!(window.query_by_label(&node).is_some(), "{node} is listed");
+    assert!(has(&window, "a leaf with"));
+}
+
+#[test]
+fn nodes_are_found_and_walked_through() {
+    let mut window = open("balls:1", "midpoint", false);
+    find(&mut window, "objects > 1", " matches");
+    click(&mut window, "Next");
+    assert!(has(&window, "match 1 of"));
+    assert!(has(&window, "a leaf with"));
+    let first = text_with(&window, "Selected: node");
+    click(&mut window, "Next");
+    assert!(has(&window, "match 2 of"));
+    assert_ne!(text_with(&window, "Selected: node"), first);
+    click(&mut window, "Previous");
+    assert_eq!(text_with(&window, "Selected: node"), first);
+    find(&mut window, " or", "expected a number after 'objects'");
+}
+
+#[test]
+fn a_picked_object_leads_to_its_leaves() {
+    let mut window = open("balls:1", "midpoint", true);
+    click(&mut window, "Traced picture");
+    wait(&mut window, "the object", |w| has(w, "is in"));
+    assert!(has(&window, "thin green: "));
+    window.get_by_label_contains(" is in ").click();
+    wait(&mut window, "the leaves", |w| listed_leaves(w) > 0);
+}
+
+/// Leaves among the rows of the outline.
+fn listed_leaves(window: &Harness<'_, App>) -> usize {
+    window
+        .query_all_by_label_contains("leaf: ")
+        .filter(|node| node.accesskit_node().role() == Role::Label)
+        .count()
+}
+
+#[test]
+fn brushing_a_histogram_changes_the_leaves_shown() {
+    let mut window = open("balls:1", "midpoint", true);
+    click(&mut window, "Leaf histograms");
+    wait(&mut window, "the histograms", |w| has(w, "leaves selected"));
+    let all = text_with(&window, "leaves selected");
+    let of = all
+        .split(" of ")
+        .nth(1)
+        .unwrap()
+        .trim_end_matches(" leaves selected")
+        .to_owned();
+    assert!(has(&window, &format!("{of} of {of} leaves shown")));
+    let bars = window.get_by_label("Histogram: Leaf depth").rect();
+    let y = bars.center().y;
+    window.drag_at(egui::pos2(bars.left() + 40.0, y));
+    window.run_steps(2);
+    window.hover_at(egui::pos2(bars.center().x, y));
+    window.run_steps(2);
+    window.drop_at(egui::pos2(bars.center().x, y));
+    window.run_steps(3);
+    let some = text_with(&window, "leaves selected");
+    assert_ne!(some, all);
+    let count = some.split(" of ").next().unwrap().to_owned();
+    assert!(has(&window, &format!("{count} of {of} leaves shown")));
+    // Keys count where the pointer is.
+    window.hover_at(egui::pos2(bars.center().x, y));
+    window.run_steps(2);
+    window.key_press(egui::Key::Delete);
+    window.run_steps(3);
+    assert_eq!(text_with(&window, "leaves selected"), all);
+}
+
+#[test]
+fn the_icicle_selects_nodes() {
+    let mut window = open("balls:1", "midpoint", false);
+    click(&mut window, "Icicle");
+    let icicle = window.get_by_label("Icicle of the tree").rect();
+    window.hover_at(icicle.center_top() + egui::vec2(0.0, 4.0));
+    window.run_steps(2);
+    window.drag_at(icicle.center_top() + egui::vec2(0.0, 4.0));
+    window.drop_at(icicle.center_top() + egui::vec2(0.0, 4.0));
+    window.run_steps(3);
+    click(&mut window, "Outline");
+    assert!(has(&window, "Selected: node 0"));
+}
+
+#[test]
+fn the_cost_of_the_chosen_plane_is_told_and_other_planes_can_be_tried() {
+    let mut window = open("balls:1", "sah-cut", true);
+    click(&mut window, "node 0");
+    click(&mut window, "Split cost");
+    wait(&mut window, "the cost", |w| has(w, "node 0: chosen"));
+    let text = text_with(&window, "node 0: chosen");
+    assert!(
+        text.contains("below") && text.contains("cost") && text.contains("tests"),
+        "{text}"
+    );
+    assert!(has(&window, "Drag or click in a curve"));
+    click(&mut window, "Cost along y");
+    wait(&mut window, "the plane", |w| has(w, "what if y ="));
+    assert!(has(&window, "tests to the chosen plane"));
+    assert!(has(&window, "crossed: what if y ="));
+    window.key_press(egui::Key::Escape);
+    window.run_steps(3);
+    assert!(!has(&window, "what if y ="));
+}
