@@ -186,7 +186,9 @@ impl eframe::App for App {
             top_bar::show(ui, &mut self.state, &mut self.files, &mut self.help_open);
         });
         egui::Panel::bottom("status line").show(ui, |ui| {
-            self.status.ui(ui, &self.state, self.panes.picture.hovered);
+            let picture = &self.panes.picture;
+            let value = picture.hovered.and_then(|p| picture.heat.value_text(p));
+            self.status.ui(ui, &self.state, picture.hovered, value);
         });
         egui::Panel::bottom("walk bar").show(ui, |ui| walk_bar::show(ui, &mut self.state));
         egui::Panel::left("left")
@@ -212,6 +214,7 @@ impl eframe::App for App {
             drop_hint(&ctx);
         }
         self.state.send();
+        self.panes.picture.heat.make_way(&self.state);
     }
 }
 

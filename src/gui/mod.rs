@@ -7,6 +7,7 @@
 mod app;
 mod background;
 mod files;
+mod heat;
 mod help;
 mod inspect;
 mod panels;

@@ -1,5 +1,7 @@
-//! The picture as it refines: zoomed and moved by mouse, pixels picked by click and arrow keys.
+//! The picture as it refines, with or under a heatmap: zoomed and moved by mouse, pixels picked by
+//! click and arrow keys.
 
+use super::heat::HeatView;
 use super::shortcuts::{Action, Scope, pressed};
 use super::state::{Current, Fresh, State};
 use crate::trace::{Picture, Tile};
@@ -17,13 +19,26 @@ pub struct PicturePane {
     offset: Vec2,
     /// The pixel under the pointer.
     pub hovered: Option<[u32; 2]>,
+    pub heat: HeatView,
 }
 
 impl PicturePane {
-    /// Shows the picture and picks pixels.
+    /// Shows what there is to see of the pixels, and its legend.
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
         header(ui, state);
-        let size = super::rest_of(ui);
+        self.heat.controls(ui);
+        self.heat.update(ui.ctx(), state);
+        self.picture(ui, state);
+        self.heat.legend(ui, state, self.hovered);
+    }
+
+    /// Shows the picture and picks pixels.
+    fn picture(&mut self, ui: &mut egui::Ui, state: &mut State) {
+        let mut size = super::rest_of(ui);
+        let legend = self.heat.legend_height();
+        if legend > 0.0 {
+            size.y = (size.y - legend - ui.spacing().item_spacing.y).max(16.0);
+        }
         let (pane, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
         response
             .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Traced picture"));
@@ -35,6 +50,9 @@ impl PicturePane {
         self.upload(ui.ctx(), current);
         let picture = [current.shown.picture.width, current.shown.picture.height];
         self.steer(ui, &response, current);
+        if self.heat.go(ui.ctx(), current) {
+            self.reveal(pane, current);
+        }
         let rect = self.place(pane, picture);
         let Some(texture) = &self.texture else {
             return;
@@ -47,6 +65,9 @@ impl PicturePane {
             Color32::WHITE
         };
         painter.image(texture.id(), rect, whole, tint);
+        if let Some((heat, tint)) = self.heat.texture(ui.ctx()) {
+            painter.image(heat, rect, whole, tint);
+        }
         if let Some(pixel) = current.picked_pixel() {
             cross_hair(&painter, rect, picture, pixel);
         }
@@ -107,6 +128,20 @@ impl PicturePane {
         Rect::from_center_size(pane.center() + self.offset, size * zoom)
     }
 
+    /// Moves the picture so that the picked pixel is in the pane.
+    fn reveal(&mut self, pane: Rect, current: &Current) {
+        let (width, height) = (current.shown.picture.width, current.shown.picture.height);
+        let Some(pixel) = current.picked_pixel() else {
+            return;
+        };
+        let rect = self.place(pane, [width, height]);
+        let [x, y] = pixel.map(|i| i as f32 + 0.5);
+        let at = rect.min + vec2(x / width as f32, y / height as f32) * rect.size();
+        if !pane.contains(at) {
+            self.offset += pane.center() - at;
+        }
+    }
+
     fn steer(&mut self, ui: &egui::Ui, response: &egui::Response, current: &mut Current) {
         let picture = [current.shown.picture.width, current.shown.picture.height];
         let pane = response.rect;
@@ -131,10 +166,8 @@ impl PicturePane {
         for action in pressed(ui.ctx(), Scope::Picture) {
             match action {
                 Action::Fit => {
-                    *self = PicturePane {
-                        texture: self.texture.take(),
-                        ..PicturePane::default()
-                    }
+                    self.zoom = None;
+                    self.offset = Vec2::ZERO;
                 }
                 Action::ActualSize => {
                     self.zoom = Some(1.0 / ui.ctx().pixels_per_point());
@@ -145,7 +178,7 @@ impl PicturePane {
                 Action::PickRight => step(current, 1, 0),
                 Action::PickUp => step(current, 0, -1),
                 Action::PickDown => step(current, 0, 1),
-                _ => {}
+                action => self.heat.act(action),
             }
         }
     }

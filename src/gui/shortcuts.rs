@@ -70,6 +70,12 @@ pub enum Action {
     PickUp,
     PickDown,
     Unpick,
+    NextHeatmap,
+    PreviousHeatmap,
+    LogScale,
+    LockRange,
+    LessExpensive,
+    MoreExpensive,
     FrameSelection,
     FrameAll,
     Front,
@@ -165,6 +171,12 @@ shortcuts! {
     Picture PickUp NONE [ArrowUp] "Up" "Pick the pixel above";
     Picture PickDown NONE [ArrowDown] "Down" "Pick the pixel below";
     Picture Unpick NONE [Delete] "Delete" "Pick no pixel";
+    Picture PreviousHeatmap SHIFT [H] "Shift+H" "Show the heatmap before";
+    Picture NextHeatmap NONE [H] "H" "Show the next heatmap";
+    Picture LogScale NONE [G] "G" "Heatmap's colours by the logarithm, or not";
+    Picture LockRange NONE [R] "R" "Lock the range of the heatmap's colours, or not";
+    Picture MoreExpensive SHIFT [N] "Shift+N" "Pick the pixel before in the order of expense";
+    Picture LessExpensive NONE [N] "N" "Pick the most expensive pixel, then the next";
     Picture ActualSize COMMAND [Num0] "Ctrl+0" "Actual size: one pixel on one pixel";
     Picture Fit NONE [Home] "Home" "Fit the picture into its pane";
     View3d Mouse NONE [] "Left-drag" "Orbit";
@@ -214,7 +226,8 @@ fn is_held(action: Action) -> bool {
     )
 }
 
-/// What the keys of this frame ask for. Plain keys belong to the focused widget or the open list, if
+/// What the keys of this frame ask for. A shortcut without Shift takes a key with Shift too, so the
+/// one with Shift comes before it in the table. Plain keys belong to the focused widget or the open list, if
 /// there is one.
 pub fn pressed(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
     let focused = ctx.egui_wants_keyboard_input() || egui::Popup::is_any_open(ctx);

@@ -40,6 +40,7 @@ pub struct Failure {
 
 /// A picture with everything that belongs to it.
 pub struct Current {
+    /// Number of the request that it answers; no other picture has it.
     pub number: u64,
     pub shown: Shown,
     /// Whether the figures are final.

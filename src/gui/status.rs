@@ -12,16 +12,22 @@ pub struct StatusLine {
 }
 
 impl StatusLine {
-    /// Shows the line.
-    pub fn ui(&mut self, ui: &mut egui::Ui, state: &State, hovered: Option<[u32; 2]>) {
+    /// Shows the line; `value` is what a heatmap says of the hovered pixel.
+    pub fn ui(
+        &mut self,
+        ui: &mut egui::Ui,
+        state: &State,
+        hovered: Option<[u32; 2]>,
+        value: Option<String>,
+    ) {
         ui.horizontal(|ui| {
             ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
             let current = state.current.as_ref();
             let pixel = match (hovered, current) {
-                (Some([x, y]), Some(current)) => format!(
-                    "Pixel {x}, {y}: {}",
-                    color_text(current.shown.picture.get(x, y))
-                ),
+                (Some([x, y]), Some(current)) => {
+                    let color = || color_text(current.shown.picture.get(x, y));
+                    format!("Pixel {x}, {y}: {}", value.unwrap_or_else(color))
+                }
                 _ => "Pixel –".to_owned(),
             };
             // The rest of the line keeps its place whatever the pixel's text is.

@@ -1,0 +1,271 @@
+//! The legend below the picture: what the colours mean, how many pixels have them, and where the
+//! pointer's and the picked pixel's values lie.
+
+use super::look::Look;
+use super::{HeatView, Standing};
+use crate::gui::state::State;
+use crate::gui::symbol::grouped;
+use crate::measure::heat::Source;
+use egui::{Color32, FontId, Painter, Rect, Shape, Stroke, pos2, vec2};
+
+/// Heights in points.
+const HISTOGRAM: f32 = 34.0;
+const BAR: f32 = 12.0;
+const TICK: f32 = 4.0;
+const NUMBERS: f32 = 14.0;
+/// Of the whole legend, until it was laid out once.
+const USUAL: f32 = 152.0;
+/// A mark's half width.
+const MARK: f32 = 5.0;
+/// What a tick's number takes at most.
+const TICK_ROOM: f32 = 44.0;
+
+impl HeatView {
+    /// Height to keep free for the legend; none without a heatmap.
+    pub fn legend_height(&self) -> f32 {
+        if self.choice.heatmap.is_none() {
+            0.0
+        } else {
+            self.legend_height.max(USUAL)
+        }
+    }
+
+    /// Shows the legend of what is on view, or why there is nothing yet.
+    pub fn legend(&mut self, ui: &mut egui::Ui, state: &State, hovered: Option<[u32; 2]>) {
+        if self.choice.heatmap.is_none() {
+            return;
+        }
+        let shown = ui.vertical(|ui| {
+            ui.spacing_mut().item_spacing.y = 1.0;
+            ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
+            match self.look.clone() {
+                Some(look) => self.contents(ui, &look, state, hovered),
+                None => {
+                    // The picture keeps its size while its values are on their way.
+                    ui.set_min_height(self.legend_height());
+                    self.waiting(ui, state);
+                }
+            }
+        });
+        let height = shown.response.rect.height();
+        if height != self.legend_height {
+            self.legend_height = height;
+            ui.ctx().request_repaint();
+        }
+    }
+
+    fn waiting(&mut self, ui: &mut egui::Ui, state: &State) {
+        let Some((_, heatmap)) = self.choice.heatmap() else {
+            return;
+        };
+        ui.strong(format!("{} · {}", heatmap.symbol, heatmap.name));
+        ui.add(egui::Label::new(self.note(state)).wrap());
+        if matches!(heatmap.source, Source::Time) {
+            self.timing_button(ui);
+        }
+    }
+
+    /// Stops the pass that takes the times, or begins it anew.
+    fn timing_button(&mut self, ui: &mut egui::Ui) {
+        let (name, about) = match self.timing.standing() {
+            Standing::Waiting => return,
+            Standing::Running(_) => ("Cancel timing", "Stop taking the time of every pixel."),
+            Standing::Ended(_) => ("Take times", "Take the time of every pixel after all."),
+        };
+        if ui.button(name).on_hover_text(about).clicked() {
+            match self.timing.standing() {
+                Standing::Running(_) => self.timing.cancel(),
+                _ => self.timing.again(),
+            }
+        }
+    }
+
+    fn contents(&self, ui: &mut egui::Ui, look: &Look, state: &State, hovered: Option<[u32; 2]>) {
+        let heatmap = look.heatmap();
+        let about = format!("{}\n{}", heatmap.meaning, look.whole());
+        ui.strong(format!("{} · {}", heatmap.symbol, heatmap.name))
+            .on_hover_text(&about);
+        let mut terms = look.terms();
+        if self.choice.opacity < 1.0 {
+            let percent = self.choice.opacity * 100.0;
+            terms += &format!(" · {percent:.0} % over the picture");
+        }
+        ui.label(&terms).on_hover_text(format!("{terms}\n{about}"));
+        ui.label(look.summary()).on_hover_text(format!(
+            "Over all pixels that have a value.\n{}",
+            look.whole()
+        ));
+        let picked = state.current.as_ref().and_then(|c| c.picked_pixel());
+        scale(ui, look, hovered, picked);
+        let text = |pixel: Option<[u32; 2]>| {
+            pixel.map_or_else(|| "–".to_owned(), |pixel| look.value_text(pixel))
+        };
+        marked(ui, Mark::Pointer, &format!("Pointer: {}", text(hovered)));
+        let mut words = format!("Picked: {}", text(picked));
+        let ranked = state.current.as_ref().and_then(|c| self.rank_of_picked(c));
+        if let Some(ranked) = ranked {
+            let (rank, of) = (grouped(ranked.rank + 1), grouped(ranked.of));
+            words += &format!(" · rank {rank} of {of}");
+        }
+        marked(ui, Mark::Picked, &words);
+    }
+}
+
+/// What stands at a value of the colour bar; told apart by shape.
+#[derive(Clone, Copy)]
+enum Mark {
+    /// A filled triangle.
+    Pointer,
+    /// A hollow diamond.
+    Picked,
+}
+
+impl Mark {
+    /// Draws it with its lower tip at a point.
+    fn draw(self, painter: &Painter, tip: egui::Pos2, ink: Color32, ground: Color32) {
+        let points = match self {
+            Mark::Pointer => vec![
+                tip,
+                tip + vec2(-MARK, -1.6 * MARK),
+                tip + vec2(MARK, -1.6 * MARK),
+            ],
+            Mark::Picked => vec![
+                tip,
+                tip + vec2(-MARK, -MARK),
+                tip + vec2(0.0, -2.0 * MARK),
+                tip + vec2(MARK, -MARK),
+            ],
+        };
+        let fill = match self {
+            Mark::Pointer => ink,
+            Mark::Picked => ground,
+        };
+        painter.add(Shape::convex_polygon(points, fill, Stroke::new(1.5, ink)));
+    }
+}
+
+/// A line of text behind the mark that it explains.
+fn marked(ui: &mut egui::Ui, mark: Mark, text: &str) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let (rect, _) = ui.allocate_exact_size(vec2(2.0 * MARK, 14.0), egui::Sense::hover());
+        let visuals = ui.visuals();
+        let (ink, ground) = (visuals.text_color(), visuals.panel_fill);
+        mark.draw(ui.painter(), rect.center() + vec2(0.0, MARK), ink, ground);
+        ui.label(text);
+    });
+}
+
+/// Histogram, colour bar and numbers on one axis.
+fn scale(ui: &mut egui::Ui, look: &Look, hovered: Option<[u32; 2]>, picked: Option<[u32; 2]>) {
+    let size = vec2(ui.available_width(), HISTOGRAM + BAR + TICK + NUMBERS);
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+    let Some(range) = &look.scale else {
+        return;
+    };
+    let unit = look.heatmap().unit;
+    let name = format!(
+        "Legend from {} to {} {unit}",
+        super::look::exact(range.lo),
+        super::look::exact(range.hi)
+    );
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
+    let most = look.histogram.iter().copied().max().unwrap_or(0);
+    let mut about = format!(
+        "{name}\nColumns: how many pixels have these colours, by the logarithm; the highest {} \
+         pixels",
+        grouped(most as usize)
+    );
+    let [below, above] = look.beyond.map(grouped);
+    if look.beyond != [0; 2] {
+        about += &format!("\nBelow the range: {below} pixels; above: {above} pixels");
+    }
+    response.on_hover_text(about);
+
+    // Room for a mark at either end.
+    let axis = rect.shrink2(vec2(MARK, 0.0));
+    let painter = ui.painter().with_clip_rect(rect);
+    let visuals = ui.visuals();
+    let (ink, soft, ground) = (
+        visuals.text_color(),
+        visuals.weak_text_color(),
+        visuals.panel_fill,
+    );
+    let bar = Rect::from_min_size(axis.min + vec2(0.0, HISTOGRAM), vec2(axis.width(), BAR));
+    columns(&painter, look, bar, soft);
+    color_bar(&painter, look, bar);
+    painter.rect_stroke(bar, 0.0, Stroke::new(1.0, soft), egui::StrokeKind::Outside);
+    numbers(&painter, look, bar, rect, ink);
+    let room = HISTOGRAM - 2.0;
+    for (mark, pixel) in [(Mark::Picked, picked), (Mark::Pointer, hovered)] {
+        if let Some(place) = pixel.and_then(|pixel| look.place(pixel)) {
+            let x = bar.left() + place as f32 * bar.width();
+            let line = [pos2(x, bar.top() - room), pos2(x, bar.bottom())];
+            painter.line_segment(line, Stroke::new(3.0, ground));
+            painter.line_segment(line, Stroke::new(1.0, ink));
+            mark.draw(&painter, pos2(x, bar.top()), ink, ground);
+        }
+    }
+}
+
+/// One column for each stretch of the bar, as high as the logarithm of its pixels: rare values are
+/// what is looked for.
+fn columns(painter: &Painter, look: &Look, bar: Rect, color: Color32) {
+    let most = look.histogram.iter().copied().max().unwrap_or(0) as f32;
+    let step = bar.width() / look.histogram.len() as f32;
+    for (i, &count) in look.histogram.iter().enumerate() {
+        if count > 0 {
+            let height = (HISTOGRAM - 4.0) * (1.0 + count as f32).ln() / (1.0 + most).ln();
+            let corner = pos2(bar.left() + i as f32 * step, bar.top() - height);
+            let column = Rect::from_min_size(corner, vec2(step, height));
+            painter.rect_filled(column, 0.0, color);
+        }
+    }
+}
+
+fn color_bar(painter: &Painter, look: &Look, bar: Rect) {
+    let colors = &crate::overlay::COLORMAPS[look.key.colors];
+    const PIECES: usize = 128;
+    let mut mesh = egui::Mesh::default();
+    for i in 0..=PIECES {
+        let place = i as f32 / PIECES as f32;
+        let [r, g, b] = colors.color(f64::from(place));
+        let x = bar.left() + place * bar.width();
+        for y in [bar.top(), bar.bottom()] {
+            mesh.colored_vertex(pos2(x, y), Color32::from_rgb(r, g, b));
+        }
+        if i > 0 {
+            let at = 2 * i as u32;
+            mesh.add_triangle(at - 2, at - 1, at);
+            mesh.add_triangle(at - 1, at, at + 1);
+        }
+    }
+    painter.add(mesh);
+}
+
+/// Ticks and their numbers, as many as have room.
+fn numbers(painter: &Painter, look: &Look, bar: Rect, rect: Rect, ink: Color32) {
+    let Some(range) = &look.scale else {
+        return;
+    };
+    let [below, above] = look.beyond;
+    let mut free_from = rect.left();
+    for tick in range.ticks((bar.width() / TICK_ROOM) as usize) {
+        let x = bar.left() + tick.place as f32 * bar.width();
+        let foot = pos2(x, bar.bottom() + TICK);
+        painter.line_segment([pos2(x, bar.bottom()), foot], Stroke::new(1.0, ink));
+        // The ends' colours stand for all that lies beyond, too.
+        let text = match tick.place {
+            place if place <= 0.0 && below > 0 => format!("≤ {}", tick.text),
+            place if place >= 1.0 && above > 0 => format!("≥ {}", tick.text),
+            _ => tick.text,
+        };
+        let laid_out = painter.layout_no_wrap(text, FontId::proportional(11.0), ink);
+        let width = laid_out.rect.width();
+        let left = (x - width / 2.0).min(rect.right() - width).max(rect.left());
+        if left >= free_from {
+            painter.galley(pos2(left, foot.y), laid_out, ink);
+            free_from = left + width + 4.0;
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! A heatmap worked out for the screen: values, colours, histogram, order of expense.
+
+use crate::measure::heat::{
+    HEATMAPS, HeatImage, HeatStatistics, Heatmap, PixelCounts, RayFilter, Whole,
+};
+use crate::measure::{grouped, parameter, significant};
+use crate::overlay::{COLORMAPS, HeatScale, Range, Scale, heat_colors};
+use egui::{Color32, ColorImage};
+use std::sync::Arc;
+
+/// Which values: of which picture, what, and of which rays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ValuesKey {
+    /// Number of the picture.
+    pub number: u64,
+    /// Place in [`HEATMAPS`].
+    pub heatmap: usize,
+    pub rays: RayFilter,
+}
+
+/// Which values, and in which colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LookKey {
+    pub values: ValuesKey,
+    pub scale: Scale,
+    pub range: Range,
+    /// Place in [`COLORMAPS`].
+    pub colors: usize,
+}
+
+/// The values of all pixels, and what they make together.
+pub struct Values {
+    pub image: HeatImage,
+    /// `None` where no pixel has a value.
+    pub statistics: Option<HeatStatistics>,
+    total: Option<f64>,
+}
+
+impl Values {
+    pub fn of(heatmap: &Heatmap, counts: &PixelCounts, rays: RayFilter) -> Values {
+        let image = heatmap.image(counts, rays);
+        Values {
+            statistics: image.statistics(),
+            total: heatmap.total(counts, rays),
+            image,
+        }
+    }
+
+    /// All pixels that have a value, the most expensive first; of equals, the upper left first.
+    pub fn by_expense(&self) -> Vec<u32> {
+        let values = &self.image.values;
+        let mut order: Vec<u32> = (0..values.len() as u32)
+            .filter(|&i| !values[i as usize].is_nan())
+            .collect();
+        order.sort_unstable_by(|&a, &b| {
+            let [first, second] = [a, b].map(|i| values[i as usize]);
+            second.total_cmp(&first).then(a.cmp(&b))
+        });
+        order
+    }
+}
+
+/// Columns of the histogram.
+const BINS: usize = 96;
+
+/// Values in colours.
+pub struct Look {
+    pub key: LookKey,
+    pub values: Arc<Values>,
+    /// `None` where no pixel has a value.
+    pub scale: Option<HeatScale>,
+    pub pixels: Arc<ColorImage>,
+    /// How many pixels lie in each stretch of the colour bar.
+    pub histogram: Vec<u64>,
+    /// How many pixels lie below the range, and how many above.
+    pub beyond: [usize; 2],
+}
+
+impl Look {
+    pub fn of(key: LookKey, values: Arc<Values>) -> Look {
+        let image = &values.image;
+        let colors = &COLORMAPS[key.colors];
+        let scale = HeatScale::new(image, key.scale, key.range, colors);
+        let pixels = heat_colors(image, scale.as_ref(), colors)
+            .into_iter()
+            .map(|[r, g, b]| Color32::from_rgb(r, g, b))
+            .collect();
+        let size = [image.width as usize, image.height as usize];
+        Look {
+            key,
+            scale,
+            pixels: Arc::new(ColorImage::new(size, pixels)),
+            histogram: scale.map_or_else(Vec::new, |s| s.histogram(image, BINS)),
+            beyond: scale.map_or([0; 2], |s| s.beyond(image)),
+            values,
+        }
+    }
+
+    pub fn heatmap(&self) -> &'static Heatmap {
+        &HEATMAPS[self.key.values.heatmap]
+    }
+
+    /// The value of a pixel with its unit.
+    pub fn value_text(&self, [x, y]: [u32; 2]) -> String {
+        match self.values.image.get(x, y) {
+            Some(value) => format!("{} {}", exact(f64::from(value)), self.heatmap().unit),
+            None => "no value".to_owned(),
+        }
+    }
+
+    /// Where a pixel's value lies on the colour bar, 0 to 1.
+    pub fn place(&self, [x, y]: [u32; 2]) -> Option<f64> {
+        let value = self.values.image.get(x, y)?;
+        self.scale?.place(f64::from(value))
+    }
+
+    /// The unit, the rays and the scale.
+    pub fn terms(&self) -> String {
+        let heatmap = self.heatmap();
+        let mut text = heatmap.unit.to_owned();
+        if heatmap.filters().len() > 1 {
+            text += &format!(" · {} rays", self.key.values.rays.name());
+        }
+        text += &format!(" · {} scale", self.key.scale.name());
+        if let Range::Fixed { lo, hi } = self.key.range {
+            text += &format!(" · locked {} to {}", exact(lo), exact(hi));
+        }
+        text
+    }
+
+    /// The span of the pixels' values, and what pixels without one look like.
+    pub fn summary(&self) -> String {
+        let Some(found) = self.values.statistics else {
+            return "no pixel has a value".to_owned();
+        };
+        let [lowest, highest] = [found.lowest, found.highest].map(exact);
+        let mut text = format!(
+            "a pixel: {lowest} to {highest}, mean {}",
+            significant(found.mean)
+        );
+        let without = self.values.image.values.len() - found.pixels;
+        if without > 0 {
+            let diverging = COLORMAPS[self.key.colors].diverging;
+            let color = if diverging { "grey" } else { "white" };
+            text += &format!("; {color}: no value ({})", grouped(without as f64));
+        }
+        text
+    }
+
+    /// What all pixels make together.
+    pub fn whole(&self) -> String {
+        let heatmap = self.heatmap();
+        let Some(total) = self.values.total else {
+            return "The whole picture has no value.".to_owned();
+        };
+        match (heatmap.parameters(self.key.values.rays), heatmap.whole) {
+            (symbols @ [first, ..], _) => format!(
+                "Whole picture: {} = {}",
+                symbols.join(" + "),
+                parameter(first).format(Some(total))
+            ),
+            ([], Whole::Sum) => {
+                // A sum over pixels is not per pixel any more.
+                let unit = heatmap.unit.trim_end_matches(" per pixel");
+                format!("Whole picture: {} {unit}", exact(total))
+            }
+            ([], Whole::Mean | Whole::RatioTo(_)) => {
+                format!("Whole picture: {} {}", exact(total), heatmap.unit)
+            }
+        }
+    }
+}
+
+/// A whole number in full, any other to four places.
+pub fn exact(value: f64) -> String {
+    if value.fract() == 0.0 {
+        grouped(value)
+    } else {
+        format!("{value:.4}")
+    }
+}
