@@ -125,18 +125,18 @@ fn a_leaf_clicked_in_3d_is_selected_in_the_outline() {
 #[test]
 fn nodes_are_found_and_walked_through() {
     let mut window = open("balls:1", "midpoint", false);
-    find(&mut window, "objects > 1", "Next");
+    find(&mut window, "objects > 1", "Next match");
     wait(&mut window, "matches", |w| {
-        !w.get_by_label("Next").accesskit_node().is_disabled()
+        !w.get_by_label("Next match").accesskit_node().is_disabled()
     });
-    click(&mut window, "Next");
+    click(&mut window, "Next match");
     assert!(has(&window, "match 1 of"));
     assert!(has(&window, "a leaf with"));
     let first = text_with(&window, "Selected: node");
-    click(&mut window, "Next");
+    click(&mut window, "Next match");
     assert!(has(&window, "match 2 of"));
     assert_ne!(text_with(&window, "Selected: node"), first);
-    click(&mut window, "Previous");
+    click(&mut window, "Previous match");
     assert_eq!(text_with(&window, "Selected: node"), first);
     find(&mut window, " or", "expected a number after 'objects'");
 }

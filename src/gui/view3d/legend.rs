@@ -94,17 +94,13 @@ fn contents(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
             ui.label("Leaf boxes are not shown");
         }
     }
-    if legend.picked.is_some() || !legend.marks.is_empty() {
-        egui::CollapsingHeader::new("Lines and marks")
+    if let Some(picked) = legend.picked {
+        egui::CollapsingHeader::new("Lines of the rays")
             .default_open(roomy)
-            .show_unindented(ui, |ui| {
-                if let Some(picked) = legend.picked {
-                    path_key(legend, picked, ui);
-                }
-                for line in &legend.marks {
-                    ui.label(line);
-                }
-            });
+            .show_unindented(ui, |ui| path_key(legend, picked, ui));
+    }
+    for line in &legend.marks {
+        ui.label(line);
     }
     if !legend.settings.linked {
         ui.label("white pyramid: the picture's camera");
