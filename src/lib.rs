@@ -21,7 +21,7 @@
 //! | [`trace`] | traversal, timed and counting kernels, shading, passes over a picture | |
 //! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ; the judge of all trees | an entry of [`measure::PARAMETERS`] |
 //! | [`measure::heat`] | what every pixel cost | a line in [`measure::heat::HEATMAPS`] |
-//! | [`overlay`] | leaf cells, ray paths and heatmaps as plain colours and lines | a line in [`overlay::COLORINGS`] or [`overlay::COLORMAPS`] |
+//! | [`overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves | a line in [`overlay::COLORINGS`], [`overlay::COLORMAPS`] or [`overlay::HISTOGRAMS`] |
 //! | [`report`] | text, JSON, CSV, Markdown, LaTeX | a line in [`report::WRITERS`] |
 //! | [`worker`] | the thread between a window and all of the above: latest request wins | |
 //! | [`cli`], `gui` | the two faces; they never import each other but to start the window | |

@@ -25,4 +25,4 @@ pub use rays::{RayStyle, RaysShown, ray_lines, ray_style};
 pub use selection::{
     CELL_COLOR, FaceCorner, PLANE_COLOR, REFERRING_COLOR, cell_faces, cell_lines, leaves_along,
 };
-pub use walk::{CELL, PLANE, WAITING, step_lines, visited_lines};
+pub use walk::{INTERVAL, WAITING, step_lines, visited_lines};

@@ -18,7 +18,7 @@ pub const CELL_COLOR: [u8; 3] = [255, 176, 0];
 pub const PLANE_COLOR: [u8; 3] = [90, 200, 255];
 
 /// The colour of the leaves that refer to the selected object.
-pub const REFERRING_COLOR: [u8; 3] = [120, 255, 130];
+pub const REFERRING_COLOR: [u8; 3] = [255, 80, 70];
 
 /// The edges of a cell, and the outline and diagonals of its plane, if there is one.
 pub fn cell_lines(cell: &Aabb, plane: Option<(Axis, f64)>, center: Vec3) -> Vec<Line> {
@@ -49,11 +49,11 @@ pub fn cell_faces(cell: &Aabb, plane: Option<(Axis, f64)>, center: Vec3) -> Vec<
     };
     for axis in Axis::ALL {
         for at in [cell.lo[axis.index()], cell.hi[axis.index()]] {
-            add(quad(cell, axis, at), CELL_COLOR, 26);
+            add(quad(cell, axis, at), CELL_COLOR, 40);
         }
     }
     if let Some((axis, at)) = plane {
-        add(quad(cell, axis, at), PLANE_COLOR, 70);
+        add(quad(cell, axis, at), PLANE_COLOR, 110);
     }
     faces
 }

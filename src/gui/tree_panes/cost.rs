@@ -185,7 +185,7 @@ impl Drawn {
         let curve = &cost.curves[axis.index()];
         let [lo, hi] = curve.range;
         let color = ui.visuals().text_color();
-        let top = self.highest * 1.22;
+        let top = self.highest * 1.3;
         let chosen = cost.chosen.filter(|(of, _)| *of == axis);
         let what_if = tried.filter(|tried| tried.axis == axis);
         let plot = Plot::new(("cost", axis.index()))
@@ -238,16 +238,16 @@ impl Drawn {
                 let text = Text::new("label", PlotPoint::new(x, y), text);
                 plot.text(text.color(color).anchor(anchor));
             };
-            label(lo, leaf, " as a leaf", color);
+            label(hi, leaf, "as a leaf ", color);
             label(curve.spatial_median, top * 0.0, " middle", color);
             if let Some(median) = curve.object_median {
                 label(median, top * 0.075, " object median ", color);
             }
             if let Some((_, s)) = chosen {
-                label(s.plane, top * 0.92, " chosen ", CHOSEN);
+                label(s.plane, top * 0.93, " chosen ", CHOSEN);
             }
             if let Some(tried) = what_if {
-                label(tried.plane, top * 0.84, " what if ", TRIED);
+                label(tried.plane, top * 0.85, " what if ", TRIED);
             }
             let dotted = LineStyle::dotted_dense();
             plot.vline(

@@ -65,13 +65,13 @@ impl FindBar {
             let some = matches.is_some_and(|found| !found.is_empty());
             for (name, about, to, key) in [
                 (
-                    "Previous",
+                    "Previous match",
                     "Select the match before.",
                     Step::Previous,
                     Action::FindPrevious,
                 ),
                 (
-                    "Next",
+                    "Next match",
                     "Select the next match.",
                     Step::Next,
                     Action::FindNext,

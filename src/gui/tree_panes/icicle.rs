@@ -29,6 +29,8 @@ pub struct Icicle {
     /// The node that spans the whole width.
     top: u32,
     made: Option<(Key, Pieces)>,
+    /// The value at the light end of the colours, by tree and colouring.
+    highest: Option<(TreeKey, &'static str, f64)>,
 }
 
 impl Default for Icicle {
@@ -38,6 +40,7 @@ impl Default for Icicle {
             coloring: &COLORINGS[0],
             top: 0,
             made: None,
+            highest: None,
         }
     }
 }
@@ -72,7 +75,8 @@ impl Icicle {
         if self.made.as_ref().is_none_or(|(made, _)| made.tree != key) {
             self.top = 0;
         }
-        self.toolbar(ui, current.selection.node, &index);
+        let highest = self.highest(&key, &index);
+        self.toolbar(ui, current.selection.node, &index, highest);
         let (outer, response) =
             ui.allocate_exact_size(crate::gui::rest_of(ui), Sense::click_and_drag());
         response.widget_info(|| {
@@ -91,7 +95,7 @@ impl Icicle {
         };
         let pieces = match self.made.take() {
             Some((made, pieces)) if made == key => pieces,
-            _ => self.pieces(&tree, &index, area),
+            _ => self.pieces(&tree, &index, area, highest),
         };
         let painter = ui.painter().with_clip_rect(outer);
         painter.add(egui::Shape::mesh(Arc::clone(&pieces.mesh)));
@@ -128,7 +132,13 @@ impl Icicle {
         self.made = Some((key, pieces));
     }
 
-    fn toolbar(&mut self, ui: &mut egui::Ui, selected: Option<u32>, index: &TreeIndex) {
+    fn toolbar(
+        &mut self,
+        ui: &mut egui::Ui,
+        selected: Option<u32>,
+        index: &TreeIndex,
+        highest: f64,
+    ) {
         ui.horizontal(|ui| {
             ui.label("Width");
             for (width, name, about) in [
@@ -176,7 +186,7 @@ impl Icicle {
             {
                 self.top = index.of(self.top).parent;
             }
-            let mut scale = self.scale(index);
+            let mut scale = self.scale(highest);
             if let Some((_, pieces)) = &self.made {
                 scale += &format!(
                     " · {} of {} nodes drawn",
@@ -190,8 +200,7 @@ impl Icicle {
     }
 
     /// What the colours run from and to, in words.
-    fn scale(&self, index: &TreeIndex) -> String {
-        let highest = self.highest(index);
+    fn scale(&self, highest: f64) -> String {
         let marks = self.coloring.marks(highest);
         let unit = self.coloring.unit;
         match (marks.first(), marks.last()) {
@@ -201,13 +210,22 @@ impl Icicle {
     }
 
     /// The value at the light end of the colours.
-    fn highest(&self, index: &TreeIndex) -> f64 {
-        (0..index.len() as u32)
+    fn highest(&mut self, tree: &TreeKey, index: &TreeIndex) -> f64 {
+        let name = self.coloring.name;
+        if let Some((of, coloring, highest)) = &self.highest
+            && of == tree
+            && *coloring == name
+        {
+            return *highest;
+        }
+        let highest = (0..index.len() as u32)
             .map(|node| self.coloring.value(leaf_like(index, node)))
-            .fold(0.0, f64::max)
+            .fold(0.0, f64::max);
+        self.highest = Some((tree.clone(), name, highest));
+        highest
     }
 
-    fn pieces(&self, tree: &Tree, index: &TreeIndex, area: Rect) -> Pieces {
+    fn pieces(&self, tree: &Tree, index: &TreeIndex, area: Rect, highest: f64) -> Pieces {
         let top = index.of(self.top).depth;
         let mut spans = Vec::new();
         let mut stack = vec![(self.top, area.left(), area.right())];
@@ -230,7 +248,6 @@ impl Icicle {
         // Rows that nothing is drawn in take no room.
         let depths = spans.iter().map(|&(node, ..)| index.of(node).depth - top);
         let height = area.height() / (depths.max().unwrap_or(0) + 1) as f32;
-        let highest = self.highest(index);
         let mut rects = Vec::with_capacity(spans.len());
         let mut mesh = egui::Mesh::default();
         for (node, left, right) in spans {

@@ -3,14 +3,15 @@
 use super::Settings;
 use crate::gui::symbol::grouped;
 use crate::gui::walk::Picked;
-use crate::overlay::{
-    CELL, Coloring, LeafBoxes, PLANE, RaysShown, WAITING, order_color, ray_style,
-};
+use crate::overlay::{Coloring, INTERVAL, LeafBoxes, RaysShown, WAITING, order_color, ray_style};
 use crate::trace::RayKind;
 use egui::{Color32, Rect, pos2, vec2};
 
 /// Length of the colour bar in points, where there is room.
 const BAR: f32 = 210.0;
+
+/// In a view of this height, in points, the whole legend hides little.
+const ROOMY: f32 = 640.0;
 
 /// What a legend tells.
 pub struct Legend<'a> {
@@ -51,7 +52,7 @@ pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) {
                 ui.set_max_width((view.width() - 30.0).clamp(80.0, 330.0));
                 ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Wrap);
                 ui.spacing_mut().item_spacing.y = 2.0;
-                contents(legend, ui);
+                contents(legend, view.height() > ROOMY, ui);
             })
     });
     let now = shown.inner.response.rect.height();
@@ -61,7 +62,8 @@ pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) {
     }
 }
 
-fn contents(legend: &Legend<'_>, ui: &mut egui::Ui) {
+/// `roomy` where there is room for all of it without hiding the view.
+fn contents(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
     let coloring = legend.settings.coloring;
     match legend.boxes {
         Some(boxes) if !legend.settings.only_visited => {
@@ -93,7 +95,9 @@ fn contents(legend: &Legend<'_>, ui: &mut egui::Ui) {
         }
     }
     if let Some(picked) = legend.picked {
-        path_key(legend, picked, ui);
+        egui::CollapsingHeader::new("Lines of the rays")
+            .default_open(roomy)
+            .show_unindented(ui, |ui| path_key(legend, picked, ui));
     }
     for line in &legend.marks {
         ui.label(line);
@@ -188,8 +192,7 @@ fn path_key(legend: &Legend<'_>, picked: &Picked, ui: &mut egui::Ui) {
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 5.0;
             for (color, strokes, what) in [
-                (CELL, &[][..], "current cell and interval"),
-                (PLANE, &[], "its plane (hatched)"),
+                (INTERVAL, &[][..], "the ray in the current cell"),
                 (WAITING, &[1.0, 1.0], "cells that wait"),
             ] {
                 sample(ui, color, strokes);

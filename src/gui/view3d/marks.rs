@@ -11,7 +11,7 @@ use crate::overlay::{
 };
 use crate::overlay::{Filter, Leaf};
 use crate::tree::{CellOfNode, NodeKind};
-use egui::{Color32, Rect, vec2};
+use egui::{Align2, Color32, Rect, vec2};
 
 /// So many of an object's leaves are drawn.
 const MOST_CELLS: usize = 300;
@@ -89,13 +89,13 @@ impl Marks {
             rect.shrink(8.0).contains(at).then_some(at)
         };
         // The first of these points that can be seen.
-        let write = |points: &[Vec3], text: String, [r, g, b]: [u8; 3]| {
+        let write = |points: &[Vec3], text: String, [r, g, b]: [u8; 3], anchor: Align2| {
             let Some(at) = points.iter().find_map(on_screen) else {
                 return;
             };
             let font = egui::FontId::proportional(12.0);
             let galley = painter.layout_no_wrap(text, font, Color32::from_rgb(r, g, b));
-            let place = egui::Align2::LEFT_BOTTOM.anchor_size(at, galley.size());
+            let place = anchor.anchor_size(at, galley.size());
             painter.rect_filled(place.expand(2.0), 2.0, Color32::from_black_alpha(170));
             painter.galley(place.min, galley, Color32::WHITE);
         };
@@ -105,13 +105,19 @@ impl Marks {
             &[corners.as_slice(), &[cell.bounds.center()]].concat(),
             format!("node {}", cell.node),
             CELL_COLOR,
+            Align2::LEFT_BOTTOM,
         );
         if let Some((axis, at)) = self.plane {
             let mut on_plane = cell.bounds.corners();
             for corner in &mut on_plane {
                 corner[axis.index()] = at;
             }
-            write(&on_plane, self.plane_text(axis, at), PLANE_COLOR);
+            write(
+                &on_plane,
+                self.plane_text(axis, at),
+                PLANE_COLOR,
+                Align2::LEFT_TOP,
+            );
         }
     }
 
@@ -137,11 +143,11 @@ impl Marks {
             let of = grouped(self.leaves);
             lines.push(if cells.len() < self.leaves {
                 format!(
-                    "thin green: {} of the {of} leaves of object {object}",
+                    "thin red: {} of the {of} leaves of object {object}",
                     cells.len()
                 )
             } else {
-                format!("thin green: the {of} leaves of object {object}")
+                format!("thin red: the {of} leaves of object {object}")
             });
         }
         lines
