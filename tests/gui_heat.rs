@@ -30,8 +30,12 @@ fn small() -> StartOptions {
 }
 
 fn open<'a>(start: StartOptions) -> Harness<'a, App> {
+    open_sized(start, [1500.0, 1000.0])
+}
+
+fn open_sized<'a>(start: StartOptions, size: [f32; 2]) -> Harness<'a, App> {
     Harness::builder()
-        .with_size([1500.0, 1000.0])
+        .with_size(size)
         .with_max_steps(40)
         .build_eframe(|cc| App::new(cc, start))
 }
@@ -167,10 +171,16 @@ fn every_heatmap_comes_up_by_list_and_by_key_with_symbol_and_unit() {
 
 #[test]
 fn the_scale_is_linear_or_logarithmic() {
-    let mut window = open(small());
+    // So high that all lines of the legend have room.
+    let mut window = open_sized(small(), [1500.0, 1500.0]);
     finish(&mut window);
     show(&mut window, "N_IT");
     assert!(has(&window, "tests per pixel · all rays · linear scale"));
+    let found = library_image("N_IT", RayFilter::All).statistics().unwrap();
+    assert!(has(
+        &window,
+        &format!("a pixel: {} to {}, mean", found.lowest, found.highest)
+    ));
     plain(&mut window, egui::Key::G);
     wait_for(&mut window, "· log scale");
     window.get_by_label("log").click();
@@ -279,6 +289,24 @@ fn the_most_expensive_pixels_are_picked_in_order() {
     wait(&mut window, "no rank", |w| !has(w, "rank "));
     plain(&mut window, egui::Key::N);
     wait(&mut window, "the maximum again", |w| is_picked(w, 0));
+}
+
+#[test]
+fn the_most_expensive_pixel_is_that_of_the_heatmap_chosen_last() {
+    let mut window = open(small());
+    finish(&mut window);
+    show(&mut window, "N_NODES");
+    plain(&mut window, egui::Key::N);
+    wait_for(&mut window, "rank 1 of 2 304");
+    // Both keys in one frame: the next heatmap's values are not there yet.
+    window.key_press(egui::Key::H);
+    window.key_press(egui::Key::N);
+    window.run_steps(2);
+    let found = library_image("N_INODES", RayFilter::All)
+        .statistics()
+        .unwrap();
+    let picked = format!("Picked: {} inner nodes per pixel · rank 1", found.highest);
+    wait_for(&mut window, &picked);
 }
 
 #[test]

@@ -5,7 +5,6 @@ use super::look::Look;
 use super::{HeatView, Standing};
 use crate::gui::state::State;
 use crate::gui::symbol::grouped;
-use crate::measure::heat::Source;
 use egui::{Color32, FontId, Painter, Rect, Shape, Stroke, pos2, vec2};
 
 /// Heights in points.
@@ -13,12 +12,14 @@ const HISTOGRAM: f32 = 34.0;
 const BAR: f32 = 12.0;
 const TICK: f32 = 4.0;
 const NUMBERS: f32 = 14.0;
-/// Of the whole legend, until it was laid out once.
-const USUAL: f32 = 152.0;
+/// Of the whole legend, until it was laid out once: in a short pane, and in others.
+const USUAL: [f32; 2] = [106.0, 152.0];
+/// A pane of less than this is short.
+const SHORT: f32 = 480.0;
 /// A mark's half width.
 const MARK: f32 = 5.0;
 /// What a tick's number takes at most.
-const TICK_ROOM: f32 = 44.0;
+const TICK_ROOM: f32 = 36.0;
 
 impl HeatView {
     /// Height to keep free for the legend; none without a heatmap.
@@ -26,7 +27,9 @@ impl HeatView {
         if self.choice.heatmap.is_none() {
             0.0
         } else {
-            self.legend_height.max(USUAL)
+            let [short, usual] = USUAL;
+            self.legend_height
+                .max(if self.short { short } else { usual })
         }
     }
 
@@ -34,6 +37,10 @@ impl HeatView {
     pub fn legend(&mut self, ui: &mut egui::Ui, state: &State, hovered: Option<[u32; 2]>) {
         if self.choice.heatmap.is_none() {
             return;
+        }
+        let short = ui.max_rect().height() < SHORT;
+        if short != self.short {
+            (self.short, self.legend_height) = (short, 0.0);
         }
         let shown = ui.vertical(|ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
@@ -60,7 +67,7 @@ impl HeatView {
         };
         ui.strong(format!("{} · {}", heatmap.symbol, heatmap.name));
         ui.add(egui::Label::new(self.note(state)).wrap());
-        if matches!(heatmap.source, Source::Time) {
+        if self.is_timed() {
             self.timing_button(ui);
         }
     }
@@ -81,24 +88,12 @@ impl HeatView {
     }
 
     fn contents(&self, ui: &mut egui::Ui, look: &Look, state: &State, hovered: Option<[u32; 2]>) {
-        let heatmap = look.heatmap();
-        let about = format!("{}\n{}", heatmap.meaning, look.whole());
-        ui.strong(format!("{} · {}", heatmap.symbol, heatmap.name))
-            .on_hover_text(&about);
-        let mut terms = look.terms();
-        if self.choice.opacity < 1.0 {
-            let percent = self.choice.opacity * 100.0;
-            terms += &format!(" · {percent:.0} % over the picture");
-        }
-        ui.label(&terms).on_hover_text(format!("{terms}\n{about}"));
-        ui.label(look.summary()).on_hover_text(format!(
-            "Over all pixels that have a value.\n{}",
-            look.whole()
-        ));
+        self.words(ui, look);
         let picked = state.current.as_ref().and_then(|c| c.picked_pixel());
         scale(ui, look, hovered, picked);
         let text = |pixel: Option<[u32; 2]>| {
-            pixel.map_or_else(|| "–".to_owned(), |pixel| look.value_text(pixel))
+            let none = || format!("– {}", look.heatmap().unit);
+            pixel.map_or_else(none, |pixel| look.value_text(pixel))
         };
         marked(ui, Mark::Pointer, &format!("Pointer: {}", text(hovered)));
         let mut words = format!("Picked: {}", text(picked));
@@ -108,6 +103,35 @@ impl HeatView {
             words += &format!(" · rank {rank} of {of}");
         }
         marked(ui, Mark::Picked, &words);
+    }
+
+    /// What is shown in which unit, of which rays and how: three lines, or one in a short pane,
+    /// whose tooltip has the rest.
+    fn words(&self, ui: &mut egui::Ui, look: &Look) {
+        let heatmap = look.heatmap();
+        let title = format!("{} · {}", heatmap.symbol, heatmap.name);
+        let mut terms = look.terms();
+        if self.choice.opacity < 1.0 {
+            let percent = self.choice.opacity * 100.0;
+            terms += &format!(" · {percent:.0} % over the picture");
+        }
+        let (unit, meaning) = (heatmap.unit, heatmap.meaning);
+        let (span, whole) = (look.span(), look.whole());
+        let without = look.without();
+        let about = format!("{meaning}\nIn {unit} · {terms}\n{span}\n{whole}");
+        if self.short {
+            let without = without.map_or_else(String::new, |text| format!("{text} · "));
+            ui.horizontal(|ui| {
+                ui.strong(title).on_hover_text(&about);
+                ui.label(format!("{unit} · {without}{terms}"))
+                    .on_hover_text(&about);
+            });
+        } else {
+            let without = without.map_or_else(String::new, |text| format!("; {text}"));
+            ui.strong(title).on_hover_text(&about);
+            ui.label(format!("{unit} · {terms}")).on_hover_text(&about);
+            ui.label(format!("{span}{without}")).on_hover_text(&about);
+        }
     }
 }
 

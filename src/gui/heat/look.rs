@@ -114,37 +114,37 @@ impl Look {
         self.scale?.place(f64::from(value))
     }
 
-    /// The unit, the rays and the scale.
+    /// The rays, the scale and the range, where it does not follow the values.
     pub fn terms(&self) -> String {
-        let heatmap = self.heatmap();
-        let mut text = heatmap.unit.to_owned();
-        if heatmap.filters().len() > 1 {
-            text += &format!(" · {} rays", self.key.values.rays.name());
+        let mut text = format!("{} scale", self.key.scale.name());
+        if self.heatmap().filters().len() > 1 {
+            text = format!("{} rays · {text}", self.key.values.rays.name());
         }
-        text += &format!(" · {} scale", self.key.scale.name());
         if let Range::Fixed { lo, hi } = self.key.range {
             text += &format!(" · locked {} to {}", exact(lo), exact(hi));
         }
         text
     }
 
-    /// The span of the pixels' values, and what pixels without one look like.
-    pub fn summary(&self) -> String {
-        let Some(found) = self.values.statistics else {
-            return "no pixel has a value".to_owned();
-        };
-        let [lowest, highest] = [found.lowest, found.highest].map(exact);
-        let mut text = format!(
-            "a pixel: {lowest} to {highest}, mean {}",
-            significant(found.mean)
-        );
-        let without = self.values.image.values.len() - found.pixels;
-        if without > 0 {
-            let diverging = COLORMAPS[self.key.colors].diverging;
-            let color = if diverging { "grey" } else { "white" };
-            text += &format!("; {color}: no value ({})", grouped(without as f64));
-        }
-        text
+    /// The span of the pixels' values.
+    pub fn span(&self) -> String {
+        self.values.statistics.map_or_else(
+            || "no pixel has a value".to_owned(),
+            |found| {
+                let [lowest, highest] = [found.lowest, found.highest].map(exact);
+                let mean = significant(found.mean);
+                format!("a pixel: {lowest} to {highest}, mean {mean}")
+            },
+        )
+    }
+
+    /// How many pixels have no value, and their colour; `None` if all have one.
+    pub fn without(&self) -> Option<String> {
+        let with = self.values.statistics.map_or(0, |found| found.pixels);
+        let without = self.values.image.values.len() - with;
+        let diverging = COLORMAPS[self.key.colors].diverging;
+        let color = if diverging { "grey" } else { "white" };
+        (without > 0).then(|| format!("{color}: no value ({})", grouped(without as f64)))
     }
 
     /// What all pixels make together.

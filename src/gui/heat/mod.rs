@@ -36,6 +36,8 @@ pub struct HeatView {
     ranked: Option<Ranked>,
     /// Height of the legend in points as last laid out.
     legend_height: f32,
+    /// Whether the pane is too short for all of the legend.
+    short: bool,
 }
 
 /// A pixel found by its rank.
@@ -57,7 +59,7 @@ impl HeatView {
         if shown != number {
             self.look = None;
         }
-        let Some((place, heatmap)) = self.choice.heatmap() else {
+        let Some((_, heatmap)) = self.choice.heatmap() else {
             self.timing.give_up();
             self.look = None;
             return;
@@ -65,13 +67,10 @@ impl HeatView {
         let Some(current) = &state.current else {
             return;
         };
-        let rays = self.choice.rays();
-        let key = ValuesKey {
-            number: current.number,
-            heatmap: place,
-            rays,
+        let Some(key) = self.chosen(current) else {
+            return;
         };
-        let values = if matches!(heatmap.source, Source::Time) {
+        let values = if self.is_timed() {
             let times = if is_too_large(current) {
                 None
             } else {
@@ -86,7 +85,7 @@ impl HeatView {
             current.pixel_counts.as_ref().and_then(|counts| {
                 let counts = Arc::clone(counts);
                 self.values
-                    .get(&key, ctx, move || Values::of(heatmap, &counts, rays))
+                    .get(&key, ctx, move || Values::of(heatmap, &counts, key.rays))
             })
         };
         let Some(values) = values else {
@@ -106,8 +105,16 @@ impl HeatView {
     /// Picks the pixel that keys or buttons asked for, once the order of expense is known; whether
     /// it did.
     pub fn go(&mut self, ctx: &egui::Context, current: &mut Current) -> bool {
-        let (Some(look), true) = (&self.look, self.steps != 0) else {
-            self.steps = 0;
+        if self.steps == 0 {
+            return false;
+        }
+        let chosen = self.chosen(current);
+        let shown = self.look.as_ref();
+        let Some(look) = shown.filter(|look| Some(look.key.values) == chosen) else {
+            // What was chosen a moment ago is worth waiting for; what is still to be traced, not.
+            if chosen.is_none() || current.pixel_counts.is_none() || self.is_timed() {
+                self.steps = 0;
+            }
             return false;
         };
         let key = look.key.values;
@@ -135,6 +142,22 @@ impl HeatView {
         });
         current.pick(pixel);
         true
+    }
+
+    /// The values that were chosen; `None` for the picture alone.
+    fn chosen(&self, current: &Current) -> Option<ValuesKey> {
+        Some(ValuesKey {
+            number: current.number,
+            heatmap: self.choice.heatmap?,
+            rays: self.choice.rays(),
+        })
+    }
+
+    /// Whether the times of pixels were chosen.
+    fn is_timed(&self) -> bool {
+        self.choice
+            .heatmap()
+            .is_some_and(|(_, heatmap)| matches!(heatmap.source, Source::Time))
     }
 
     /// The rank of the picked pixel, if it was found by it.
@@ -215,15 +238,11 @@ impl HeatView {
         let Some(current) = &state.current else {
             return "counting … begins when there is a picture".to_owned();
         };
-        let timed = self
-            .choice
-            .heatmap()
-            .is_some_and(|(_, heatmap)| matches!(heatmap.source, Source::Time));
         if is_too_large(current) {
             let limit = grouped(PIXEL_COUNTS_LIMIT as usize);
             return format!("Only pictures of up to {limit} pixels are counted pixel by pixel.");
         }
-        if timed {
+        if self.is_timed() {
             return match self.timing.standing() {
                 Standing::Running(done) => {
                     format!("timing every pixel … {:.0} %", done * 100.0)
