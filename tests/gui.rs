@@ -287,6 +287,23 @@ fn a_click_names_the_object_and_lists_the_leaves() {
 }
 
 #[test]
+fn changes_of_settings_are_undone_and_redone() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    let before = figure(&window, "leaves");
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::M);
+    finish(&mut window);
+    let after = figure(&window, "leaves");
+    assert_ne!(before, after);
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Z);
+    finish(&mut window);
+    assert_eq!(figure(&window, "leaves"), before);
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Y);
+    finish(&mut window);
+    assert_eq!(figure(&window, "leaves"), after);
+}
+
+#[test]
 fn the_list_of_shortcuts_opens_and_closes() {
     let mut window = open(small("balls:1"));
     finish(&mut window);

@@ -120,6 +120,8 @@ impl App {
                 *d_arec = by(*d_arec, step, top_bar::MOST_RECURSION);
             }
             Action::ResetMethod => *build = BuildSettings::for_method(build.method),
+            Action::Undo => state.undo(),
+            Action::Redo => state.redo(),
             Action::Theme => top_bar::toggle_theme(ctx),
             Action::FirstStep => state.go(Go::First),
             Action::PreviousStep => state.go(Go::Previous),
@@ -178,6 +180,7 @@ impl eframe::App for App {
         if let Some(current) = &self.state.current {
             self.state.inspect.follow(current);
         }
+        self.state.remember(ctx.input(|i| i.time));
         for action in pressed(&ctx, Scope::Window) {
             self.act(action, &ctx);
         }

@@ -54,6 +54,8 @@ pub enum Action {
     LessRecursion,
     ResetMethod,
     SceneCamera,
+    Undo,
+    Redo,
     Theme,
     FirstStep,
     PreviousStep,
@@ -153,6 +155,8 @@ shortcuts! {
     Window LessRecursion COMMAND [PageDown] "Ctrl+Page down" "D_AREC one level less";
     Window ResetMethod COMMAND [Backspace] "Ctrl+Backspace" "Settings of the method back to the paper's";
     Window SceneCamera COMMAND [Home] "Ctrl+Home" "Back to the scene's own camera";
+    Window Undo COMMAND [Z] "Ctrl+Z" "Undo the last change of settings, scene or camera";
+    Window Redo COMMAND [Y] "Ctrl+Y" "Redo what was undone";
     Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
     Window PreviousRay NONE [PageUp] "Page up" "Previous ray of the picked pixel";
     Window NextRay NONE [PageDown] "Page down" "Next ray of the picked pixel";

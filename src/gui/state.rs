@@ -9,12 +9,15 @@ use crate::progress::Progress;
 use crate::scene::{SceneRequest, SceneSource};
 use crate::trace::Tile;
 use crate::worker::{Request, Shown, Stage, Update, Worker};
+use egui::util::undoer::Undoer;
 use std::sync::Arc;
 
 /// The window's side of the worker.
 pub struct State {
     /// What the widgets say.
     pub wanted: Request,
+    /// What was wanted before, and what was undone of it.
+    history: Undoer<Request>,
     /// The last request with its number.
     sent: Option<(u64, Request)>,
     worker: Worker,
@@ -112,6 +115,7 @@ impl State {
                 own_camera: start.own_camera,
                 reload: 0,
             },
+            history: Undoer::default(),
             sent: None,
             worker: Worker::start(move || ctx.request_repaint()),
             current: None,
@@ -120,6 +124,26 @@ impl State {
             failure: None,
             walking: Walking::default(),
             inspect: Inspect::default(),
+        }
+    }
+
+    /// Takes note of what is wanted, once a frame; `time` is the window's, in seconds. A change that
+    /// goes on, such as a drag, is one step of the history.
+    pub fn remember(&mut self, time: f64) {
+        self.history.feed_state(time, &self.wanted);
+    }
+
+    /// Wants again what was wanted before the last change.
+    pub fn undo(&mut self) {
+        if let Some(before) = self.history.undo(&self.wanted) {
+            self.wanted = before.clone();
+        }
+    }
+
+    /// Wants again what was undone last.
+    pub fn redo(&mut self) {
+        if let Some(after) = self.history.redo(&self.wanted) {
+            self.wanted = after.clone();
         }
     }
 
