@@ -1,71 +1,16 @@
 //! The window without a window: widgets found by their labels, pictures through a software adapter.
 
-use bspscope::gui::{App, StartOptions};
-use bspscope::scene::SceneRequest;
+mod window_harness;
+
+use egui_kittest::SnapshotOptions;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use egui_kittest::{Harness, SnapshotOptions};
-use std::time::{Duration, Instant};
-
-/// Enough for two slow cores that do other things, too.
-const PATIENCE: Duration = Duration::from_secs(60);
-
-fn small(scene: &str) -> StartOptions {
-    let mut start = StartOptions {
-        scene: SceneRequest::parse(scene),
-        remember: false,
-        ..StartOptions::default()
-    };
-    start.render.width = 48;
-    start.render.height = 48;
-    start.render.threads = 2;
-    start
-}
-
-fn open<'a>(start: StartOptions) -> Harness<'a, App> {
-    Harness::builder()
-        .with_size([1500.0, 1000.0])
-        .with_max_steps(40)
-        .build_eframe(|cc| App::new(cc, start))
-}
-
-fn open_with_graphics<'a>(start: StartOptions) -> Harness<'a, App> {
-    Harness::builder()
-        .with_size([1500.0, 1000.0])
-        .with_max_steps(40)
-        .wgpu()
-        .build_eframe(|cc| App::new(cc, start))
-}
-
-/// Runs the window until `done`.
-fn wait(window: &mut Harness<'_, App>, what: &str, done: impl Fn(&Harness<'_, App>) -> bool) {
-    let start = Instant::now();
-    loop {
-        window.run_steps(2);
-        if done(window) {
-            return;
-        }
-        assert!(start.elapsed() < PATIENCE, "still waiting for: {what}");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
-
-fn has(window: &Harness<'_, App>, text: &str) -> bool {
-    window.query_all_by_label_contains(text).next().is_some()
-}
-
-/// Whether what is asked for is on view, with final figures.
-fn is_finished(window: &Harness<'_, App>) -> bool {
-    window.query_by_label("finished").is_some()
-        && window.query_all_by_label("complete").count() == 2
-        && !has(window, "previous settings")
-}
-
-fn finish(window: &mut Harness<'_, App>) {
-    wait(window, "finished", is_finished);
-}
+use std::time::Instant;
+use window_harness::{
+    PATIENCE, Window, finish, has, is_finished, open, open_with_graphics, press, small, wait,
+};
 
 /// The figure beside a name in the panels.
-fn figure(window: &Harness<'_, App>, name: &str) -> String {
+fn figure(window: &Window<'_>, name: &str) -> String {
     let row = window
         .get_all_by_label(name)
         .next()
@@ -86,13 +31,8 @@ fn figure(window: &Harness<'_, App>, name: &str) -> String {
     values.first().expect("a value").1.clone()
 }
 
-fn press(window: &mut Harness<'_, App>, modifiers: egui::Modifiers, key: egui::Key) {
-    window.key_press_modifiers(modifiers, key);
-    window.run_steps(2);
-}
-
 /// Covers what depends on the machine.
-fn masked(window: &mut Harness<'_, App>) -> SnapshotOptions {
+fn masked(window: &mut Window<'_>) -> SnapshotOptions {
     for name in ["build time", "render time", "traversal share"] {
         let rect = window.get_by_label(name).rect();
         let mut numbers = rect.expand(2.0);
@@ -160,7 +100,7 @@ fn another_method_changes_figures_and_picture_as_one() {
 fn a_method_is_chosen_by_its_list() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
-    let combo = |window: &Harness<'_, App>| {
+    let combo = |window: &Window<'_>| {
         window
             .query_all_by_role(egui::accesskit::Role::ComboBox)
             .find(|node| node.value().is_some_and(|v| v.starts_with("Method")))

@@ -1,87 +1,38 @@
 //! Heatmaps in the window: found by their labels, compared with the library's values.
 
-use bspscope::gui::{App, StartOptions};
+mod window_harness;
+
 use bspscope::measure::heat::{HEATMAPS, HeatImage, Heatmap, PixelCounts, RayFilter, heatmap};
 use bspscope::progress::Progress;
 use bspscope::scene::SceneRequest;
 use bspscope::trace::{RenderSettings, counted_pass, thread_pool};
 use bspscope::tree::{BuildSettings, Method, build};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use window_harness::{SIZE, Window, finish, has, open, open_sized, wait};
 
-/// Enough for two slow cores that do other things, too.
-const PATIENCE: Duration = Duration::from_secs(60);
-
-/// Width and height of the pictures in pixels.
-const SIZE: u32 = 48;
-
-fn small() -> StartOptions {
-    let mut start = StartOptions {
-        scene: SceneRequest::parse("balls:1"),
-        remember: false,
-        ..StartOptions::default()
-    };
-    start.render.width = SIZE;
-    start.render.height = SIZE;
-    start.render.threads = 2;
-    start
+fn small() -> bspscope::gui::StartOptions {
+    window_harness::small("balls:1")
 }
 
-fn open<'a>(start: StartOptions) -> Harness<'a, App> {
-    open_sized(start, [1500.0, 1000.0])
-}
-
-fn open_sized<'a>(start: StartOptions, size: [f32; 2]) -> Harness<'a, App> {
-    Harness::builder()
-        .with_size(size)
-        .with_max_steps(40)
-        .build_eframe(|cc| App::new(cc, start))
-}
-
-/// Runs the window until `done`.
-fn wait(window: &mut Harness<'_, App>, what: &str, done: impl Fn(&Harness<'_, App>) -> bool) {
-    let start = Instant::now();
-    loop {
-        window.run_steps(2);
-        if done(window) {
-            return;
-        }
-        assert!(start.elapsed() < PATIENCE, "still waiting for: {what}");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
-
-fn has(window: &Harness<'_, App>, text: &str) -> bool {
-    window.query_all_by_label_contains(text).next().is_some()
-}
-
-fn wait_for(window: &mut Harness<'_, App>, text: &str) {
+fn wait_for(window: &mut Window<'_>, text: &str) {
     wait(window, text, |w| has(w, text));
 }
 
-fn finish(window: &mut Harness<'_, App>) {
-    wait(window, "finished", |w| {
-        w.query_by_label("finished").is_some() && !has(w, "previous settings")
-    });
-}
-
 /// Presses a key over the middle of the picture.
-fn press(window: &mut Harness<'_, App>, modifiers: egui::Modifiers, key: egui::Key) {
+fn press(window: &mut Window<'_>, modifiers: egui::Modifiers, key: egui::Key) {
     let middle = window.get_by_label("Traced picture").rect().center();
     window.hover_at(middle);
     window.run_steps(2);
-    window.key_press_modifiers(modifiers, key);
-    window.run_steps(2);
+    window_harness::press(window, modifiers, key);
 }
 
-fn plain(window: &mut Harness<'_, App>, key: egui::Key) {
+fn plain(window: &mut Window<'_>, key: egui::Key) {
     press(window, egui::Modifiers::NONE, key);
 }
 
 /// Opens a list whose text begins like this, and clicks an entry.
-fn choose(window: &mut Harness<'_, App>, list: &str, entry: &str) {
+fn choose(window: &mut Window<'_>, list: &str, entry: &str) {
     window
         .query_all_by_role(egui::accesskit::Role::ComboBox)
         .find(|node| node.value().is_some_and(|v| v.starts_with(list)))
@@ -96,7 +47,7 @@ fn title(heatmap: &Heatmap) -> String {
     format!("{} · {}", heatmap.symbol, heatmap.name)
 }
 
-fn show(window: &mut Harness<'_, App>, symbol: &str) {
+fn show(window: &mut Window<'_>, symbol: &str) {
     let title = title(heatmap(symbol).unwrap());
     choose(window, "Show:", &title);
     wait_for(window, "Legend from");
@@ -130,7 +81,7 @@ fn library_image(symbol: &str, rays: RayFilter) -> HeatImage {
 }
 
 /// The label of the legend's colour bar.
-fn legend(window: &Harness<'_, App>) -> String {
+fn legend(window: &Window<'_>) -> String {
     let node = window.get_by_label_contains("Legend from");
     node.accesskit_node().label().expect("a label")
 }
@@ -172,7 +123,7 @@ fn every_heatmap_comes_up_by_list_and_by_key_with_symbol_and_unit() {
 #[test]
 fn the_scale_is_linear_or_logarithmic() {
     // So high that all lines of the legend have room.
-    let mut window = open_sized(small(), [1500.0, 1500.0]);
+    let mut window = open_sized(small(), [1500.0, 1500.0], false);
     finish(&mut window);
     show(&mut window, "N_IT");
     assert!(has(&window, "tests per pixel · all rays · linear scale"));
@@ -267,7 +218,7 @@ fn the_most_expensive_pixels_are_picked_in_order() {
     let image = library_image("N_IT", RayFilter::All);
     let mut order: Vec<usize> = (0..image.values.len()).collect();
     order.sort_by(|&a, &b| image.values[b].total_cmp(&image.values[a]).then(a.cmp(&b)));
-    let is_picked = |window: &Harness<'_, App>, rank: usize| {
+    let is_picked = |window: &Window<'_>, rank: usize| {
         let (x, y) = (order[rank] as u32 % SIZE, order[rank] as u32 / SIZE);
         has(window, &format!("Pixel {x}, {y} ("))
             && has(window, &format!("rank {} of 2 304", rank + 1))
@@ -371,7 +322,7 @@ fn colours_ends_of_the_range_and_blending_are_set_in_a_menu() {
     // A diverging map has its middle at zero.
     let range = format!("Legend from -{most} to {most} tests");
     wait_for(&mut window, &range);
-    let field = |window: &Harness<'_, App>, name: &str, value: f64| {
+    let field = |window: &Window<'_>, name: &str, value: f64| {
         window
             .get_by_role_and_label(egui::accesskit::Role::SpinButton, name)
             .set_value_accesskit(value);

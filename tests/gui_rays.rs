@@ -1,35 +1,20 @@
 //! The rays of a picked pixel and the stepping through their walks, found by their labels.
 
-use bspscope::gui::{App, StartOptions};
+mod window_harness;
+
 use bspscope::progress::Progress;
-use bspscope::scene::{SceneRequest, load};
+use bspscope::scene::load;
 use bspscope::trace::{PixelRecord, RayKind, RenderSettings, Step, record_pixel};
 use bspscope::tree::build;
 use egui::{Key, Modifiers};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use std::time::{Duration, Instant};
-
-/// Enough for two slow cores that do other things, too.
-const PATIENCE: Duration = Duration::from_secs(60);
-
-const SIZE: u32 = 48;
+use window_harness::{SIZE, Window, click, has, open_sized, press, wait};
 
 /// The pixel in the picture's middle, which a click on the picture picks.
 const MIDDLE: u32 = SIZE / 2;
 
-type Window<'a> = Harness<'a, App>;
-
-fn start() -> StartOptions {
-    let mut start = StartOptions {
-        scene: SceneRequest::parse("balls:1"),
-        remember: false,
-        ..StartOptions::default()
-    };
-    start.render.width = SIZE;
-    start.render.height = SIZE;
-    start.render.threads = 2;
-    start
+fn start() -> bspscope::gui::StartOptions {
+    window_harness::small("balls:1")
 }
 
 /// What the library records of the pixel in the middle.
@@ -48,30 +33,10 @@ fn expected() -> PixelRecord {
     record_pixel(&scene, &tree, &view, render.d_arec, MIDDLE, MIDDLE)
 }
 
-fn wait(window: &mut Window<'_>, what: &str, done: impl Fn(&Window<'_>) -> bool) {
-    let start = Instant::now();
-    loop {
-        window.run_steps(2);
-        if done(window) {
-            return;
-        }
-        assert!(start.elapsed() < PATIENCE, "still waiting for: {what}");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
-
-fn has(window: &Window<'_>, text: &str) -> bool {
-    window.query_all_by_label_contains(text).next().is_some()
-}
-
 /// A window in which the pixel in the middle is picked.
 fn picked<'a>(graphics: bool) -> Window<'a> {
     // High enough that the lists need not be scrolled to.
-    let builder = Harness::builder()
-        .with_size([1500.0, 1500.0])
-        .with_max_steps(40);
-    let builder = if graphics { builder.wgpu() } else { builder };
-    let mut window = builder.build_eframe(|cc| App::new(cc, start()));
+    let mut window = open_sized(start(), [1500.0, 1500.0], graphics);
     wait(&mut window, "the picture", |w| {
         w.query_by_label("finished").is_some()
     });
@@ -81,16 +46,6 @@ fn picked<'a>(graphics: bool) -> Window<'a> {
     let text = format!("ray 1 of {rays} of pixel {MIDDLE}, {MIDDLE}: primary ray");
     wait(&mut window, "the rays", |w| has(w, &text));
     window
-}
-
-fn click(window: &mut Window<'_>, label: &str) {
-    window.get_by_label(label).click();
-    window.run_steps(3);
-}
-
-fn press(window: &mut Window<'_>, modifiers: Modifiers, key: Key) {
-    window.key_press_modifiers(modifiers, key);
-    window.run_steps(2);
 }
 
 fn at_step(window: &Window<'_>, step: usize, of: usize) -> bool {

@@ -1,65 +1,26 @@
 //! The window's panes about the tree: outline, find, histograms, icicle and split cost, found by
 //! their labels.
 
-use bspscope::gui::{App, StartOptions};
-use bspscope::scene::SceneRequest;
-use egui::accesskit::Role;
-use egui_kittest::Harness;
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use std::time::{Duration, Instant};
+mod window_harness;
 
-/// Enough for two slow cores that do other things, too.
-const PATIENCE: Duration = Duration::from_secs(60);
+use bspscope::tree::{BuildSettings, Method};
+use egui::accesskit::Role;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use window_harness::{Window, click, has, open_sized, small, wait};
 
 /// A window with a finished picture; with the 3D view where `graphics`.
-fn open<'a>(scene: &str, method: &str, graphics: bool) -> Harness<'a, App> {
-    use bspscope::tree::{BuildSettings, Method};
-    let mut start = StartOptions {
-        scene: SceneRequest::parse(scene),
-        build: BuildSettings::for_method(Method::named(method).unwrap()),
-        remember: false,
-        ..StartOptions::default()
-    };
-    start.render.width = 32;
-    start.render.height = 32;
-    start.render.threads = 2;
-    let mut builder = Harness::builder()
-        .with_size([1500.0, 1000.0])
-        .with_max_steps(40);
-    if graphics {
-        builder = builder.wgpu();
-    }
-    let mut window = builder.build_eframe(|cc| App::new(cc, start));
+fn open<'a>(scene: &str, method: &str, graphics: bool) -> Window<'a> {
+    let mut start = small(scene);
+    start.build = BuildSettings::for_method(Method::named(method).unwrap());
+    let mut window = open_sized(start, [1500.0, 1000.0], graphics);
     wait(&mut window, "finished", |w| {
         w.query_by_label("finished").is_some()
     });
     window
 }
 
-/// Runs the window until `done`.
-fn wait(window: &mut Harness<'_, App>, what: &str, done: impl Fn(&Harness<'_, App>) -> bool) {
-    let start = Instant::now();
-    loop {
-        window.run_steps(2);
-        if done(window) {
-            return;
-        }
-        assert!(start.elapsed() < PATIENCE, "still waiting for: {what}");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
-
-fn has(window: &Harness<'_, App>, text: &str) -> bool {
-    window.query_all_by_label_contains(text).next().is_some()
-}
-
-fn click(window: &mut Harness<'_, App>, label: &str) {
-    window.get_by_label(label).click();
-    window.run_steps(3);
-}
-
 /// The text of the one label that contains this.
-fn text_with(window: &Harness<'_, App>, part: &str) -> String {
+fn text_with(window: &Window<'_>, part: &str) -> String {
     let node = window
         .query_all_by_label_contains(part)
         .next()
@@ -69,7 +30,7 @@ fn text_with(window: &Harness<'_, App>, part: &str) -> String {
 }
 
 /// Looks for nodes and waits for what the line then says.
-fn find(window: &mut Harness<'_, App>, query: &str, says: &str) {
+fn find(window: &mut Window<'_>, query: &str, says: &str) {
     let field = window.get_by_role_and_label(Role::TextInput, "Find nodes");
     field.focus();
     field.type_text(query);
@@ -152,7 +113,7 @@ fn a_picked_object_leads_to_its_leaves() {
 }
 
 /// Leaves among the rows of the outline.
-fn listed_leaves(window: &Harness<'_, App>) -> usize {
+fn listed_leaves(window: &Window<'_>) -> usize {
     window
         .query_all_by_label_contains("leaf: ")
         .filter(|node| node.accesskit_node().role() == Role::Label)

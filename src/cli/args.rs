@@ -74,12 +74,8 @@ pub struct MeasureArgs {
     pub trace: TraceArgs,
     #[command(flatten)]
     pub picture: PictureArgs,
-    /// Form of the report; without it the extension of -o decides, or text
-    #[arg(long, value_name = "FORM", value_parser = writer_names(), help_heading = "Output")]
-    pub format: Option<String>,
-    /// Write to this file in place of standard output
-    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
-    pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub report: ReportArgs,
 }
 
 /// Compare two trees of a scene, if they may be compared
@@ -103,12 +99,8 @@ pub struct CompareArgs {
     pub trace: TraceArgs,
     #[command(flatten)]
     pub picture: PictureArgs,
-    /// Form of the report; without it the extension of -o decides, or text
-    #[arg(long, value_name = "FORM", value_parser = writer_names(), help_heading = "Output")]
-    pub format: Option<String>,
-    /// Write to this file in place of standard output
-    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
-    pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub report: ReportArgs,
 }
 
 /// Render the picture, or a heatmap of what its pixels cost, to a PNG or OpenEXR file
@@ -286,6 +278,18 @@ pub struct MethodListArgs {
     /// Build method; may be given more than once [default: the paper's two]
     #[arg(long, value_name = "METHOD", value_parser = method_names(), help_heading = "Tree")]
     pub method: Vec<Method>,
+}
+
+/// The form of a report, and where it goes.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+pub struct ReportArgs {
+    /// Form of the report; without it the extension of -o decides, or text
+    #[arg(long, value_name = "FORM", value_parser = writer_names())]
+    pub format: Option<String>,
+    /// Write to this file in place of standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 }
 
 /// What a tree is built with.

@@ -7,7 +7,7 @@ use crate::report::Report;
 use anyhow::Result;
 
 pub fn run(args: &CompareArgs) -> Result<Outcome> {
-    output::check_place(args.output.as_deref())?;
+    output::check_place(args.report.output.as_deref())?;
     let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
     let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
     render.view()?;
@@ -24,7 +24,6 @@ pub fn run(args: &CompareArgs) -> Result<Outcome> {
         return Ok(Outcome::CheckFailed);
     }
     let report = Report::new(&scene, &request, vec![a.measurement, b.measurement]);
-    let writer = resolve::writer(args.format.as_deref(), args.output.as_deref());
-    output::write_to(args.output.as_deref(), |out| (writer.write)(&report, out))?;
+    output::write_report(&report, &args.report)?;
     Ok(Outcome::Done)
 }

@@ -10,7 +10,7 @@ use crate::tree::BuildSettings;
 use anyhow::Result;
 
 pub fn run(args: &MeasureArgs) -> Result<Outcome> {
-    output::check_place(args.output.as_deref())?;
+    output::check_place(args.report.output.as_deref())?;
     let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
     let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
     let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
@@ -21,8 +21,7 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome> {
         runs.push(run_of(&scene, build, &render)?.measurement);
     }
     let report = Report::new(&scene, &request, runs);
-    let writer = resolve::writer(args.format.as_deref(), args.output.as_deref());
-    output::write_to(args.output.as_deref(), |out| (writer.write)(&report, out))?;
+    output::write_report(&report, &args.report)?;
     Ok(Outcome::Done)
 }
 

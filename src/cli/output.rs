@@ -1,5 +1,8 @@
 //! Where output goes: standard output, or a file that is complete or not touched at all.
 
+use super::args::ReportArgs;
+use super::resolve;
+use crate::report::Report;
 use anyhow::{Context, Result, bail};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -38,6 +41,13 @@ pub fn write_to(
             Ok(out.flush()?)
         }
     }
+}
+
+/// Writes a report in the form and to the place asked for.
+pub fn write_report(report: &Report, args: &ReportArgs) -> Result<()> {
+    let file = args.output.as_deref();
+    let writer = resolve::writer(args.format.as_deref(), file);
+    write_to(file, |out| (writer.write)(report, out))
 }
 
 /// Writes a file beside its place and moves it there when it is complete: whatever was there stays

@@ -1,0 +1,83 @@
+//! The window in a harness, for the tests of its parts: opening it, waiting, finding labels.
+#![allow(dead_code)] // Each test file uses its part of this.
+
+use bspscope::gui::{App, StartOptions};
+use bspscope::scene::SceneRequest;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use std::time::{Duration, Instant};
+
+/// Enough for two slow cores that do other things, too.
+pub const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Width and height of the pictures in pixels.
+pub const SIZE: u32 = 48;
+
+pub type Window<'a> = Harness<'a, App>;
+
+/// A small picture of a scene; leaves the user's own settings folder alone.
+pub fn small(scene: &str) -> StartOptions {
+    let mut start = StartOptions {
+        scene: SceneRequest::parse(scene),
+        remember: false,
+        ..StartOptions::default()
+    };
+    start.render.width = SIZE;
+    start.render.height = SIZE;
+    start.render.threads = 2;
+    start
+}
+
+/// A window of this size in points; with the 3D view where `graphics`.
+pub fn open_sized<'a>(start: StartOptions, size: [f32; 2], graphics: bool) -> Window<'a> {
+    let builder = Harness::builder().with_size(size).with_max_steps(40);
+    let builder = if graphics { builder.wgpu() } else { builder };
+    builder.build_eframe(|cc| App::new(cc, start))
+}
+
+pub fn open<'a>(start: StartOptions) -> Window<'a> {
+    open_sized(start, [1500.0, 1000.0], false)
+}
+
+pub fn open_with_graphics<'a>(start: StartOptions) -> Window<'a> {
+    open_sized(start, [1500.0, 1000.0], true)
+}
+
+/// Runs the window until `done`.
+pub fn wait(window: &mut Window<'_>, what: &str, done: impl Fn(&Window<'_>) -> bool) {
+    let start = Instant::now();
+    loop {
+        window.run_steps(2);
+        if done(window) {
+            return;
+        }
+        assert!(start.elapsed() < PATIENCE, "still waiting for: {what}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+pub fn has(window: &Window<'_>, text: &str) -> bool {
+    window.query_all_by_label_contains(text).next().is_some()
+}
+
+/// Whether what is asked for is on view, with final figures.
+pub fn is_finished(window: &Window<'_>) -> bool {
+    window.query_by_label("finished").is_some()
+        && window.query_all_by_label("complete").count() == 2
+        && !has(window, "previous settings")
+}
+
+pub fn finish(window: &mut Window<'_>) {
+    wait(window, "finished", is_finished);
+}
+
+pub fn click(window: &mut Window<'_>, label: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(3);
+}
+
+/// Presses a key, wherever the pointer is.
+pub fn press(window: &mut Window<'_>, modifiers: egui::Modifiers, key: egui::Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run_steps(2);
+}
