@@ -908,3 +908,32 @@ fn vertices_of_a_prism_count_from_axis_cross_x_by_the_right_hand() {
     assert!((along_x[0].vertices()[0] - Vec3::Z).length() < 1e-15);
     assert_eq!(along_x[4].vertices()[1], along_x[0].vertices()[0], "closed");
 }
+
+#[test]
+fn a_ray_within_a_triangles_plane_hits_nothing() {
+    // Found by random search: the edge functions were rounding alone, and of one sign by chance.
+    let at = Vec3::new;
+    let cases = [
+        (
+            [at(3.0, -4.0, -4.0), at(0.0, -3.0, 0.0), at(-1.0, -4.0, 0.0)],
+            at(9.015065080795893, -0.5075325403979463, -6.522597621193839),
+            at(-2.0, 1.0, 3.0),
+        ),
+        (
+            [
+                at(-4.0, 4.0, -1.0),
+                at(-2.0, 0.0, -3.0),
+                at(-1.0, -2.0, 2.0),
+            ],
+            at(-2.3498141349877066, 0.6996282699754128, -12.098884809926238),
+            at(1.0, -2.0, 6.0),
+        ),
+    ];
+    for (vertices, origin, direction) in cases {
+        let ray = Ray::new(origin, direction);
+        let triangle = Triangle::new(vertices, None).unwrap();
+        assert_eq!(triangle.intersect(&ray, f64::INFINITY), None);
+        let polygon = Polygon::new(vertices.to_vec(), None).unwrap();
+        assert_eq!(polygon.intersect(&ray, f64::INFINITY), None);
+    }
+}

@@ -185,6 +185,11 @@ impl Polygon {
     #[inline]
     fn intersect_workable(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let speed = self.normal.dot(ray.direction);
+        let length = ray.direction.abs().element_sum();
+        // What is left of the speed may be rounding alone: the ray runs within the plane.
+        if speed.abs() <= 4.0 * f64::EPSILON * length {
+            return None;
+        }
         let to_plane = self.anchor - ray.origin;
         let t = self.normal.dot(to_plane) / speed;
         let in_reach = ray.t_min <= t && t <= t_max && t.is_finite();
@@ -193,7 +198,6 @@ impl Polygon {
         }
         let point = ray.origin + t * ray.direction;
         // The rounding of the plane's distance is drawn out along a ray that grazes it.
-        let length = ray.direction.abs().element_sum();
         let reach = to_plane.abs().element_sum() + t.abs() * length + self.magnitude;
         let slack = 4.0 * FLATNESS * reach * (length / speed).abs();
         let hit = self.bounds.enlarged(slack).contains(point)

@@ -68,6 +68,22 @@ impl Triangle {
         (cross.normalize_or(Vec3::Z), cross.length() / longest)
     }
 
+    /// Whether the determinant of the edge functions may be rounding alone: then their signs mean
+    /// nothing, and the ray runs within the triangle's plane as far as can be told.
+    ///
+    /// A sheared coordinate is off by some 3 ε of the distance to the vertex, and the determinant by
+    /// that times the longest sheared edge for each vertex.
+    fn is_edge_on(&self, ray: &Ray, determinant: f64, [a, b, c]: [Vec3; 3]) -> bool {
+        let distance = self
+            .vertices
+            .iter()
+            .fold(0.0_f64, |m, &v| m.max((v - ray.origin).abs().max_element()));
+        let edge = [b - a, c - b, a - c]
+            .iter()
+            .fold(0.0_f64, |m, e| m.max(e.x.abs().max(e.y.abs())));
+        determinant.abs() <= 16.0 * f64::EPSILON * distance * edge
+    }
+
     /// Weights of the vertices, none negative and of sum 1, for the point of the triangle below or
     /// above `point` along the normal, or for one near by where there is none.
     fn weights(&self, point: Vec3, normal: Vec3) -> [f64; 3] {
@@ -115,9 +131,10 @@ impl Shape for Triangle {
         if u.min(v).min(w) < 0.0 && u.max(v).max(w) > 0.0 {
             return None;
         }
-        // Edge-on, the determinant is 0 and t is infinite or not a number: no comparison holds.
-        let t = (u * a.z + v * b.z + w * c.z) / (u + v + w);
-        (ray.t_min <= t && t <= t_max && t.is_finite()).then_some(t)
+        let determinant = u + v + w;
+        let t = (u * a.z + v * b.z + w * c.z) / determinant;
+        let in_reach = ray.t_min <= t && t <= t_max && t.is_finite();
+        (in_reach && !self.is_edge_on(ray, determinant, [a, b, c])).then_some(t)
     }
 
     fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
