@@ -9,7 +9,11 @@ use bspscope::scene::{Camera, Material, Scene, SceneParts};
 use bspscope::trace::{RayKind, thread_pool};
 use bspscope::tree::{BuildSettings, MaxDepth, Method, OverlapRule, build, validate};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use std::sync::OnceLock;
+
+/// The suite runs the same cases everywhere; other seeds are for searching.
+const SEED: u64 = 1;
 
 /// Lattice points: many coordinates coincide with each other and with midpoint planes.
 fn lattice() -> impl Strategy<Value = Vec3> {
@@ -119,7 +123,7 @@ fn pool() -> &'static rayon::ThreadPool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4000, max_local_rejects: 1_000_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 4000, max_local_rejects: 1_000_000, failure_persistence: None, rng_seed: RngSeed::Fixed(SEED), ..ProptestConfig::default() })]
 
     #[test]
     fn a_tree_answers_as_testing_every_object_does(
