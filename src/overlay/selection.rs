@@ -78,11 +78,7 @@ fn quad(cell: &Aabb, axis: Axis, at: f64) -> [Vec3; 4] {
 /// the ray starts is not among them.
 pub fn leaves_along(tree: &Tree, ray: &Ray) -> Vec<CellOfNode> {
     let mut found: Vec<(f64, CellOfNode)> = Vec::new();
-    let mut stack = vec![CellOfNode {
-        node: 0,
-        depth: 0,
-        bounds: tree.root_cell(),
-    }];
+    let mut stack = vec![tree.root()];
     while let Some(cell) = stack.pop() {
         let Some(enter) = entry(&cell.bounds, ray) else {
             continue;

@@ -104,13 +104,18 @@ impl Tree {
         size_of_val(self.nodes.as_slice()) + size_of_val(self.references.as_slice())
     }
 
-    /// Every node with its depth and cell, in the order of the array.
-    pub fn cells(&self) -> impl Iterator<Item = CellOfNode> + '_ {
-        let mut stack = vec![CellOfNode {
+    /// The root with its cell.
+    pub fn root(&self) -> CellOfNode {
+        CellOfNode {
             node: 0,
             depth: 0,
             bounds: self.root_cell(),
-        }];
+        }
+    }
+
+    /// Every node with its depth and cell, in the order of the array.
+    pub fn cells(&self) -> impl Iterator<Item = CellOfNode> + '_ {
+        let mut stack = vec![self.root()];
         std::iter::from_fn(move || {
             let cell = stack.pop()?;
             if let Some([below, above]) = self.children(&cell) {
@@ -126,11 +131,7 @@ impl Tree {
     /// # Panics
     /// If there is no such node.
     pub fn cell_of(&self, node: u32) -> CellOfNode {
-        let mut cell = CellOfNode {
-            node: 0,
-            depth: 0,
-            bounds: self.root_cell(),
-        };
+        let mut cell = self.root();
         while cell.node != node {
             let [below, above] = self.children(&cell).expect("the node is in the tree");
             // Subtrees are contiguous in the array.

@@ -258,7 +258,8 @@ impl From<RenderError> for Stop {
 #[derive(Default)]
 struct Kept {
     scene: Option<(SceneRequest, u64, Arc<Scene>)>,
-    tree: Option<(BuildSettings, Arc<Tree>, Times)>,
+    /// With what is known of it before a ray is traced.
+    tree: Option<(Arc<Tree>, Measurement)>,
     pool: Option<(usize, Arc<rayon::ThreadPool>)>,
 }
 
@@ -347,16 +348,15 @@ fn serve(
     // A wrong camera or size is told before work is done for it.
     render.view()?;
 
-    let (tree, building) = match &kept.tree {
-        Some((settings, tree, building)) if *settings == request.build => {
-            (Arc::clone(tree), *building)
-        }
+    let (tree, known) = match &kept.tree {
+        Some((tree, known)) if known.build == request.build => (Arc::clone(tree), known.clone()),
         _ => {
             reporter.stage(Stage::Building, progress);
             let (tree, building) = Times::of(|| build(&scene, &request.build, progress));
             let tree = Arc::new(tree?);
-            kept.tree = Some((request.build.clone(), Arc::clone(&tree), building));
-            (tree, building)
+            let known = Measurement::of_tree(&scene, &tree, building, &render);
+            kept.tree = Some((Arc::clone(&tree), known.clone()));
+            (tree, known)
         }
     };
     let pool = match &kept.pool {
@@ -369,7 +369,7 @@ fn serve(
     };
 
     reporter.stage(Stage::Previewing, progress);
-    let mut measurement = Measurement::of_tree(&scene, &tree, building, &render);
+    let mut measurement = Measurement { render, ..known };
     let picture = Mutex::new(Picture::new(render.width, render.height));
     preview(
         &scene,
