@@ -218,3 +218,32 @@ fn a_failure_is_told_and_the_next_request_works() {
     let updates = until_end(&worker, &woken, number);
     assert!(matches!(updates.last().unwrap().update, Update::Done));
 }
+
+#[test]
+fn the_tree_before_the_last_is_at_hand() {
+    let (worker, woken) = start();
+    let served = |wanted: &Request| {
+        let number = worker.request(wanted.clone());
+        stages(&until_end(&worker, &woken, number), number)
+    };
+    let (a, b) = (
+        request("tetra:3", "midpoint"),
+        request("tetra:3", "sah-cut"),
+    );
+    for wanted in [&a, &b] {
+        assert!(served(wanted).contains(&Stage::Building));
+    }
+    for wanted in [&a, &b, &a] {
+        let again = served(wanted);
+        assert!(!again.contains(&Stage::Loading) && !again.contains(&Stage::Building));
+        assert!(again.contains(&Stage::Tracing));
+    }
+    // A third takes the place of the one used less lately.
+    let third = request("tetra:3", "object-median");
+    assert!(served(&third).contains(&Stage::Building));
+    assert!(!served(&a).contains(&Stage::Building));
+    assert!(served(&b).contains(&Stage::Building));
+    // Another scene's trees are of no use.
+    assert!(served(&request("tetra:2", "midpoint")).contains(&Stage::Loading));
+    assert!(served(&a).contains(&Stage::Loading));
+}

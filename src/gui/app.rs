@@ -122,6 +122,8 @@ impl App {
             Action::ResetMethod => *build = BuildSettings::for_method(build.method),
             Action::Undo => state.undo(),
             Action::Redo => state.redo(),
+            Action::Compare => state.compare_or_not(),
+            Action::OtherTree => state.show(state.which.other()),
             Action::Theme => top_bar::toggle_theme(ctx),
             Action::FirstStep => state.go(Go::First),
             Action::PreviousStep => state.go(Go::Previous),

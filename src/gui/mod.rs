@@ -6,6 +6,8 @@
 
 mod app;
 mod background;
+mod compare_bar;
+mod comparing;
 mod files;
 mod heat;
 mod help;

@@ -1,6 +1,8 @@
 //! The picture as it refines, with or under a heatmap: zoomed and moved by mouse, pixels picked by
-//! click and arrow keys.
+//! click and arrow keys. Of two compared trees both pictures, side by side or parted by a wipe.
 
+use super::compare_bar;
+use super::comparing::{View, Which};
 use super::heat::HeatView;
 use super::shortcuts::{Action, Scope, pressed};
 use super::state::{Current, Fresh, State};
@@ -9,10 +11,13 @@ use crate::worker::Stage;
 use egui::ecolor::gamma_u8_from_linear_f32;
 use egui::{Color32, ColorImage, Pos2, Rect, TextureHandle, TextureOptions, Vec2, pos2, vec2};
 
-/// The picture's texture and how it is looked at.
+/// The pictures' textures and how they are looked at.
 #[derive(Default)]
 pub struct PicturePane {
-    texture: Option<TextureHandle>,
+    /// Of A and of B.
+    textures: [Option<TextureHandle>; 2],
+    /// Marks the pixels in which these two pictures differ.
+    differing: Option<([u64; 2], TextureHandle)>,
     /// Points a pixel; `None` fits the picture into the pane.
     zoom: Option<f32>,
     /// The picture's middle relative to the pane's, in points.
@@ -22,11 +27,28 @@ pub struct PicturePane {
     pub heat: HeatView,
 }
 
+/// One picture's share of the pane.
+struct Part {
+    which: Which,
+    /// What the picture is fitted into.
+    pane: Rect,
+    /// What is seen of it.
+    clip: Rect,
+}
+
+const WHOLE: Rect = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+
 impl PicturePane {
     /// Shows what there is to see of the pixels, and its legend.
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
         header(ui, state);
+        if std::mem::take(&mut state.comparing.asks_for_pixels) {
+            self.heat.show_picture();
+        }
         self.heat.controls(ui);
+        if state.other.is_some() {
+            compare_bar::show(ui, state, self.heat.is_picture());
+        }
         self.heat.update(ui.ctx(), state);
         self.picture(ui, state);
         self.heat.legend(ui, state, self.hovered);
@@ -43,78 +65,173 @@ impl PicturePane {
         response
             .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Traced picture"));
         self.hovered = None;
-        let faded = state.is_previous() && !state.only_camera_differs();
-        let Some(current) = &mut state.current else {
-            return;
-        };
-        self.upload(ui.ctx(), current);
-        let picture = [current.shown.picture.width, current.shown.picture.height];
-        self.steer(ui, &response, current);
-        if self.heat.go(ui.ctx(), current) {
+        for (texture, current) in self.textures.iter_mut().zip(state.both_mut()) {
+            if let Some(current) = current {
+                upload(ui.ctx(), texture, current);
+            }
+        }
+        self.steer(ui, &response, state);
+        if let Some(current) = &mut state.current
+            && self.heat.go(ui.ctx(), current)
+        {
             self.reveal(pane, current);
         }
-        let rect = self.place(pane, picture);
-        let Some(texture) = &self.texture else {
-            return;
-        };
-        let painter = ui.painter().with_clip_rect(pane);
-        let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
-        let tint = if faded {
-            Color32::from_gray(140)
-        } else {
-            Color32::WHITE
-        };
-        painter.image(texture.id(), rect, whole, tint);
-        if let Some((heat, tint)) = self.heat.texture(ui.ctx()) {
-            painter.image(heat, rect, whole, tint);
+        let parts = self.parts(pane, state);
+        for part in &parts {
+            self.paint(ui, part, state);
         }
-        if let Some(pixel) = current.picked_pixel() {
-            cross_hair(&painter, rect, picture, pixel);
+        if let [a, _] = &parts[..]
+            && state.comparing.view == View::Wipe
+        {
+            wipe_line(ui, pane, a.clip.right());
         }
-        let pixel_at = |pos: Pos2| -> Option<[u32; 2]> {
-            let at = (pos - rect.min) / rect.size() * vec2(picture[0] as f32, picture[1] as f32);
-            let inside =
-                at.x >= 0.0 && at.y >= 0.0 && at.x < picture[0] as f32 && at.y < picture[1] as f32;
+        let under = |pos: Pos2| {
+            let part = parts.iter().find(|part| part.clip.contains(pos))?;
+            let picture = &state.both()[part.which as usize]?.shown.picture;
+            let size = vec2(picture.width as f32, picture.height as f32);
+            let rect = self.place(part.pane, [picture.width, picture.height]);
+            let at = (pos - rect.min) / rect.size() * size;
+            let inside = at.x >= 0.0 && at.y >= 0.0 && at.x < size.x && at.y < size.y;
             inside.then_some([at.x as u32, at.y as u32])
         };
-        self.hovered = response.hover_pos().and_then(pixel_at);
-        if response.clicked()
-            && let Some(pixel) = response.interact_pointer_pos().and_then(pixel_at)
-        {
+        let hovered = response.hover_pos().and_then(under);
+        let clicked = response
+            .interact_pointer_pos()
+            .filter(|_| response.clicked());
+        let picked = clicked.and_then(under);
+        self.hovered = hovered;
+        if let (Some(pixel), Some(current)) = (picked, &mut state.current) {
             current.pick(pixel);
             ui.ctx().request_repaint();
         }
     }
 
-    /// Brings the texture up to date: all of it for a new picture, else the new tiles.
-    fn upload(&mut self, ctx: &egui::Context, current: &mut Current) {
-        let picture = &current.shown.picture;
-        let fresh = std::mem::replace(&mut current.fresh, Fresh::Tiles(Vec::new()));
-        match (fresh, &mut self.texture) {
-            (Fresh::Tiles(tiles), Some(texture)) => {
-                for tile in tiles {
-                    let at = [tile.x as usize, tile.y as usize];
-                    texture.set_partial(at, part(picture, &tile), TextureOptions::NEAREST);
-                }
+    /// How the pictures share the pane: the one in front alone, or A before B.
+    fn parts(&self, pane: Rect, state: &State) -> Vec<Part> {
+        let comparing = &state.comparing;
+        let alone = |which| {
+            vec![Part {
+                which,
+                pane,
+                clip: pane,
+            }]
+        };
+        if state.other.is_none() {
+            return alone(state.which);
+        }
+        let [first, second] = match comparing.flipped {
+            false => [Which::A, Which::B],
+            true => [Which::B, Which::A],
+        };
+        match comparing.view {
+            View::Difference => alone(state.which),
+            View::One if comparing.flipped => alone(state.which.other()),
+            View::One => alone(state.which),
+            View::Wipe => {
+                let x = self.split_at(pane, state).clamp(pane.left(), pane.right());
+                let (left, right) = pane.split_left_right_at_x(x);
+                [(first, left), (second, right)]
+                    .map(|(which, clip)| Part { which, pane, clip })
+                    .into()
             }
-            (_, texture) => {
-                let whole = Tile {
-                    x: 0,
-                    y: 0,
-                    width: picture.width,
-                    height: picture.height,
-                };
-                let image = part(picture, &whole);
-                match texture {
-                    Some(texture) if texture.size() == image.size => {
-                        texture.set(image, TextureOptions::NEAREST);
-                    }
-                    _ => {
-                        *texture =
-                            Some(ctx.load_texture("picture", image, TextureOptions::NEAREST));
-                    }
-                }
+            View::Beside => {
+                let (left, right) = pane.split_left_right_at_fraction(0.5);
+                [(first, left), (second, right)]
+                    .map(|(which, half)| Part {
+                        which,
+                        pane: half.shrink2(vec2(1.0, 0.0)),
+                        clip: half.shrink2(vec2(1.0, 0.0)),
+                    })
+                    .into()
             }
+        }
+    }
+
+    /// Where the wipe's line lies in the pane.
+    fn split_at(&self, pane: Rect, state: &State) -> f32 {
+        let rect = state.current.as_ref().map_or(pane, |current| {
+            let picture = &current.shown.picture;
+            self.place(pane, [picture.width, picture.height])
+        });
+        egui::lerp(rect.x_range(), state.comparing.split)
+    }
+
+    /// One picture with its heatmap and marks.
+    fn paint(&mut self, ui: &egui::Ui, part: &Part, state: &mut State) {
+        let painter = ui.painter().with_clip_rect(part.clip);
+        let comparing = state.other.is_some();
+        let in_front = part.which == state.which;
+        let faded = match (&state.other, in_front) {
+            (Some(other), false) => other.is_previous(),
+            _ => state.is_previous() && !state.only_camera_differs(),
+        };
+        let picked = state.current.as_ref().and_then(|c| c.picked_pixel());
+        let Some(current) = state.both()[part.which as usize] else {
+            if comparing {
+                let text = format!("{} is on its way", part.which.name());
+                let font = egui::FontId::proportional(14.0);
+                let color = ui.visuals().text_color();
+                let at = part.clip.center();
+                painter.text(at, egui::Align2::CENTER_CENTER, text, font, color);
+            }
+            return;
+        };
+        let picture = [current.shown.picture.width, current.shown.picture.height];
+        let rect = self.place(part.pane, picture);
+        let Some(texture) = &self.textures[part.which as usize] else {
+            return;
+        };
+        let tint = if faded {
+            Color32::from_gray(140)
+        } else {
+            Color32::WHITE
+        };
+        painter.image(texture.id(), rect, WHOLE, tint);
+        if let Some((heat, tint)) = self.heat.texture(part.which, ui.ctx()) {
+            painter.image(heat, rect, WHOLE, tint);
+        }
+        if comparing && state.comparing.view == View::Difference && self.heat.is_picture() {
+            self.mark_differing(ui.ctx(), &painter, rect, state);
+        }
+        if let Some([x, y]) = picked
+            && x < picture[0]
+            && y < picture[1]
+        {
+            cross_hair(&painter, rect, picture, [x, y]);
+        }
+        if comparing && state.comparing.view != View::Difference {
+            let right = part.clip.left() > part.pane.left() && state.comparing.view == View::Wipe;
+            badge(&painter, part.clip, part.which.name(), right);
+        }
+    }
+
+    /// Darkens the picture but for the pixels in which A and B differ.
+    fn mark_differing(
+        &mut self,
+        ctx: &egui::Context,
+        painter: &egui::Painter,
+        rect: Rect,
+        state: &mut State,
+    ) {
+        let [Some(a), Some(b)] = state.both() else {
+            return;
+        };
+        let key = [a.number, b.number];
+        let size = [a.shown.picture.width, a.shown.picture.height].map(|side| side as usize);
+        let Some(verdict) = state.verdict(ctx) else {
+            return;
+        };
+        let stale = self.differing.as_ref().is_none_or(|(of, _)| *of != key);
+        if stale {
+            let mut image = ColorImage::filled(size, Color32::from_black_alpha(200));
+            for &pixel in &verdict.pixels {
+                image.pixels[pixel as usize] = DIFFERING;
+            }
+            let texture = ctx.load_texture("differing pixels", image, TextureOptions::NEAREST);
+            self.differing = Some((key, texture));
+        }
+        if let Some((_, texture)) = &self.differing {
+            painter.image(texture.id(), rect, WHOLE, Color32::WHITE);
         }
     }
 
@@ -142,19 +259,34 @@ impl PicturePane {
         }
     }
 
-    fn steer(&mut self, ui: &egui::Ui, response: &egui::Response, current: &mut Current) {
+    fn steer(&mut self, ui: &egui::Ui, response: &egui::Response, state: &mut State) {
+        state.comparing.flipped = false;
+        let Some(current) = &state.current else {
+            return;
+        };
         let picture = [current.shown.picture.width, current.shown.picture.height];
-        let pane = response.rect;
         if response.dragged_by(egui::PointerButton::Secondary)
             || response.dragged_by(egui::PointerButton::Middle)
         {
             self.offset += response.drag_delta();
+        }
+        let is_wipe = state.other.is_some() && state.comparing.view == View::Wipe;
+        if is_wipe
+            && response.dragged_by(egui::PointerButton::Primary)
+            && let Some(pointer) = response.interact_pointer_pos()
+        {
+            let rect = self.place(response.rect, picture);
+            let split = (pointer.x - rect.left()) / rect.width();
+            state.comparing.split = split.clamp(0.0, 1.0);
         }
         let Some(pointer) = response.hover_pos() else {
             return;
         };
         let wheel = ui.input(|i| i.smooth_scroll_delta().y);
         if wheel != 0.0 {
+            let parts = self.parts(response.rect, state);
+            let under = parts.iter().find(|part| part.clip.contains(pointer));
+            let pane = under.map_or(response.rect, |part| part.pane);
             let before = self.place(pane, picture);
             let zoom = before.width() / picture[0] as f32;
             let next = (zoom * (wheel * 0.004).exp()).clamp(0.02, 200.0);
@@ -164,6 +296,12 @@ impl PicturePane {
             self.offset = pointer + from_middle * (next / zoom) - pane.center();
         }
         for action in pressed(ui.ctx(), Scope::Picture) {
+            if compare_bar::act(action, state) {
+                continue;
+            }
+            let Some(current) = &mut state.current else {
+                return;
+            };
             match action {
                 Action::Fit => {
                     self.zoom = None;
@@ -181,6 +319,63 @@ impl PicturePane {
                 action => self.heat.act(action),
             }
         }
+    }
+}
+
+/// Brings a texture up to date: all of it for a new picture, else the new tiles.
+fn upload(ctx: &egui::Context, texture: &mut Option<TextureHandle>, current: &mut Current) {
+    let picture = &current.shown.picture;
+    let fresh = std::mem::replace(&mut current.fresh, Fresh::Tiles(Vec::new()));
+    match (fresh, &mut *texture) {
+        (Fresh::Tiles(tiles), Some(texture)) => {
+            for tile in tiles {
+                let at = [tile.x as usize, tile.y as usize];
+                texture.set_partial(at, part(picture, &tile), TextureOptions::NEAREST);
+            }
+        }
+        _ => {
+            let whole = Tile {
+                x: 0,
+                y: 0,
+                width: picture.width,
+                height: picture.height,
+            };
+            let image = part(picture, &whole);
+            match texture {
+                Some(texture) if texture.size() == image.size => {
+                    texture.set(image, TextureOptions::NEAREST);
+                }
+                _ => {
+                    *texture = Some(ctx.load_texture("picture", image, TextureOptions::NEAREST));
+                }
+            }
+        }
+    }
+}
+
+/// The colour of pixels that differ: bright on what is dark around.
+const DIFFERING: Color32 = Color32::from_rgb(255, 90, 255);
+
+/// A letter in a corner that says whose picture this is.
+fn badge(painter: &egui::Painter, clip: Rect, name: &str, right: bool) {
+    let size = vec2(20.0, 20.0);
+    let corner = if right {
+        clip.right_top() + vec2(-4.0 - size.x, 4.0)
+    } else {
+        clip.left_top() + vec2(4.0, 4.0)
+    };
+    let rect = Rect::from_min_size(corner, size);
+    painter.rect_filled(rect, 4.0, Color32::from_black_alpha(190));
+    let font = egui::FontId::proportional(14.0);
+    let middle = egui::Align2::CENTER_CENTER;
+    painter.text(rect.center(), middle, name, font, Color32::WHITE);
+}
+
+/// The line between two pictures, to be seen on any colour.
+fn wipe_line(ui: &egui::Ui, pane: Rect, x: f32) {
+    for (width, color) in [(3.0, Color32::BLACK), (1.0, Color32::WHITE)] {
+        ui.painter()
+            .vline(x, pane.y_range(), egui::Stroke::new(width, color));
     }
 }
 
@@ -217,6 +412,9 @@ fn header(ui: &mut egui::Ui, state: &State) {
         } else {
             "traced"
         };
+        if state.other.is_some() {
+            ui.strong(state.which.name());
+        }
         ui.strong(status);
         ui.label(current.settings_text())
             .on_hover_text(current.settings_text());

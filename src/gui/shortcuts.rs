@@ -56,6 +56,8 @@ pub enum Action {
     SceneCamera,
     Undo,
     Redo,
+    Compare,
+    OtherTree,
     Theme,
     FirstStep,
     PreviousStep,
@@ -72,6 +74,10 @@ pub enum Action {
     PickUp,
     PickDown,
     Unpick,
+    NextView,
+    Flip,
+    WipeLeft,
+    WipeRight,
     NextHeatmap,
     PreviousHeatmap,
     LogScale,
@@ -157,6 +163,8 @@ shortcuts! {
     Window SceneCamera COMMAND [Home] "Ctrl+Home" "Back to the scene's own camera";
     Window Undo COMMAND [Z] "Ctrl+Z" "Undo the last change of settings, scene or camera";
     Window Redo COMMAND [Y] "Ctrl+Y" "Redo what was undone";
+    Window Compare COMMAND [B] "Ctrl+B" "Compare with another tree, B, or end that";
+    Window OtherTree NONE [T] "T" "Bring the other of two compared trees to the front";
     Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
     Window PreviousRay NONE [PageUp] "Page up" "Previous ray of the picked pixel";
     Window NextRay NONE [PageDown] "Page down" "Next ray of the picked pixel";
@@ -181,6 +189,11 @@ shortcuts! {
     Picture LockRange NONE [R] "R" "Lock the range of the heatmap's colours, or not";
     Picture MoreExpensive SHIFT [N] "Shift+N" "Pick the pixel before in the order of expense";
     Picture LessExpensive NONE [N] "N" "Pick the most expensive pixel, then the next";
+    Picture NextView NONE [W] "W" "Next view of A and B: one, wipe, side by side, difference";
+    Picture Flip NONE [F] "F, held" "See the other of A and B while the key is held";
+    Picture WipeLeft NONE [OpenBracket] "[" "Move the line between A and B to the left";
+    Picture WipeRight NONE [CloseBracket] "]" "Move the line between A and B to the right";
+    Picture Mouse NONE [] "Drag" "Move the line between A and B";
     Picture ActualSize COMMAND [Num0] "Ctrl+0" "Actual size: one pixel on one pixel";
     Picture Fit NONE [Home] "Home" "Fit the picture into its pane";
     View3d Mouse NONE [] "Left-drag" "Orbit";
@@ -221,12 +234,12 @@ shortcuts! {
     Cost UndoWhatIf NONE [Delete] "Delete or Esc" "Take the tried plane away";
 }
 
-/// Flying goes on while a key is held; all else happens once.
+/// Flying and flipping go on while a key is held; all else happens once.
 fn is_held(action: Action) -> bool {
-    use Action::{FlyBack, FlyDown, FlyForward, FlyLeft, FlyRight, FlyUp};
+    use Action::{Flip, FlyBack, FlyDown, FlyForward, FlyLeft, FlyRight, FlyUp};
     matches!(
         action,
-        FlyForward | FlyBack | FlyLeft | FlyRight | FlyUp | FlyDown
+        Flip | FlyForward | FlyBack | FlyLeft | FlyRight | FlyUp | FlyDown
     )
 }
 

@@ -1,6 +1,10 @@
 //! What is wanted and what is shown. All that is shown belongs together: it is swapped as one.
+//!
+//! Two trees can be compared, A and B. One of them is in front: widgets and panels are about it. The
+//! other waits in [`State::other`]; the worker serves the one in front first.
 
 use super::StartOptions;
+use super::comparing::{Comparing, Verdict, Which};
 use super::inspect::Inspect;
 use super::selection::Selection;
 use super::walk::{Picked, Walking, Wish};
@@ -10,19 +14,28 @@ use crate::scene::{SceneRequest, SceneSource};
 use crate::trace::Tile;
 use crate::worker::{Request, Shown, Stage, Update, Worker};
 use egui::util::undoer::Undoer;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The window's side of the worker.
 pub struct State {
-    /// What the widgets say.
+    /// What the widgets say, of the tree in front.
     pub wanted: Request,
     /// What was wanted before, and what was undone of it.
-    history: Undoer<Request>,
-    /// The last request with its number.
+    history: Undoer<Wanted>,
+    /// The last request about the tree in front, with its number.
     sent: Option<(u64, Request)>,
     worker: Worker,
-    /// The picture, tree and figures on view; `None` until the first arrive.
+    /// Which tree every request that may still be answered is about.
+    asked: BTreeMap<u64, Which>,
+    /// The picture, tree and figures in front; `None` until the first arrive.
     pub current: Option<Current>,
+    /// Which of two compared trees is in front.
+    pub which: Which,
+    /// The other tree of a comparison, if there is one.
+    pub other: Option<Other>,
+    /// How two trees are compared.
+    pub comparing: Comparing,
     /// What the worker does now.
     pub work: Option<(Stage, Progress)>,
     /// Whether the last request was stopped by the user before it was done.
@@ -33,6 +46,29 @@ pub struct State {
     pub walking: Walking,
     /// What the panes about the tree share.
     pub inspect: Inspect,
+}
+
+/// The tree of a comparison that is not in front.
+pub struct Other {
+    pub wanted: Request,
+    sent: Option<(u64, Request)>,
+    pub current: Option<Current>,
+}
+
+impl Other {
+    /// Whether what is shown was made with other settings than are wanted.
+    pub fn is_previous(&self) -> bool {
+        self.current
+            .as_ref()
+            .is_some_and(|current| current.shown.request != self.wanted)
+    }
+}
+
+/// What is wanted of A and, while two trees are compared, of B.
+#[derive(Clone, PartialEq)]
+struct Wanted {
+    a: Request,
+    b: Option<Request>,
 }
 
 /// A request that failed.
@@ -69,7 +105,14 @@ pub enum Fresh {
 }
 
 impl Current {
-    fn new(number: u64, shown: Shown, wish: Option<Wish>) -> Self {
+    /// A new picture in the place of the one before: what was picked and selected stays so where
+    /// it means the same.
+    fn new(number: u64, shown: Shown, before: Option<&Current>) -> Self {
+        let wish = before.and_then(|before| before.kept_pixel(&shown));
+        // What is selected stays so in another picture of the same tree.
+        let selection = before
+            .filter(|before| Arc::ptr_eq(&before.shown.tree, &shown.tree))
+            .map_or_else(Selection::default, |before| before.selection);
         Current {
             number,
             shown,
@@ -79,9 +122,21 @@ impl Current {
             fresh: Fresh::All,
             wish,
             picked: None,
-            selection: Selection::default(),
+            selection,
             pixel_counts: None,
         }
+    }
+
+    /// A picked pixel stays picked in a new picture of the same scene and size, and so does its ray.
+    fn kept_pixel(&self, shown: &Shown) -> Option<Wish> {
+        let same = Arc::ptr_eq(&self.shown.scene, &shown.scene)
+            && self.shown.picture.width == shown.picture.width
+            && self.shown.picture.height == shown.picture.height;
+        let picked = self.picked.as_ref().map(|picked| Wish {
+            pixel: picked.pixel,
+            ray: picked.ray,
+        });
+        self.wish.or(picked).filter(|_| same)
     }
 
     /// The settings of what is shown, in one line.
@@ -118,7 +173,11 @@ impl State {
             history: Undoer::default(),
             sent: None,
             worker: Worker::start(move || ctx.request_repaint()),
+            asked: BTreeMap::new(),
             current: None,
+            which: Which::A,
+            other: None,
+            comparing: Comparing::default(),
             work: None,
             stopped: false,
             failure: None,
@@ -130,21 +189,121 @@ impl State {
     /// Takes note of what is wanted, once a frame; `time` is the window's, in seconds. A change that
     /// goes on, such as a drag, is one step of the history.
     pub fn remember(&mut self, time: f64) {
-        self.history.feed_state(time, &self.wanted);
+        let wanted = self.all_wanted();
+        self.history.feed_state(time, &wanted);
     }
 
     /// Wants again what was wanted before the last change.
     pub fn undo(&mut self) {
-        if let Some(before) = self.history.undo(&self.wanted) {
-            self.wanted = before.clone();
+        let now = self.all_wanted();
+        if let Some(before) = self.history.undo(&now).cloned() {
+            self.want(before);
         }
     }
 
     /// Wants again what was undone last.
     pub fn redo(&mut self) {
-        if let Some(after) = self.history.redo(&self.wanted) {
-            self.wanted = after.clone();
+        let now = self.all_wanted();
+        if let Some(after) = self.history.redo(&now).cloned() {
+            self.want(after);
         }
+    }
+
+    fn all_wanted(&self) -> Wanted {
+        let front = self.wanted.clone();
+        match &self.other {
+            None => Wanted { a: front, b: None },
+            Some(other) => {
+                let [a, b] = in_order(self.which, front, other.wanted.clone());
+                Wanted { a, b: Some(b) }
+            }
+        }
+    }
+
+    fn want(&mut self, Wanted { a, b }: Wanted) {
+        if self.other.is_some() != b.is_some() {
+            self.show(Which::A);
+            self.compare_or_not();
+        }
+        let (front, behind) = match self.which {
+            Which::A => (Some(a), b),
+            Which::B => (b, Some(a)),
+        };
+        self.wanted = front.unwrap_or_else(|| self.wanted.clone());
+        if let (Some(other), Some(wanted)) = (&mut self.other, behind) {
+            other.wanted = wanted;
+        }
+    }
+
+    /// Compares with a second tree, B, that begins with the settings of the first; or ends the
+    /// comparison with the tree in front.
+    pub fn compare_or_not(&mut self) {
+        if self.other.take().is_some() {
+            // The one in front is A from now on, and its picture goes to A's place on the screen.
+            let front = self.which;
+            self.asked.retain(|_, which| *which == front);
+            self.asked.values_mut().for_each(|which| *which = Which::A);
+            self.which = Which::A;
+            if let Some(current) = &mut self.current {
+                current.fresh = Fresh::All;
+            }
+            if !self.is_asked_last() {
+                self.work = None;
+                self.worker.cancel();
+            }
+        } else {
+            self.other = Some(Other {
+                wanted: self.wanted.clone(),
+                sent: None,
+                current: None,
+            });
+            self.comparing = Comparing::default();
+        }
+    }
+
+    /// Brings one of two compared trees to the front; the picked pixel comes along.
+    pub fn show(&mut self, which: Which) {
+        let Some(other) = &mut self.other else {
+            return;
+        };
+        if self.which == which {
+            return;
+        }
+        self.which = which;
+        std::mem::swap(&mut self.wanted, &mut other.wanted);
+        std::mem::swap(&mut self.sent, &mut other.sent);
+        std::mem::swap(&mut self.current, &mut other.current);
+        let picked = other.current.as_ref().and_then(|c| c.picked_pixel());
+        if let Some(current) = &mut self.current
+            && current.picked_pixel() != picked
+        {
+            match picked {
+                Some(pixel) => current.pick(pixel),
+                None => current.unpick(),
+            }
+        }
+    }
+
+    /// The pictures of A and B, as far as they are there.
+    pub fn both(&self) -> [Option<&Current>; 2] {
+        let front = self.current.as_ref();
+        let behind = self.other.as_ref().and_then(|other| other.current.as_ref());
+        in_order(self.which, front, behind)
+    }
+
+    /// Whether A and B may be compared; `None` until both are finished.
+    pub fn verdict(&mut self, ctx: &egui::Context) -> Option<Arc<Verdict>> {
+        let front = self.current.as_ref();
+        let behind = self.other.as_ref().and_then(|other| other.current.as_ref());
+        self.comparing
+            .verdict(in_order(self.which, front, behind), ctx)
+    }
+
+    /// As [`State::both`], to be changed.
+    pub fn both_mut(&mut self) -> [Option<&mut Current>; 2] {
+        let front = self.current.as_mut();
+        let behind = self.other.as_mut().and_then(|other| other.current.as_mut());
+        in_order(self.which, front, behind)
     }
 
     /// Asks for another scene, seen by its own camera.
@@ -155,7 +314,7 @@ impl State {
         };
         self.wanted.own_camera = false;
         self.failure = None;
-        self.again();
+        self.sent = None;
     }
 
     /// Reads the scene again.
@@ -165,7 +324,15 @@ impl State {
 
     /// Asks once more for what is wanted, after it was stopped or failed.
     pub fn again(&mut self) {
-        self.sent = None;
+        self.stopped = false;
+        if !is_served(&self.sent, &self.current) {
+            self.sent = None;
+        }
+        if let Some(other) = &mut self.other
+            && !is_served(&other.sent, &other.current)
+        {
+            other.sent = None;
+        }
     }
 
     /// Stops what the worker does; what is shown stays.
@@ -195,7 +362,17 @@ impl State {
         let mut opened = Vec::new();
         let updates: Vec<_> = self.worker.updates().collect();
         for news in updates {
-            let is_last = self.sent.as_ref().is_some_and(|(n, _)| *n == news.request);
+            // News comes in order: nothing more will come of requests before this one.
+            self.asked = self.asked.split_off(&news.request);
+            let Some(&which) = self.asked.get(&news.request) else {
+                continue;
+            };
+            let is_last = self.asked.len() == 1;
+            let in_front = which == self.which;
+            let place = match &mut self.other {
+                Some(other) if !in_front => &mut other.current,
+                _ => &mut self.current,
+            };
             match news.update {
                 Update::Stage(stage, progress) => {
                     if is_last && !self.stopped {
@@ -204,27 +381,22 @@ impl State {
                 }
                 Update::Shown(shown) => {
                     let source = &shown.request.scene.source;
-                    let known = self.current.as_ref().map(|c| &c.shown.request.scene.source);
-                    if known != Some(source) {
+                    let known = place.as_ref().map(|c| &c.shown.request.scene.source);
+                    if in_front && known != Some(source) {
                         opened.push(source.clone());
                     }
-                    let wish = self.kept_pixel(&shown);
-                    let selection = self.kept_selection(&shown);
-                    let mut current = Current::new(news.request, *shown, wish);
-                    current.selection = selection.unwrap_or(current.selection);
-                    self.current = Some(current);
+                    *place = Some(Current::new(news.request, *shown, place.as_ref()));
+                }
+                Update::Failed(reason) => {
+                    if is_last {
+                        self.fail(which, reason);
+                    }
                 }
                 update => {
-                    if let Update::Failed(reason) = &update
-                        && is_last
-                    {
-                        self.fail(reason.clone());
-                        continue;
-                    }
                     if is_last && matches!(update, Update::Done) {
                         self.work = None;
                     }
-                    if let Some(current) = &mut self.current
+                    if let Some(current) = place
                         && current.number == news.request
                     {
                         current.take(update);
@@ -235,28 +407,14 @@ impl State {
         opened
     }
 
-    /// A picked pixel stays picked in a new picture of the same scene and size, and so does its ray.
-    fn kept_pixel(&self, shown: &Shown) -> Option<Wish> {
-        let before = self.current.as_ref()?;
-        let same = Arc::ptr_eq(&before.shown.scene, &shown.scene)
-            && before.shown.picture.width == shown.picture.width
-            && before.shown.picture.height == shown.picture.height;
-        let picked = before.picked.as_ref().map(|picked| Wish {
-            pixel: picked.pixel,
-            ray: picked.ray,
-        });
-        before.wish.or(picked).filter(|_| same)
-    }
-
-    /// What is selected stays so in another picture of the same tree.
-    fn kept_selection(&self, shown: &Shown) -> Option<Selection> {
-        let before = self.current.as_ref()?;
-        Arc::ptr_eq(&before.shown.tree, &shown.tree).then_some(before.selection)
-    }
-
-    fn fail(&mut self, why: String) {
+    fn fail(&mut self, which: Which, why: String) {
         let loading = matches!(self.work, Some((Stage::Loading, _)));
         self.work = None;
+        if which != self.which {
+            let what = format!("Tree {} could not be shown", which.name());
+            self.failure = Some(Failure { what, why });
+            return;
+        }
         let what = if loading {
             format!("{} could not be opened", self.wanted.scene.source)
         } else {
@@ -275,23 +433,88 @@ impl State {
         }
     }
 
-    /// Sends what is wanted if it is news. A camera move waits until the last request has a
-    /// picture, else moving the camera would starve it.
+    /// Sends what is wanted if it is news; of the tree behind once the one in front is there. A
+    /// camera move waits until the last request has a picture, else moving the camera would starve it.
     pub fn send(&mut self) {
-        if let Some((number, last)) = &self.sent {
-            if *last == self.wanted {
-                return;
+        self.share();
+        let is_sent = |sent: &Option<(u64, Request)>, wanted: &Request| {
+            sent.as_ref().is_some_and(|(_, sent)| sent == wanted)
+        };
+        if !is_sent(&self.sent, &self.wanted) {
+            if let Some((number, last)) = &self.sent {
+                let has_picture = self.current.as_ref().is_some_and(|c| c.number == *number);
+                let in_work = self.work.is_some() && self.is_asked_last();
+                if in_work && !has_picture && same_but_camera(last, &self.wanted) {
+                    return;
+                }
             }
-            let has_picture = self.current.as_ref().is_some_and(|c| c.number == *number);
-            if self.work.is_some() && !has_picture && same_but_camera(last, &self.wanted) {
-                return;
+            // What was begun for the tree behind is broken off.
+            if let Some(other) = &mut self.other
+                && !is_served(&other.sent, &other.current)
+            {
+                other.sent = None;
+            }
+            self.sent = Some((
+                self.ask(self.which, self.wanted.clone()),
+                self.wanted.clone(),
+            ));
+        } else if let Some(other) = &self.other
+            && self.work.is_none()
+            && !self.stopped
+            && !is_sent(&other.sent, &other.wanted)
+        {
+            let wanted = other.wanted.clone();
+            let number = self.ask(self.which.other(), wanted.clone());
+            if let Some(other) = &mut self.other {
+                other.sent = Some((number, wanted));
             }
         }
-        let number = self.worker.request(self.wanted.clone());
-        self.sent = Some((number, self.wanted.clone()));
+    }
+
+    /// Both trees are of the same scene, seen by the same camera.
+    fn share(&mut self) {
+        if let Some(other) = &mut self.other {
+            other.wanted.scene.source = self.wanted.scene.source.clone();
+            other.wanted.reload = self.wanted.reload;
+            other.wanted.own_camera = self.wanted.own_camera;
+            other.wanted.render.camera = self.wanted.render.camera;
+        }
+    }
+
+    fn ask(&mut self, which: Which, wanted: Request) -> u64 {
+        let number = self.worker.request(wanted);
+        self.asked.insert(number, which);
         self.stopped = false;
         self.failure = self.failure.take().filter(|_| self.current.is_some());
         self.work = Some((Stage::Previewing, Progress::new()));
+        number
+    }
+
+    /// Which tree the worker was last asked for.
+    pub fn asked_last(&self) -> Which {
+        let last = self.asked.last_key_value();
+        last.map_or(self.which, |(_, which)| *which)
+    }
+
+    /// Whether that is the one in front.
+    fn is_asked_last(&self) -> bool {
+        self.asked_last() == self.which
+    }
+}
+
+/// What is in front and behind, as A and B.
+fn in_order<T>(in_front: Which, front: T, behind: T) -> [T; 2] {
+    match in_front {
+        Which::A => [front, behind],
+        Which::B => [behind, front],
+    }
+}
+
+/// Whether the last request was answered in full.
+fn is_served(sent: &Option<(u64, Request)>, current: &Option<Current>) -> bool {
+    match (sent, current) {
+        (Some((number, _)), Some(current)) => current.done && current.number == *number,
+        _ => false,
     }
 }
 
@@ -303,7 +526,7 @@ impl Current {
                 sample,
                 colors,
             } => {
-                self.shown.picture.add_tile(&tile, sample, &colors);
+                Arc::make_mut(&mut self.shown.picture).add_tile(&tile, sample, &colors);
                 self.sample = self.sample.max(sample);
                 if let Fresh::Tiles(tiles) = &mut self.fresh {
                     tiles.push(tile);

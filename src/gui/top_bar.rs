@@ -1,5 +1,6 @@
 //! The bar at the top: scene, method, D_MAX, N_OILF, D_AREC, and what is being worked on.
 
+use super::comparing::Which;
 use super::files::Files;
 use super::shortcuts::{Action, text, tip};
 use super::state::State;
@@ -30,6 +31,7 @@ pub fn show(ui: &mut egui::Ui, state: &mut State, files: &mut Files, help: &mut 
         }
     });
     ui.horizontal_wrapped(|ui| {
+        which(ui, state);
         method(ui, state);
         ui.separator();
         d_max(ui, state);
@@ -46,6 +48,36 @@ pub fn toggle_theme(ctx: &egui::Context) {
         egui::Theme::Dark => egui::ThemePreference::Light,
         egui::Theme::Light => egui::ThemePreference::Dark,
     });
+}
+
+/// Which of two compared trees the settings are about.
+fn which(ui: &mut egui::Ui, state: &mut State) {
+    let comparing = state.other.is_some();
+    let about = "Compare with another tree of the same scene, or end that with the one in front.";
+    if ui
+        .add(egui::Button::new("Compare").selected(comparing))
+        .on_hover_text(tip(about, Action::Compare))
+        .clicked()
+    {
+        state.compare_or_not();
+    }
+    if comparing {
+        for which in Which::BOTH {
+            let about = format!(
+                "Bring tree {} to the front: settings and panels are about it.",
+                which.name()
+            );
+            let name = format!("Tree {}", which.name());
+            if ui
+                .add(egui::Button::new(name).selected(state.which == which))
+                .on_hover_text(tip(&about, Action::OtherTree))
+                .clicked()
+            {
+                state.show(which);
+            }
+        }
+    }
+    ui.separator();
 }
 
 fn method(ui: &mut egui::Ui, state: &mut State) {
@@ -164,7 +196,9 @@ fn work(ui: &mut egui::Ui, state: &mut State) {
     };
     let working = state.work.is_some();
     let percent = (fraction * 100.0).round();
-    let shown = if working {
+    let shown = if working && state.other.is_some() {
+        format!("{}: {label} {percent} %", state.asked_last().name())
+    } else if working {
         format!("{label} {percent} %")
     } else {
         label

@@ -46,21 +46,28 @@ pub fn unequal(a: (&Measurement, &Picture), b: (&Measurement, &Picture)) -> Vec<
     }
     if (a.1.width, a.1.height) != (b.1.width, b.1.height) {
         found.push(Unequal::Size);
-    } else {
-        let differ = || {
-            let pairs = a.1.pixels().iter().zip(b.1.pixels()).enumerate();
-            pairs.filter(|(_, (a, b))| a != b).map(|(i, _)| i as u32)
-        };
-        let count = differ().count();
-        if count > 0 {
-            let place = |i: u32| [i % a.1.width, i / a.1.width];
-            found.push(Unequal::Pixels {
-                count,
-                first: differ().take(PIXELS_NAMED).map(place).collect(),
-            });
-        }
+    }
+    let differ = differing_pixels(a.1, b.1);
+    if !differ.is_empty() {
+        let place = |&i: &u32| [i % a.1.width, i / a.1.width];
+        found.push(Unequal::Pixels {
+            count: differ.len(),
+            first: differ.iter().take(PIXELS_NAMED).map(place).collect(),
+        });
     }
     found
+}
+
+/// The pixels whose colours differ, counted row by row; none if the pictures have another size.
+pub fn differing_pixels(a: &Picture, b: &Picture) -> Vec<u32> {
+    if (a.width, a.height) != (b.width, b.height) {
+        return Vec::new();
+    }
+    let pairs = a.pixels().iter().zip(b.pixels()).enumerate();
+    pairs
+        .filter(|(_, (a, b))| a != b)
+        .map(|(i, _)| i as u32)
+        .collect()
 }
 
 impl std::fmt::Display for Unequal {

@@ -8,7 +8,7 @@ mod parameter;
 mod parameters;
 mod verify;
 
-pub use comparison::{Change, Unequal, change, unequal};
+pub use comparison::{Change, Unequal, change, differing_pixels, unequal};
 pub use facts::{SceneFacts, TreeFacts};
 pub use measurement::{MeasureError, Measured, Measurement, Times, measure};
 pub use parameter::{Class, Parameter, Table, Unit, grouped, significant};

@@ -68,7 +68,7 @@ pub struct Shown {
     /// The settings with the camera that was used.
     pub render: RenderSettings,
     /// The coarse first picture.
-    pub picture: Picture,
+    pub picture: Arc<Picture>,
     /// What is known so far.
     pub measurement: Measurement,
 }
@@ -257,10 +257,117 @@ impl From<RenderError> for Stop {
 /// What the thread keeps from one request to the next.
 #[derive(Default)]
 struct Kept {
-    scene: Option<(SceneRequest, u64, Arc<Scene>)>,
-    /// With what is known of it before a ray is traced.
-    tree: Option<(Arc<Tree>, Measurement)>,
+    scenes: LastTwo<Loaded>,
+    trees: LastTwo<Built>,
     pool: Option<(usize, Arc<rayon::ThreadPool>)>,
+}
+
+struct Loaded {
+    request: SceneRequest,
+    reload: u64,
+    scene: Arc<Scene>,
+}
+
+struct Built {
+    scene: Arc<Scene>,
+    tree: Arc<Tree>,
+    /// What is known of it before a ray is traced.
+    known: Measurement,
+}
+
+/// The two things used last, the later first: a comparison goes to and fro between two.
+struct LastTwo<T>(Vec<T>);
+
+impl<T> Default for LastTwo<T> {
+    fn default() -> Self {
+        LastTwo(Vec::new())
+    }
+}
+
+impl<T> LastTwo<T> {
+    /// The one that fits, from now on the one used last.
+    fn find(&mut self, fits: impl FnMut(&T) -> bool) -> Option<&T> {
+        let place = self.0.iter().position(fits)?;
+        self.0[..=place].rotate_right(1);
+        self.0.first()
+    }
+
+    fn put(&mut self, new: T) -> &T {
+        self.0.insert(0, new);
+        self.0.truncate(2);
+        &self.0[0]
+    }
+}
+
+impl Kept {
+    /// The scene asked for, read anew where it is not there. Another file's scenes and trees go
+    /// before that takes memory.
+    fn scene(
+        &mut self,
+        request: &Request,
+        progress: &Progress,
+        reporter: &Reporter<'_>,
+    ) -> Result<Arc<Scene>, Stop> {
+        let (wanted, reload) = (&request.scene, request.reload);
+        self.scenes
+            .0
+            .retain(|known| known.request.source == wanted.source && known.reload == reload);
+        let scenes = &self.scenes.0;
+        self.trees.0.retain(|built| {
+            scenes
+                .iter()
+                .any(|known| Arc::ptr_eq(&known.scene, &built.scene))
+        });
+        if let Some(known) = self.scenes.find(|known| known.request == *wanted) {
+            return Ok(Arc::clone(&known.scene));
+        }
+        reporter.stage(Stage::Loading, progress);
+        let scene = Arc::new(load(wanted, progress)?);
+        let loaded = Loaded {
+            request: wanted.clone(),
+            reload,
+            scene,
+        };
+        Ok(Arc::clone(&self.scenes.put(loaded).scene))
+    }
+
+    /// The tree asked for with what is known of it, built where it is not there.
+    fn tree(
+        &mut self,
+        scene: &Arc<Scene>,
+        request: &Request,
+        render: &RenderSettings,
+        progress: &Progress,
+        reporter: &Reporter<'_>,
+    ) -> Result<&Built, Stop> {
+        let fits =
+            |built: &Built| Arc::ptr_eq(&built.scene, scene) && built.known.build == request.build;
+        if !self.trees.0.iter().any(fits) {
+            reporter.stage(Stage::Building, progress);
+            let (tree, building) = Times::of(|| build(scene, &request.build, progress));
+            let tree = Arc::new(tree?);
+            self.trees.put(Built {
+                scene: Arc::clone(scene),
+                known: Measurement::of_tree(scene, &tree, building, render),
+                tree,
+            });
+        }
+        Ok(self
+            .trees
+            .find(fits)
+            .expect("it was there or was put there"))
+    }
+
+    fn pool(&mut self, threads: usize) -> Result<Arc<rayon::ThreadPool>, Stop> {
+        match &self.pool {
+            Some((known, pool)) if *known == threads => Ok(Arc::clone(pool)),
+            _ => {
+                let pool = Arc::new(thread_pool(threads)?);
+                self.pool = Some((threads, Arc::clone(&pool)));
+                Ok(pool)
+            }
+        }
+    }
 }
 
 struct Job {
@@ -324,18 +431,7 @@ fn serve(
     progress: &Progress,
     reporter: &Reporter<'_>,
 ) -> Result<(), Stop> {
-    let scene = match &kept.scene {
-        Some((source, reload, scene)) if *source == request.scene && *reload == request.reload => {
-            Arc::clone(scene)
-        }
-        _ => {
-            reporter.stage(Stage::Loading, progress);
-            let scene = Arc::new(load(&request.scene, progress)?);
-            kept.scene = Some((request.scene.clone(), request.reload, Arc::clone(&scene)));
-            kept.tree = None;
-            scene
-        }
-    };
+    let scene = kept.scene(request, progress, reporter)?;
     let camera: Camera = if request.own_camera {
         request.render.camera
     } else {
@@ -348,32 +444,18 @@ fn serve(
     // A wrong camera or size is told before work is done for it.
     render.view()?;
 
-    let (tree, known) = match &kept.tree {
-        Some((tree, known)) if known.build == request.build => (Arc::clone(tree), known.clone()),
-        _ => {
-            reporter.stage(Stage::Building, progress);
-            let (tree, building) = Times::of(|| build(&scene, &request.build, progress));
-            let tree = Arc::new(tree?);
-            let known = Measurement::of_tree(&scene, &tree, building, &render);
-            kept.tree = Some((Arc::clone(&tree), known.clone()));
-            (tree, known)
-        }
-    };
-    let pool = match &kept.pool {
-        Some((threads, pool)) if *threads == render.threads => Arc::clone(pool),
-        _ => {
-            let pool = Arc::new(thread_pool(render.threads)?);
-            kept.pool = Some((render.threads, Arc::clone(&pool)));
-            pool
-        }
-    };
+    let pool = kept.pool(render.threads)?;
+    let Built { tree, known, .. } = kept.tree(&scene, request, &render, progress, reporter)?;
 
     reporter.stage(Stage::Previewing, progress);
-    let mut measurement = Measurement { render, ..known };
+    let mut measurement = Measurement {
+        render,
+        ..known.clone()
+    };
     let picture = Mutex::new(Picture::new(render.width, render.height));
     preview(
         &scene,
-        &tree,
+        tree,
         &render,
         PREVIEW_STEP,
         &pool,
@@ -383,18 +465,20 @@ fn serve(
     reporter.send(Update::Shown(Box::new(Shown {
         request: request.clone(),
         scene: Arc::clone(&scene),
-        tree: Arc::clone(&tree),
+        tree: Arc::clone(tree),
         render,
-        picture: picture
-            .into_inner()
-            .unwrap_or_else(std::sync::PoisonError::into_inner),
+        picture: Arc::new(
+            picture
+                .into_inner()
+                .unwrap_or_else(std::sync::PoisonError::into_inner),
+        ),
         measurement: measurement.clone(),
     })));
 
     let trace = |sample: u32| -> Result<TimedPass, Stop> {
         Ok(timed_pass(
             &scene,
-            &tree,
+            tree,
             &render,
             sample,
             &pool,
@@ -416,7 +500,7 @@ fn serve(
     let every_pixel =
         (pixels <= PIXEL_COUNTS_LIMIT).then(|| PixelCounts::new(render.width, render.height));
     let so_far = Mutex::new((measurement.clone(), every_pixel, Instant::now()));
-    let counted = counted_pass(&scene, &tree, &render, &pool, progress, |part| {
+    let counted = counted_pass(&scene, tree, &render, &pool, progress, |part| {
         let mut guard = lock(&so_far);
         let (measurement, every_pixel, last) = &mut *guard;
         if let Some(counts) = every_pixel {

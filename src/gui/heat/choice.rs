@@ -1,7 +1,7 @@
 //! What the picture pane shows of every pixel, as the user chose it.
 
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter};
-use crate::overlay::{HeatScale, Range, Scale};
+use crate::overlay::{COLORMAPS, HeatScale, Range, Scale};
 use std::collections::BTreeMap;
 
 /// The choice. Heatmaps and colour maps go by their place in their registries.
@@ -12,11 +12,14 @@ pub struct Choice {
     /// Kept for the heatmaps that tell rays apart while one is shown that does not.
     rays: RayFilter,
     pub scale: Scale,
-    pub colors: usize,
+    /// Of values, and of differences.
+    colors: [usize; 2],
+    /// Whether differences of two pictures are shown.
+    pub differences: bool,
     /// How much of the picture the heatmap hides, 0 to 1.
     pub opacity: f32,
-    /// By heatmap: numbers of one make no range for another.
-    locked: BTreeMap<usize, [f64; 2]>,
+    /// By heatmap, and whether of differences: numbers of one make no range for another.
+    locked: BTreeMap<(usize, bool), [f64; 2]>,
 }
 
 impl Default for Choice {
@@ -25,7 +28,11 @@ impl Default for Choice {
             heatmap: None,
             rays: RayFilter::default(),
             scale: Scale::default(),
-            colors: 0,
+            colors: [false, true].map(|diverging| {
+                let first = COLORMAPS.iter().position(|c| c.diverging == diverging);
+                first.expect("there are maps of both sorts")
+            }),
+            differences: false,
             opacity: 1.0,
             locked: BTreeMap::new(),
         }
@@ -66,9 +73,18 @@ impl Choice {
         };
     }
 
+    /// The colour map in use, by its place.
+    pub fn colors(&self) -> usize {
+        self.colors[usize::from(self.differences)]
+    }
+
+    pub fn set_colors(&mut self, place: usize) {
+        self.colors[usize::from(self.differences)] = place;
+    }
+
     /// The range that the heatmap is locked to.
     pub fn locked(&self) -> Option<[f64; 2]> {
-        self.locked.get(&self.heatmap?).copied()
+        self.locked.get(&(self.heatmap?, self.differences)).copied()
     }
 
     pub fn range(&self) -> Range {
@@ -80,10 +96,10 @@ impl Choice {
     pub fn lock(&mut self, range: Option<[f64; 2]>) {
         match (self.heatmap, range) {
             (Some(place), Some(range)) => {
-                self.locked.insert(place, range);
+                self.locked.insert((place, self.differences), range);
             }
             (Some(place), None) => {
-                self.locked.remove(&place);
+                self.locked.remove(&(place, self.differences));
             }
             (None, _) => {}
         }

@@ -55,7 +55,9 @@ impl HeatView {
             ui.strong("Colours");
             for (place, map) in COLORMAPS.iter().enumerate() {
                 let name = format!("{}: {}", map.name, map.about);
-                ui.radio_value(&mut self.choice.colors, place, name);
+                if ui.radio(self.choice.colors() == place, name).clicked() {
+                    self.choice.set_colors(place);
+                }
             }
             ui.separator();
             self.ends(ui, heatmap);
@@ -108,8 +110,7 @@ impl HeatView {
             self.choice.lock(Some([lo, hi]));
         }
         let whole = self
-            .look
-            .as_ref()
+            .look()
             .and_then(|look| look.values.statistics)
             .filter(|found| found.lowest < found.highest);
         if let Some(found) = whole
@@ -123,8 +124,7 @@ impl HeatView {
     /// Buttons to the pixels in the order of their values.
     fn expensive(&mut self, ui: &mut egui::Ui) {
         let some = self
-            .look
-            .as_ref()
+            .look()
             .is_some_and(|look| look.values.statistics.is_some());
         ui.label("costliest:")
             .on_hover_text("Pixels in the order of the values shown, from the highest.");

@@ -45,7 +45,7 @@ impl HeatView {
         let shown = ui.vertical(|ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
             ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
-            match self.look.clone() {
+            match self.look().cloned() {
                 Some(look) => self.contents(ui, &look, state, hovered),
                 None => {
                     // The picture keeps its size while its values are on their way.
@@ -74,15 +74,15 @@ impl HeatView {
 
     /// Stops the pass that takes the times, or begins it anew.
     fn timing_button(&mut self, ui: &mut egui::Ui) {
-        let (name, about) = match self.timing.standing() {
+        let (name, about) = match self.timing().standing() {
             Standing::Waiting => return,
             Standing::Running(_) => ("Cancel timing", "Stop taking the time of every pixel."),
             Standing::Ended(_) => ("Take times", "Take the time of every pixel after all."),
         };
         if ui.button(name).on_hover_text(about).clicked() {
-            match self.timing.standing() {
-                Standing::Running(_) => self.timing.cancel(),
-                _ => self.timing.again(),
+            match self.timing().standing() {
+                Standing::Running(_) => self.timing().cancel(),
+                _ => self.timing().again(),
             }
         }
     }
@@ -109,7 +109,7 @@ impl HeatView {
     /// whose tooltip has the rest.
     fn words(&self, ui: &mut egui::Ui, look: &Look) {
         let heatmap = look.heatmap();
-        let title = format!("{} · {}", heatmap.symbol, heatmap.name);
+        let title = look.title();
         let mut terms = look.terms();
         if self.choice.opacity < 1.0 {
             let percent = self.choice.opacity * 100.0;

@@ -13,6 +13,8 @@ use std::sync::Arc;
 pub struct ValuesKey {
     /// Number of the picture.
     pub number: u64,
+    /// The picture whose values are taken away from it, for a difference.
+    pub minus: Option<u64>,
     /// Place in [`HEATMAPS`].
     pub heatmap: usize,
     pub rays: RayFilter,
@@ -24,6 +26,8 @@ pub struct LookKey {
     pub values: ValuesKey,
     pub scale: Scale,
     pub range: Range,
+    /// Whether the range spans the values of two compared pictures.
+    pub spans_both: bool,
     /// Place in [`COLORMAPS`].
     pub colors: usize,
 }
@@ -33,6 +37,7 @@ pub struct Values {
     pub image: HeatImage,
     /// `None` where no pixel has a value.
     pub statistics: Option<HeatStatistics>,
+    /// Of the whole picture; `None` where it has no value, and for a difference.
     total: Option<f64>,
 }
 
@@ -44,6 +49,16 @@ impl Values {
             total: heatmap.total(counts, rays),
             image,
         }
+    }
+
+    /// What these are more than others, pixel by pixel; `None` for pictures of different sizes.
+    pub fn less(&self, others: &Values) -> Option<Values> {
+        let image = self.image.difference(&others.image)?;
+        Some(Values {
+            statistics: image.statistics(),
+            total: None,
+            image,
+        })
     }
 
     /// All pixels that have a value, the most expensive first; of equals, the upper left first.
@@ -100,12 +115,38 @@ impl Look {
         &HEATMAPS[self.key.values.heatmap]
     }
 
+    /// Symbol and name, and that it is a difference.
+    pub fn title(&self) -> String {
+        let heatmap = self.heatmap();
+        let title = format!("{} · {}", heatmap.symbol, heatmap.name);
+        if self.is_difference() {
+            title + " · B − A"
+        } else {
+            title
+        }
+    }
+
+    pub fn is_difference(&self) -> bool {
+        self.key.values.minus.is_some()
+    }
+
     /// The value of a pixel with its unit.
-    pub fn value_text(&self, [x, y]: [u32; 2]) -> String {
-        match self.values.image.get(x, y) {
-            Some(value) => format!("{} {}", exact(f64::from(value)), self.heatmap().unit),
+    pub fn value_text(&self, pixel: [u32; 2]) -> String {
+        match self.number_text(pixel) {
+            Some(number) => format!("{number} {}", self.heatmap().unit),
             None => "no value".to_owned(),
         }
+    }
+
+    /// The value of a pixel without its unit.
+    pub fn number_text(&self, [x, y]: [u32; 2]) -> Option<String> {
+        let value = f64::from(self.values.image.get(x, y)?);
+        let sign = if self.is_difference() && value > 0.0 {
+            "+"
+        } else {
+            ""
+        };
+        Some(format!("{sign}{}", exact(value)))
     }
 
     /// Where a pixel's value lies on the colour bar, 0 to 1.
@@ -120,7 +161,9 @@ impl Look {
         if self.heatmap().filters().len() > 1 {
             text = format!("{} rays · {text}", self.key.values.rays.name());
         }
-        if let Range::Fixed { lo, hi } = self.key.range {
+        if self.key.spans_both {
+            text += " · range of A and B together";
+        } else if let Range::Fixed { lo, hi } = self.key.range {
             text += &format!(" · locked {} to {}", exact(lo), exact(hi));
         }
         text
@@ -150,6 +193,9 @@ impl Look {
     /// What all pixels make together.
     pub fn whole(&self) -> String {
         let heatmap = self.heatmap();
+        if self.is_difference() {
+            return "Below zero B has less than A, above zero more.".to_owned();
+        }
         let Some(total) = self.values.total else {
             return "The whole picture has no value.".to_owned();
         };

@@ -3,34 +3,39 @@
 
 mod choice;
 mod controls;
+mod layer;
 mod legend;
 mod look;
 mod timing;
 
 use super::background::Latest;
+use super::comparing::{View, Which};
 use super::shortcuts::Action;
 use super::state::{Current, State};
 use super::symbol::grouped;
-use crate::measure::heat::Source;
+use crate::measure::heat::{Heatmap, Source};
+use crate::overlay::Range;
 use crate::worker::{PIXEL_COUNTS_LIMIT, Stage};
 use choice::Choice;
-use egui::{Color32, TextureHandle, TextureId, TextureOptions};
+use egui::{Color32, TextureId};
+use layer::Layer;
 use look::{Look, LookKey, Values, ValuesKey};
 use std::sync::Arc;
 use timing::{Standing, Timing};
 
-/// The heatmap over the picture.
+/// The heatmaps over the picture, or over the pictures of two compared trees.
 #[derive(Default)]
 pub struct HeatView {
     choice: Choice,
-    values: Latest<ValuesKey, Values>,
-    looks: Latest<LookKey, Look>,
+    /// Of A and of B.
+    layers: [Layer; 2],
+    /// Of B less A.
+    difference: Layer,
+    /// Of A and of B.
+    timings: [Timing; 2],
+    /// What legend and keys are about.
+    on: On,
     orders: Latest<ValuesKey, Vec<u32>>,
-    timing: Timing,
-    /// What is on view; `None` for the picture alone, and while there is nothing to show yet.
-    look: Option<Arc<Look>>,
-    /// Holds the colours of the look with this key.
-    texture: Option<(LookKey, TextureHandle)>,
     /// Steps down the order of expense that were asked for.
     steps: i64,
     ranked: Option<Ranked>,
@@ -38,6 +43,20 @@ pub struct HeatView {
     legend_height: f32,
     /// Whether the pane is too short for all of the legend.
     short: bool,
+}
+
+/// What the pane shows of two trees.
+#[derive(Clone, Copy, PartialEq)]
+enum On {
+    /// The picture of one; there may be the other beside it.
+    Picture(Which),
+    Difference,
+}
+
+impl Default for On {
+    fn default() -> Self {
+        On::Picture(Which::A)
+    }
 }
 
 /// A pixel found by its rank.
@@ -51,54 +70,116 @@ struct Ranked {
 }
 
 impl HeatView {
-    /// Brings what is on view up to date with choice and picture. Until new colours are there, the
+    /// Brings what is on view up to date with choice and pictures. Until new colours are there, the
     /// last ones of the same picture stay, with their own legend.
     pub fn update(&mut self, ctx: &egui::Context, state: &State) {
-        let number = state.current.as_ref().map(|current| current.number);
-        let shown = self.look.as_ref().map(|look| look.key.values.number);
-        if shown != number {
-            self.look = None;
-        }
-        let Some((_, heatmap)) = self.choice.heatmap() else {
-            self.timing.give_up();
-            self.look = None;
+        let comparing = state.other.is_some();
+        self.on = match state.comparing.view {
+            View::Difference if comparing => On::Difference,
+            _ => On::Picture(state.which),
+        };
+        self.choice.differences = self.on == On::Difference;
+        let both = state.both();
+        let [a, b] = both.map(|side| side.map(|current| current.number));
+        let [of_a, of_b] = &mut self.layers;
+        of_a.keep_only(a, None);
+        of_b.keep_only(b, None);
+        self.difference.keep_only(b, a);
+        let Some((place, heatmap)) = self.choice.heatmap() else {
+            self.timings.iter_mut().for_each(Timing::give_up);
+            self.layers = Default::default();
+            self.difference = Layer::default();
             return;
         };
-        let Some(current) = &state.current else {
-            return;
-        };
-        let Some(key) = self.chosen(current) else {
-            return;
-        };
-        let values = if self.is_timed() {
-            let times = if is_too_large(current) {
-                None
-            } else {
-                self.timing.get(heatmap, state, ctx)
+        let values = [Which::A, Which::B].map(|which| {
+            let current = both[which as usize]?;
+            let key = ValuesKey {
+                number: current.number,
+                minus: None,
+                heatmap: place,
+                rays: self.choice.rays(),
             };
-            if times.is_none() {
-                self.look = None;
+            let values = self.values(which, key, heatmap, current, state, ctx)?;
+            Some((key, values))
+        });
+        match (self.on, values) {
+            (On::Difference, [Some((a, of_a)), Some((b, of_b))]) => {
+                let same = |v: &Values| (v.image.width, v.image.height);
+                if same(&of_a) != same(&of_b) {
+                    return;
+                }
+                let key = ValuesKey {
+                    minus: Some(a.number),
+                    ..b
+                };
+                let less = move || of_b.less(&of_a).expect("the sizes are equal");
+                if let Some(values) = self.difference.values(key, ctx, less) {
+                    let key = self.look_key(key, None);
+                    self.difference.show(key, values, ctx);
+                }
             }
-            times
+            (On::Difference, _) => {}
+            (On::Picture(_), values) => {
+                let span = match &values {
+                    [Some((_, a)), Some((_, b))] => span([a, b]),
+                    _ => None,
+                };
+                for (which, values) in [Which::A, Which::B].into_iter().zip(values) {
+                    if let Some((key, values)) = values {
+                        let key = self.look_key(key, span);
+                        self.layers[which as usize].show(key, values, ctx);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The values of one picture, once they are there.
+    fn values(
+        &mut self,
+        which: Which,
+        key: ValuesKey,
+        heatmap: &'static Heatmap,
+        current: &Current,
+        state: &State,
+        ctx: &egui::Context,
+    ) -> Option<Arc<Values>> {
+        let layer = &mut self.layers[which as usize];
+        if !matches!(heatmap.source, Source::Time) {
+            self.timings[which as usize].give_up();
+            let counts = Arc::clone(current.pixel_counts.as_ref()?);
+            return layer.values(key, ctx, move || Values::of(heatmap, &counts, key.rays));
+        }
+        // One pass at a time, that over the picture in front first.
+        let waits = which != state.which && self.timings[state.which as usize].is_running();
+        let times = if is_too_large(current) || waits {
+            None
         } else {
-            self.timing.give_up();
-            current.pixel_counts.as_ref().and_then(|counts| {
-                let counts = Arc::clone(counts);
-                self.values
-                    .get(&key, ctx, move || Values::of(heatmap, &counts, key.rays))
-            })
+            self.timings[which as usize].get(heatmap, current, state, ctx)
         };
-        let Some(values) = values else {
-            return;
-        };
-        let key = LookKey {
-            values: key,
+        if times.is_none() {
+            layer.look = None;
+        }
+        times
+    }
+
+    fn look_key(&self, values: ValuesKey, span: Option<Range>) -> LookKey {
+        let range = self.choice.range();
+        let spanning = span.filter(|_| range == Range::Automatic);
+        LookKey {
+            values,
             scale: self.choice.scale,
-            range: self.choice.range(),
-            colors: self.choice.colors,
-        };
-        if let Some(look) = self.looks.get(&key, ctx, move || Look::of(key, values)) {
-            self.look = Some(look);
+            range: spanning.unwrap_or(range),
+            spans_both: spanning.is_some(),
+            colors: self.choice.colors(),
+        }
+    }
+
+    /// What the legend is about.
+    fn look(&self) -> Option<&Arc<Look>> {
+        match self.on {
+            On::Picture(which) => self.layers[which as usize].look.as_ref(),
+            On::Difference => self.difference.look.as_ref(),
         }
     }
 
@@ -108,11 +189,15 @@ impl HeatView {
         if self.steps == 0 {
             return false;
         }
-        let chosen = self.chosen(current);
-        let shown = self.look.as_ref();
-        let Some(look) = shown.filter(|look| Some(look.key.values) == chosen) else {
+        let shown = self.look().cloned();
+        let chosen = shown.filter(|look| {
+            let key = look.key.values;
+            self.choice.heatmap == Some(key.heatmap) && key.rays == self.choice.rays()
+        });
+        let Some(look) = chosen else {
             // What was chosen a moment ago is worth waiting for; what is still to be traced, not.
-            if chosen.is_none() || current.pixel_counts.is_none() || self.is_timed() {
+            let is_chosen = self.choice.heatmap.is_some();
+            if !is_chosen || current.pixel_counts.is_none() || self.is_timed() {
                 self.steps = 0;
             }
             return false;
@@ -144,15 +229,6 @@ impl HeatView {
         true
     }
 
-    /// The values that were chosen; `None` for the picture alone.
-    fn chosen(&self, current: &Current) -> Option<ValuesKey> {
-        Some(ValuesKey {
-            number: current.number,
-            heatmap: self.choice.heatmap?,
-            rays: self.choice.rays(),
-        })
-    }
-
     /// Whether the times of pixels were chosen.
     fn is_timed(&self) -> bool {
         self.choice
@@ -163,7 +239,7 @@ impl HeatView {
     /// The rank of the picked pixel, if it was found by it.
     fn rank_of_picked(&self, current: &Current) -> Option<&Ranked> {
         let picked = current.picked_pixel()?;
-        let key = self.look.as_ref()?.key.values;
+        let key = self.look()?.key.values;
         self.ranked
             .as_ref()
             .filter(|ranked| ranked.pixel == picked && ranked.key == key)
@@ -194,56 +270,80 @@ impl HeatView {
 
     /// The ends of the colour bar, if it is of the heatmap that was chosen.
     fn range_on_view(&self) -> Option<[f64; 2]> {
-        let look = self.look.as_ref()?;
+        let look = self.look()?;
         let chosen = self.choice.heatmap == Some(look.key.values.heatmap);
         let scale = look.scale.as_ref().filter(|_| chosen)?;
         Some(choice::range_of(scale, look.heatmap()))
     }
 
+    /// Whether the picture is shown alone.
+    pub fn is_picture(&self) -> bool {
+        self.choice.heatmap.is_none()
+    }
+
+    /// Shows the picture alone.
+    pub fn show_picture(&mut self) {
+        self.choice.heatmap = None;
+    }
+
     /// Frees the processor for the worker's own timing.
     pub fn make_way(&mut self, state: &State) {
-        self.timing.make_way(state);
-    }
-
-    /// Colours to draw over the picture, and how: `None` while the picture is to be seen alone.
-    pub fn texture(&mut self, ctx: &egui::Context) -> Option<(TextureId, Color32)> {
-        let look = self.look.as_ref()?;
-        let fits = |texture: &TextureHandle| texture.size() == look.pixels.size;
-        match &mut self.texture {
-            Some((key, _)) if *key == look.key => {}
-            Some((key, texture)) if fits(texture) => {
-                texture.set(Arc::clone(&look.pixels), TextureOptions::NEAREST);
-                *key = look.key;
-            }
-            texture => {
-                let pixels = Arc::clone(&look.pixels);
-                let handle = ctx.load_texture("heatmap", pixels, TextureOptions::NEAREST);
-                *texture = Some((look.key, handle));
-            }
+        for (timing, current) in self.timings.iter_mut().zip(state.both()) {
+            timing.make_way(current, state);
         }
-        let (_, texture) = self.texture.as_ref()?;
-        let tint = Color32::WHITE.gamma_multiply(self.choice.opacity);
-        Some((texture.id(), tint))
     }
 
-    /// The value of a pixel in words, for the status line.
+    /// Colours to draw over a picture, and how; `None` while it is to be seen alone.
+    pub fn texture(&mut self, which: Which, ctx: &egui::Context) -> Option<(TextureId, Color32)> {
+        let layer = match self.on {
+            On::Picture(_) => &mut self.layers[which as usize],
+            On::Difference => &mut self.difference,
+        };
+        Some((layer.texture(ctx)?, layer::tint(self.choice.opacity)))
+    }
+
+    /// The values of a pixel in words, for the status line: of both trees where both are on view.
     pub fn value_text(&self, pixel: [u32; 2]) -> Option<String> {
-        let look = self.look.as_ref()?;
+        let look = self.look()?;
         let symbol = look.heatmap().symbol;
-        Some(format!("{symbol} {}", look.value_text(pixel)))
+        Some(match (self.on, &self.layers) {
+            (On::Difference, _) => format!("{symbol} B − A {}", look.value_text(pixel)),
+            (_, [Layer { look: Some(a), .. }, Layer { look: Some(b), .. }]) => {
+                let [a, b] = [a, b].map(|look| look.number_text(pixel).unwrap_or("–".to_owned()));
+                format!("{symbol} A {a} · B {b} {}", look.heatmap().unit)
+            }
+            _ => format!("{symbol} {}", look.value_text(pixel)),
+        })
+    }
+
+    /// The pass whose standing matters now.
+    fn timing(&mut self) -> &mut Timing {
+        let [a, b] = &mut self.timings;
+        match self.on {
+            On::Picture(Which::A) => a,
+            On::Picture(Which::B) => b,
+            On::Difference if a.is_taken() => b,
+            On::Difference => a,
+        }
     }
 
     /// Why there is nothing to show yet.
-    fn note(&self, state: &State) -> String {
+    fn note(&mut self, state: &State) -> String {
         let Some(current) = &state.current else {
             return "counting … begins when there is a picture".to_owned();
         };
+        if let (On::Difference, [Some(a), Some(b)]) = (self.on, state.both()) {
+            let size = |side: &Current| (side.shown.picture.width, side.shown.picture.height);
+            if size(a) != size(b) {
+                return "No difference: the pictures have another size.".to_owned();
+            }
+        }
         if is_too_large(current) {
             let limit = grouped(PIXEL_COUNTS_LIMIT as usize);
             return format!("Only pictures of up to {limit} pixels are counted pixel by pixel.");
         }
         if self.is_timed() {
-            return match self.timing.standing() {
+            return match self.timing().standing() {
                 Standing::Running(done) => {
                     format!("timing every pixel … {:.0} %", done * 100.0)
                 }
@@ -255,7 +355,10 @@ impl HeatView {
             };
         }
         if current.pixel_counts.is_some() {
-            return "colouring …".to_owned();
+            return match self.on {
+                On::Picture(_) => "colouring …".to_owned(),
+                On::Difference => "counting the other tree …".to_owned(),
+            };
         }
         match &state.work {
             Some((Stage::Counting, progress)) => {
@@ -270,4 +373,12 @@ impl HeatView {
 fn is_too_large(current: &Current) -> bool {
     let picture = &current.shown.picture;
     u64::from(picture.width) * u64::from(picture.height) > PIXEL_COUNTS_LIMIT
+}
+
+/// From the lowest to the highest value of two pictures; `None` where that is no range.
+fn span(both: [&Values; 2]) -> Option<Range> {
+    let [a, b] = both.map(|values| values.statistics);
+    let (a, b) = (a?, b?);
+    let (lo, hi) = (a.lowest.min(b.lowest), a.highest.max(b.highest));
+    (lo < hi).then_some(Range::Fixed { lo, hi })
 }

@@ -47,15 +47,15 @@ pub enum Standing {
 }
 
 impl Timing {
-    /// The times of the current picture's pixels; begins to take them if the worker rests.
+    /// The times of a picture's pixels; begins to take them if the worker rests.
     pub fn get(
         &mut self,
         heatmap: &'static Heatmap,
+        current: &Current,
         state: &State,
         ctx: &egui::Context,
     ) -> Option<Arc<Values>> {
-        let current = state.current.as_ref()?;
-        self.make_way(state);
+        self.make_way(Some(current), state);
         if let Pass::Running(running) = &self.pass {
             self.pass = match running.receiver.try_recv() {
                 Ok(Ok(values)) => Pass::Taken(Arc::new(values)),
@@ -69,7 +69,7 @@ impl Timing {
         }
         match &self.pass {
             Pass::Taken(values) => Some(Arc::clone(values)),
-            Pass::Due if may_run(state) => {
+            Pass::Due if may_run(current, state) => {
                 self.number = Some(current.number);
                 self.pass = Pass::Running(start(heatmap, current, ctx));
                 ctx.request_repaint_after_secs(0.1);
@@ -81,20 +81,20 @@ impl Timing {
 
     /// Gives up a pass that the worker's own times would suffer from, and one over a picture that
     /// is gone.
-    pub fn make_way(&mut self, state: &State) {
-        let number = state.current.as_ref().map(|current| current.number);
+    pub fn make_way(&mut self, current: Option<&Current>, state: &State) {
+        let number = current.map(|current| current.number);
         if self.number != number {
             self.number = number;
             self.pass = Pass::Due;
         }
-        if !may_run(state) {
+        if !current.is_some_and(|current| may_run(current, state)) {
             self.give_up();
         }
     }
 
     /// Gives up a pass that runs; it begins anew when asked for again.
     pub fn give_up(&mut self) {
-        if matches!(self.pass, Pass::Running(_)) {
+        if self.is_running() {
             self.pass = Pass::Due;
         }
     }
@@ -108,6 +108,14 @@ impl Timing {
         self.pass = Pass::Due;
     }
 
+    pub fn is_taken(&self) -> bool {
+        matches!(self.pass, Pass::Taken(_))
+    }
+
+    pub fn is_running(&self) -> bool {
+        matches!(self.pass, Pass::Running(_))
+    }
+
     pub fn standing(&self) -> Standing {
         match &self.pass {
             Pass::Due | Pass::Taken(_) => Standing::Waiting,
@@ -118,8 +126,8 @@ impl Timing {
 }
 
 /// Whether there is a finished picture and the worker has nothing to do.
-fn may_run(state: &State) -> bool {
-    state.work.is_none() && state.current.as_ref().is_some_and(|current| current.done)
+fn may_run(current: &Current, state: &State) -> bool {
+    state.work.is_none() && current.done
 }
 
 fn start(heatmap: &'static Heatmap, current: &Current, ctx: &egui::Context) -> Running {

@@ -1,6 +1,7 @@
 //! The panels beside the panes. A panel is one file here and one line in [`PANELS`].
 
 mod build_settings;
+mod comparison;
 mod figures;
 mod parameters;
 mod picture_settings;
@@ -32,6 +33,7 @@ pub static PANELS: &[Panel] = &[
     build_settings::PANEL,
     picture_settings::PANEL,
     scene_facts::PANEL,
+    comparison::PANEL,
     figures::DELTA_PANEL,
     figures::LAMBDA_PANEL,
     pixel::PANEL,

@@ -1,0 +1,140 @@
+//! Two trees beside each other: which of them is meant, how their pictures are shown, and whether
+//! they may be compared at all.
+
+use super::background::Latest;
+use super::state::Current;
+use crate::measure::{Unequal, differing_pixels, unequal};
+use std::sync::Arc;
+
+/// One of the two trees of a comparison. Without one there is only A.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    A,
+    B,
+}
+
+impl Which {
+    pub const BOTH: [Which; 2] = [Which::A, Which::B];
+
+    pub const fn name(self) -> &'static str {
+        match self {
+            Which::A => "A",
+            Which::B => "B",
+        }
+    }
+
+    pub const fn other(self) -> Which {
+        match self {
+            Which::A => Which::B,
+            Which::B => Which::A,
+        }
+    }
+}
+
+/// How two pictures share the pane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum View {
+    /// The picture in front alone.
+    One,
+    /// A to the left of a line that can be moved, B to the right of it.
+    Wipe,
+    /// A in the left half, B in the right one.
+    Beside,
+    /// What B has more or less than A.
+    Difference,
+}
+
+impl View {
+    pub const ALL: [View; 4] = [View::One, View::Wipe, View::Beside, View::Difference];
+
+    pub const fn name(self) -> &'static str {
+        match self {
+            View::One => "one",
+            View::Wipe => "wipe",
+            View::Beside => "side by side",
+            View::Difference => "difference",
+        }
+    }
+
+    pub const fn about(self) -> &'static str {
+        match self {
+            View::One => "The picture of the tree in front; hold F for the other's.",
+            View::Wipe => "A to the left of a line, B to the right; drag the line.",
+            View::Beside => "A in the left half, B in the right one, moved and zoomed together.",
+            View::Difference => {
+                "Of a heatmap, pixel by pixel, B less A; of the picture, the pixels that differ."
+            }
+        }
+    }
+
+    /// The view after this one, in a circle.
+    pub fn next(self) -> View {
+        let at = View::ALL.iter().position(|view| *view == self);
+        View::ALL[(at.unwrap_or(0) + 1) % View::ALL.len()]
+    }
+}
+
+/// How two trees are compared.
+pub struct Comparing {
+    pub view: View,
+    /// Where the wipe's line lies, 0 at the pictures' left edge to 1 at the right one.
+    pub split: f32,
+    /// Whether the other picture is held to the front for the moment.
+    pub flipped: bool,
+    /// Whether the pixels that differ are asked for, in place of any heatmap.
+    pub asks_for_pixels: bool,
+    /// Whether all parameters are listed, or Δ and Λ alone.
+    pub all_parameters: bool,
+    verdict: Latest<[u64; 2], Verdict>,
+}
+
+impl Default for Comparing {
+    fn default() -> Self {
+        Comparing {
+            view: View::Wipe,
+            split: 0.5,
+            flipped: false,
+            asks_for_pixels: false,
+            all_parameters: false,
+            verdict: Latest::default(),
+        }
+    }
+}
+
+/// Whether two trees may be compared.
+pub struct Verdict {
+    /// What keeps them from it; nothing if they may.
+    pub reasons: Vec<Unequal>,
+    /// The pixels whose colours differ, row by row; none of pictures of different sizes.
+    pub pixels: Vec<u32>,
+}
+
+impl Comparing {
+    /// The verdict on two finished pictures; `None` until it is there.
+    pub fn verdict(
+        &mut self,
+        both: [Option<&Current>; 2],
+        ctx: &egui::Context,
+    ) -> Option<Arc<Verdict>> {
+        let [Some(a), Some(b)] = both else {
+            return None;
+        };
+        if !(a.done && b.done) {
+            return None;
+        }
+        let key = [a.number, b.number];
+        if let Some(verdict) = self.verdict.ready(&key) {
+            return Some(verdict);
+        }
+        let [a, b] = [a, b].map(|side| {
+            (
+                side.shown.measurement.clone(),
+                Arc::clone(&side.shown.picture),
+            )
+        });
+        self.verdict.get(&key, ctx, move || Verdict {
+            reasons: unequal((&a.0, &a.1), (&b.0, &b.1)),
+            pixels: differing_pixels(&a.1, &b.1),
+        })
+    }
+}

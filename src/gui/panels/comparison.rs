@@ -1,0 +1,148 @@
+//! Two trees of a scene: their figures in three columns, A, B and B/A, as in the paper's Table 5;
+//! or why they may not be compared.
+
+use super::figures::value;
+use super::{Panel, Side};
+use crate::gui::comparing::{Verdict, View, Which};
+use crate::gui::shortcuts::{Action, tip};
+use crate::gui::state::{Current, State};
+use crate::gui::symbol::symbol;
+use crate::measure::{DELTA, LAMBDA, PARAMETERS, Parameter, Unequal, change, parameter};
+
+pub(super) const PANEL: Panel = Panel {
+    title: "A and B",
+    side: Side::Right,
+    open: true,
+    show,
+};
+
+fn show(ui: &mut egui::Ui, state: &mut State) {
+    let about = "A second tree of the same scene, seen by the same camera, with settings of its \
+                 own.";
+    if state.other.is_none() {
+        if ui
+            .button("Compare with another tree")
+            .on_hover_text(tip(about, Action::Compare))
+            .clicked()
+        {
+            state.compare_or_not();
+        }
+        return;
+    }
+    sides(ui, state);
+    let verdict = state.verdict(ui.ctx());
+    gate(ui, state, verdict.as_deref());
+    ui.checkbox(&mut state.comparing.all_parameters, "all parameters")
+        .on_hover_text("All of the paper's Tables 1 to 3, or Δ and Λ alone.");
+    let [Some(a), Some(b)] = state.both() else {
+        return;
+    };
+    let may_compare = verdict.is_some_and(|verdict| verdict.reasons.is_empty());
+    let rows: Vec<&'static Parameter> = if state.comparing.all_parameters {
+        PARAMETERS.iter().collect()
+    } else {
+        DELTA.iter().chain(&LAMBDA).map(|s| parameter(s)).collect()
+    };
+    columns(ui, &rows, [a, b], may_compare);
+}
+
+/// The settings of both; the one chosen comes to the front.
+fn sides(ui: &mut egui::Ui, state: &mut State) {
+    for which in Which::BOTH {
+        let settings = match state.both()[which as usize] {
+            Some(current) => current.settings_text(),
+            None => "on its way".to_owned(),
+        };
+        let text = format!("{}: {settings}", which.name());
+        let in_front = state.which == which;
+        let choice = ui
+            .scope(|ui| {
+                ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
+                ui.radio(in_front, &text)
+            })
+            .inner
+            .on_hover_text(tip(
+                &format!("{text}\nThe one chosen is in front: settings and panels are about it."),
+                Action::OtherTree,
+            ));
+        if choice.clicked() {
+            state.show(which);
+        }
+    }
+}
+
+/// Whether they may be compared, and if not, why and what can be done.
+fn gate(ui: &mut egui::Ui, state: &mut State, verdict: Option<&Verdict>) {
+    let Some(verdict) = verdict else {
+        ui.label("Waits until both pictures are finished.");
+        return;
+    };
+    if verdict.reasons.is_empty() {
+        ui.strong("May be compared")
+            .on_hover_text("Parameters of class S and D are equal, and so is every pixel.");
+        return;
+    }
+    ui.strong("May not be compared").on_hover_text(
+        "The paper's precondition: parameters of class S and D are equal, and so is the picture.",
+    );
+    for reason in &verdict.reasons {
+        ui.add(egui::Label::new(format!("• {reason}")).wrap());
+    }
+    ui.horizontal_wrapped(|ui| {
+        let unlike = verdict
+            .reasons
+            .iter()
+            .any(|reason| !matches!(reason, Unequal::Pixels { .. }));
+        let which = state.which.name();
+        if ui
+            .add_enabled(unlike, egui::Button::new("Make conditions equal"))
+            .on_hover_text(format!(
+                "Take {which}'s settings of scene and picture for both; the trees stay different."
+            ))
+            .clicked()
+            && let Some(other) = &mut state.other
+        {
+            other.wanted.scene = state.wanted.scene.clone();
+            other.wanted.render = state.wanted.render;
+        }
+        let some = !verdict.pixels.is_empty();
+        if ui
+            .add_enabled(some, egui::Button::new("Show the pixels"))
+            .on_hover_text("Darken the picture but for the pixels that differ.")
+            .clicked()
+        {
+            state.comparing.view = View::Difference;
+            state.comparing.asks_for_pixels = true;
+        }
+    });
+}
+
+fn columns(ui: &mut egui::Ui, rows: &[&'static Parameter], [a, b]: [&Current; 2], may: bool) {
+    egui::Grid::new("A and B")
+        .num_columns(4)
+        .striped(true)
+        .show(ui, |ui| {
+            ui.label("");
+            for (title, about) in [
+                ("A", "The first tree"),
+                ("B", "The second tree"),
+                (
+                    "B/A",
+                    "The second in percent of the first; of percentages the difference in points",
+                ),
+            ] {
+                ui.strong(title).on_hover_text(about);
+            }
+            ui.end_row();
+            for &p in rows {
+                symbol(ui, p, &a.shown.measurement);
+                value(ui, p, a);
+                value(ui, p, b);
+                let [of_a, of_b] = [a, b].map(|side| (p.value)(&side.shown.measurement));
+                let change = change(p, of_a, of_b).filter(|_| may);
+                let text = change.map_or_else(|| "–".to_owned(), |change| change.to_string());
+                ui.label(egui::RichText::new(text).monospace());
+                ui.end_row();
+            }
+        });
+}
