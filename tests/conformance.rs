@@ -1,7 +1,7 @@
 //! Every build method on every scene file: a valid tree, the same hits as testing every object, the
 //! same picture, and the same counts for any number of threads.
 
-use bspscope::measure::{answer, compare, judge, sample_rays};
+use bspscope::measure::{answer, compare, sample_rays, unsplit};
 use bspscope::progress::Progress;
 use bspscope::scene::{Sampling, Scene, SceneRequest, load};
 use bspscope::trace::{
@@ -82,7 +82,7 @@ fn every_method_gives_the_hits_of_testing_every_object() {
     for path in scene_files() {
         let scene = open(&path);
         let progress = Progress::new();
-        let naive = judge(&scene, &progress).unwrap();
+        let naive = unsplit(&scene, &progress).unwrap();
         let helper = tree_of(&scene, Method::all().next().unwrap(), OverlapRule::Paper);
         let settings = RenderSettings::for_camera(*scene.camera());
         let rays =
@@ -103,15 +103,15 @@ fn every_method_gives_the_hits_of_testing_every_object() {
             for overlap in OverlapRule::ALL {
                 let tree = tree_of(&scene, method, overlap);
                 let found = answer(&scene, &tree, &rays, &pool, &progress).unwrap();
-                let result = compare(&rays, &expected, &found);
+                let result = compare(&scene, &rays, &expected, &found, None);
                 assert!(
-                    result.passed(),
-                    "{} by {method:?}, overlap {}: wrong {:?} of {:?}, such as {:?}",
+                    result.is_identical(),
+                    "{} by {method:?}, overlap {}: {:?} of {:?}, such as {:?}",
                     path.display(),
                     overlap.name(),
-                    result.wrong,
+                    result.others,
                     result.rays,
-                    result.examples
+                    result.faults
                 );
             }
         }

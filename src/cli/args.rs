@@ -236,16 +236,22 @@ pub enum ListFormat {
 
 /// Check trees, and their hits ray for ray against testing every object
 ///
-/// Exit code 1 if anything is wrong.
+/// Where an answer differs, exact arithmetic says why: a tie (both are exactly right) or a fault.
+/// Exit code 1 if a tree is not valid or there is a fault; the first faults are written to
+/// fault.json, fault-1.json and so on, with as few objects as show them.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope verify\n\
-    bspscope verify teaching scenes/balls.nff --rays 10000 --method sah-cut"))]
+    bspscope verify teaching scenes/balls.nff --rays 10000 --method sah-cut\n\
+    bspscope verify --replay fault.json"))]
 pub struct VerifyArgs {
     /// Scenes, files or generators [default: all generators]
     #[arg(value_name = "SCENE")]
     pub scenes: Vec<String>,
     #[command(flatten)]
     pub cylinders: CylinderArgs,
+    /// Ask the question of a fault's file again, and nothing else
+    #[arg(long, value_name = "FILE", conflicts_with = "scenes")]
+    pub replay: Option<PathBuf>,
     /// Rays of every kind and scene that are compared
     #[arg(long, value_name = "N", default_value_t = 50_000, value_parser = clap::value_parser!(u32).range(1..))]
     pub rays: u32,

@@ -2,14 +2,16 @@
 
 use super::args::{PictureArgs, VerifyArgs};
 use super::{Outcome, bar, output, resolve};
-use crate::measure::{Answers, RaySample, Verification, answer, compare, judge, sample_rays};
+use crate::measure::judge::{Answer, Case, Verdict};
+use crate::measure::{Answers, RaySample, Verification, answer, compare, sample_rays, unsplit};
 use crate::report::plain_table;
 use crate::scene::Scene;
 use crate::scene::builtin::BUILTINS;
 use crate::trace::{RayKind, thread_pool};
 use crate::tree::{BuildSettings, Invalid, Method, Tree, build, validate};
-use anyhow::Result;
+use anyhow::{Context, Result};
 use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 /// What was found of one scene and method.
 struct Finding {
@@ -17,6 +19,8 @@ struct Finding {
     method: Method,
     tree: Result<(), Invalid>,
     rays: Verification,
+    /// Files with the first faults.
+    files: Vec<PathBuf>,
 }
 
 impl Finding {
@@ -26,6 +30,9 @@ impl Finding {
 }
 
 pub fn run(args: &VerifyArgs) -> Result<Outcome> {
+    if let Some(file) = &args.replay {
+        return replay(file);
+    }
     let methods = if args.method.is_empty() {
         Method::all().filter(|m| m.name != "none").collect()
     } else {
@@ -53,7 +60,7 @@ fn outcome(findings: &[Finding]) -> Outcome {
     }
 }
 
-/// Holds every method's tree of a scene against the judge.
+/// Holds every method's tree of a scene against testing every object.
 fn findings_of(text: &str, builds: &[BuildSettings], args: &VerifyArgs) -> Result<Vec<Finding>> {
     let (_, scene) = resolve::scene(text, &args.cylinders)?;
     // The sample's own size takes the place of a resolution.
@@ -85,10 +92,107 @@ fn findings_of(text: &str, builds: &[BuildSettings], args: &VerifyArgs) -> Resul
             scene: scene.name().to_owned(),
             method,
             tree: validate(&scene, &tree),
-            rays: compare(sample, answers, &found),
+            rays: compare(&scene, sample, answers, &found, None),
+            files: Vec::new(),
         });
+        if let Some(finding) = findings.last_mut() {
+            finding.files = write_faults(&scene, settings, &finding.rays)?;
+        }
     }
     Ok(findings)
+}
+
+/// Writes each fault to a file of its own.
+fn write_faults(
+    scene: &Scene,
+    settings: &BuildSettings,
+    rays: &Verification,
+) -> Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for &(kind, ray) in &rays.faults {
+        let Some(case) = Case::of(scene, settings, kind, ray)? else {
+            continue;
+        };
+        let (path, mut file) = output::create_free("fault", "json")?;
+        writeln!(file, "{}", case.shrunk().to_json())
+            .with_context(|| path.display().to_string())?;
+        files.push(path);
+    }
+    Ok(files)
+}
+
+/// Asks the question of a file again.
+fn replay(file: &Path) -> Result<Outcome> {
+    let name = file.display();
+    let text = std::fs::read_to_string(file).with_context(|| name.to_string())?;
+    let case = Case::from_json(&text).with_context(|| name.to_string())?;
+    let (ray, method) = (&case.ray, case.settings.method.name);
+    let again = case.replay().with_context(|| name.to_string())?;
+    let mut lines = vec![
+        format!(
+            "{}, {method}: the {} ray from {} along {}",
+            objects(case.scene.objects().len()),
+            case.kind.name(),
+            ray.origin,
+            ray.direction
+        ),
+        format!("  the file has: {}", both(case.expected, case.found)),
+    ];
+    let outcome = match &again {
+        None => {
+            lines.push("  now: both say the same.".to_owned());
+            Outcome::Done
+        }
+        Some(again) => {
+            lines.push(format!("  now: {}", both(again.expected, again.found)));
+            let verdict = again.verdict();
+            lines.push(format!("  {}", in_words(verdict)));
+            if matches!(verdict, Verdict::Fault { .. }) {
+                Outcome::CheckFailed
+            } else {
+                Outcome::Done
+            }
+        }
+    };
+    output::write_to(None, |out| {
+        lines.iter().try_for_each(|line| writeln!(out, "{line}"))
+    })?;
+    Ok(outcome)
+}
+
+fn objects(count: usize) -> String {
+    match count {
+        1 => "1 object".to_owned(),
+        n => format!("{n} objects"),
+    }
+}
+
+fn both(expected: Answer, found: Answer) -> String {
+    let said = |answer| match answer {
+        Answer::Nearest(hit) if hit.is_hit() => format!("object {} at {:?}", hit.object, hit.t),
+        Answer::Nearest(_) => "nothing".to_owned(),
+        Answer::Blocked(true) => "blocked".to_owned(),
+        Answer::Blocked(false) => "not blocked".to_owned(),
+    };
+    format!(
+        "testing every object says {}, the tree {}",
+        said(expected),
+        said(found)
+    )
+}
+
+fn in_words(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Tie => "A tie: both are exactly right.",
+        Verdict::Rounding => "Rounding: both are right but for it.",
+        Verdict::Fault {
+            a_is_wrong: false, ..
+        } => "A fault: the tree is wrong.",
+        Verdict::Fault {
+            b_is_wrong: false, ..
+        } => "A fault: testing every object is wrong.",
+        Verdict::Fault { .. } => "A fault: both are wrong.",
+    }
 }
 
 /// What testing every object says.
@@ -96,14 +200,22 @@ fn judged(scene: &Scene, sample: &RaySample, pool: &rayon::ThreadPool) -> Result
     bar::with_bar(
         &format!("{}: testing every object", scene.name()),
         |progress| {
-            let everything: Tree = judge(scene, progress)?;
+            let everything: Tree = unsplit(scene, progress)?;
             Ok(answer(scene, &everything, sample, pool, progress)?)
         },
     )
 }
 
 fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
-    let titles = ["scene", "method", "tree", "kind of rays", "rays", "wrong"];
+    let titles = [
+        "scene",
+        "method",
+        "tree",
+        "kind of rays",
+        "rays",
+        "ties",
+        "faults",
+    ];
     let mut table = plain_table(titles.map(String::from).to_vec(), 4);
     for finding in findings {
         for kind in RayKind::ALL {
@@ -118,7 +230,8 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
                 },
                 kind.name().to_owned(),
                 finding.rays.rays[k].to_string(),
-                finding.rays.wrong[k].to_string(),
+                finding.rays.others[k].ties.to_string(),
+                finding.rays.others[k].faults.to_string(),
             ]);
         }
     }
@@ -128,14 +241,18 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
         if let Err(wrong) = &finding.tree {
             writeln!(out, "{name}: {wrong}")?;
         }
-        for (kind, ray) in &finding.rays.examples {
+        for (kind, ray) in &finding.rays.faults {
             writeln!(
                 out,
-                "{name}: another answer for the {} ray from {} along {}",
+                "{name}: a wrong answer for the {} ray from {} along {}",
                 kind.name(),
                 ray.origin,
                 ray.direction
             )?;
+        }
+        for file in &finding.files {
+            let file = file.display();
+            writeln!(out, "{name}: bspscope verify --replay {file} asks again")?;
         }
     }
     let wrong = findings.iter().filter(|f| !f.passed()).count();
@@ -165,14 +282,15 @@ mod tests {
                 rays: [10; 4],
                 ..Verification::default()
             },
+            files: Vec::new(),
         };
         let wrong_tree = Finding {
             tree: Err(Invalid::Plane(7)),
             ..right()
         };
         let mut wrong_hit = right();
-        wrong_hit.rays.wrong[RayKind::Shadow as usize] = 3;
-        wrong_hit.rays.examples = vec![(RayKind::Shadow, Ray::new(Vec3::ZERO, Vec3::Y))];
+        wrong_hit.rays.others[RayKind::Shadow as usize].faults = 3;
+        wrong_hit.rays.faults = vec![(RayKind::Shadow, Ray::new(Vec3::ZERO, Vec3::Y))];
 
         assert_eq!(outcome(&[right(), right()]), Outcome::Done);
         for (wrong, said) in [

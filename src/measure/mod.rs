@@ -3,6 +3,7 @@
 mod comparison;
 mod facts;
 pub mod heat;
+pub mod judge;
 mod measurement;
 mod parameter;
 mod parameters;
@@ -13,4 +14,4 @@ pub use facts::{SceneFacts, TreeFacts};
 pub use measurement::{MeasureError, Measured, Measurement, Times, measure};
 pub use parameter::{Class, Parameter, Table, Unit, grouped, significant};
 pub use parameters::{DELTA, LAMBDA, PARAMETERS, parameter};
-pub use verify::{Answers, RaySample, Verification, answer, compare, judge, sample_rays};
+pub use verify::{Answers, RaySample, Verification, answer, ask, compare, sample_rays, unsplit};

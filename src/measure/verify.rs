@@ -1,5 +1,7 @@
-//! Whether a tree gives the same hits as testing every object, on rays of every kind.
+//! Whether a tree gives the same hits as testing every object, on rays of every kind; where not, the
+//! judge says why.
 
+use super::judge::{Answer, Precision, Tally, Tolerance, Verdict, scale_of, settle};
 use crate::geometry::Ray;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
@@ -24,20 +26,39 @@ pub struct Answers {
     blocked: Vec<bool>,
 }
 
-/// What a comparison of a tree with the judge found, by [`RayKind`].
+impl Answers {
+    /// What is said of ray number `i` of a kind.
+    ///
+    /// # Panics
+    /// If there is no such ray.
+    pub fn of(&self, kind: RayKind, i: usize) -> Answer {
+        match kind {
+            RayKind::Shadow => Answer::Blocked(self.blocked[i]),
+            _ => Answer::Nearest(self.hits[kind as usize][i]),
+        }
+    }
+}
+
+/// What a comparison of a tree with testing every object found, by [`RayKind`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Verification {
     /// Rays compared.
     pub rays: [u64; 4],
-    /// Rays with another answer.
-    pub wrong: [u64; 4],
-    /// The first few of these.
-    pub examples: Vec<(RayKind, Ray)>,
+    /// Those with another answer, as the judge classed them.
+    pub others: [Tally; 4],
+    /// The first few faults.
+    pub faults: Vec<(RayKind, Ray)>,
 }
 
 impl Verification {
+    /// Whether there is no fault.
     pub fn passed(&self) -> bool {
-        self.wrong.iter().all(|&wrong| wrong == 0)
+        self.others.iter().all(|tally| tally.faults == 0)
+    }
+
+    /// Whether all answers are the same, bit by bit.
+    pub fn is_identical(&self) -> bool {
+        self.others == [Tally::default(); 4]
     }
 }
 
@@ -176,33 +197,60 @@ pub fn answer(
     Ok(answers)
 }
 
-/// The tree without a split: testing every object.
+/// The tree without a split, which tests every object.
 ///
 /// # Errors
 /// Too many objects, or cancellation.
-pub fn judge(scene: &Scene, progress: &Progress) -> Result<Tree, BuildError> {
+pub fn unsplit(scene: &Scene, progress: &Progress) -> Result<Tree, BuildError> {
     let settings = BuildSettings::for_method(Method::named("none")?);
     build(scene, &settings, progress)
 }
 
-/// Holds answers against the judge's, bit by bit: distance and object of every hit.
-pub fn compare(sample: &RaySample, expected: &Answers, found: &Answers) -> Verification {
+/// What a tree says of one ray.
+pub fn ask(scene: &Scene, tree: &Tree, kind: RayKind, ray: &Ray) -> Answer {
+    let (shapes, progress) = (Shapes::of(scene), Progress::new());
+    let mut tracer = Timed::new(tree, &shapes, &progress);
+    let batch = Batch {
+        kind,
+        rays: std::slice::from_ref(ray),
+        pixels: &[],
+    };
+    if kind == RayKind::Shadow {
+        let mut blocked = Vec::new();
+        tracer.any_hits(batch, &mut blocked);
+        Answer::Blocked(blocked[0])
+    } else {
+        let mut hits = Vec::new();
+        tracer.closest_hits(batch, &mut hits);
+        Answer::Nearest(hits[0])
+    }
+}
+
+/// Holds answers against those of testing every object, bit by bit: distance and object of every hit.
+/// Where they differ, the judge says why; `rounding` as in [`settle`], for all coordinates of the
+/// scene's size.
+pub fn compare(
+    scene: &Scene,
+    sample: &RaySample,
+    expected: &Answers,
+    found: &Answers,
+    rounding: Option<Precision>,
+) -> Verification {
     const EXAMPLES: usize = 5;
     let mut result = Verification::default();
     for kind in RayKind::ALL {
         let k = kind as usize;
         for (i, ray) in sample.rays[k].iter().enumerate() {
-            let same = if kind == RayKind::Shadow {
-                expected.blocked.get(i) == found.blocked.get(i)
-            } else {
-                expected.hits[k].get(i) == found.hits[k].get(i)
-            };
             result.rays[k] += 1;
-            if !same {
-                result.wrong[k] += 1;
-                if result.examples.len() < EXAMPLES {
-                    result.examples.push((kind, *ray));
-                }
+            let answers = [expected, found].map(|answers| answers.of(kind, i));
+            if answers[0] == answers[1] {
+                continue;
+            }
+            let tolerance = rounding.map(|p| Tolerance::of(p, scale_of(scene, ray)));
+            let verdict = settle(scene, ray, answers, tolerance);
+            result.others[k].add(verdict);
+            if matches!(verdict, Verdict::Fault { .. }) && result.faults.len() < EXAMPLES {
+                result.faults.push((kind, *ray));
             }
         }
     }

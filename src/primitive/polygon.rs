@@ -113,6 +113,12 @@ impl Polygon {
         self.normal
     }
 
+    /// The axis along which vertices off the plane are moved into it: that of the normal's largest
+    /// component.
+    pub fn projection_axis(&self) -> Axis {
+        self.axis
+    }
+
     /// Triangles that cover the polygon: indices of vertices, counter-clockwise like the polygon.
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         Self::triangulate(&self.vertices)

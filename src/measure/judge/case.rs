@@ -1,0 +1,233 @@
+//! A fault as a small file that can be run again.
+
+use super::{Answer, Verdict, settle};
+use crate::geometry::{Ray, Vec3};
+use crate::measure::verify::{ask, unsplit};
+use crate::progress::Progress;
+use crate::scene::format::{ReadError, nff};
+use crate::scene::{Scene, SceneParts};
+use crate::trace::{Hit, RayKind};
+use crate::tree::{BuildError, BuildSettings, build};
+use serde::{Deserialize, Serialize};
+
+/// A ray of which a tree and testing every object say different things, with all that it takes to ask
+/// them again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case {
+    pub scene: Scene,
+    pub settings: BuildSettings,
+    pub kind: RayKind,
+    pub ray: Ray,
+    /// What testing every object said.
+    pub expected: Answer,
+    /// What the tree said.
+    pub found: Answer,
+}
+
+/// Why a file is no case.
+#[derive(Debug, thiserror::Error)]
+pub enum CaseError {
+    #[error("not a case: {0}")]
+    Json(#[from] serde_json::Error),
+    #[error("the case's scene, line {0}")]
+    Scene(#[from] ReadError),
+    #[error("no rays are called '{0}'")]
+    Kind(String),
+    #[error(transparent)]
+    Build(#[from] BuildError),
+}
+
+/// The file: numbers in the shortest form that reads back to the same bits, an infinite one as none.
+#[derive(Serialize, Deserialize)]
+struct File {
+    /// NFF, line by line; objects count from 0.
+    scene: Vec<String>,
+    settings: BuildSettings,
+    kind: String,
+    origin: Vec3,
+    direction: Vec3,
+    t_min: f64,
+    t_max: Option<f64>,
+    expected: FileAnswer,
+    found: FileAnswer,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum FileAnswer {
+    Hit { object: u32, t: f64 },
+    Miss,
+    Blocked(bool),
+}
+
+impl From<Answer> for FileAnswer {
+    fn from(answer: Answer) -> Self {
+        match answer {
+            Answer::Blocked(blocked) => FileAnswer::Blocked(blocked),
+            Answer::Nearest(Hit { t, object }) if object != Hit::MISS.object => {
+                FileAnswer::Hit { object, t }
+            }
+            Answer::Nearest(_) => FileAnswer::Miss,
+        }
+    }
+}
+
+impl From<FileAnswer> for Answer {
+    fn from(answer: FileAnswer) -> Self {
+        match answer {
+            FileAnswer::Blocked(blocked) => Answer::Blocked(blocked),
+            FileAnswer::Hit { object, t } => Answer::Nearest(Hit { t, object }),
+            FileAnswer::Miss => Answer::Nearest(Hit::MISS),
+        }
+    }
+}
+
+impl Case {
+    /// Asks about a ray; `None` where both say the same.
+    ///
+    /// # Errors
+    /// No tree can be built.
+    pub fn of(
+        scene: &Scene,
+        settings: &BuildSettings,
+        kind: RayKind,
+        ray: Ray,
+    ) -> Result<Option<Case>, BuildError> {
+        let progress = Progress::new();
+        let expected = ask(scene, &unsplit(scene, &progress)?, kind, &ray);
+        let found = ask(scene, &build(scene, settings, &progress)?, kind, &ray);
+        Ok((expected != found).then(|| Case {
+            scene: scene.clone(),
+            settings: settings.clone(),
+            kind,
+            ray,
+            expected,
+            found,
+        }))
+    }
+
+    /// What the judge says, if both answers came from the same numbers.
+    pub fn verdict(&self) -> Verdict {
+        settle(&self.scene, &self.ray, [self.expected, self.found], None)
+    }
+
+    /// The same fault with as few objects as a hundred attempts find.
+    pub fn shrunk(self) -> Case {
+        const ATTEMPTS: usize = 100;
+        let objects = fewest(self.scene.objects().len(), ATTEMPTS, |kept| {
+            self.only(kept).is_some()
+        });
+        self.only(&objects).unwrap_or(self)
+    }
+
+    /// The case with these objects alone, if it is still a fault.
+    fn only(&self, objects: &[usize]) -> Option<Case> {
+        let all = self.scene.parts();
+        let parts = SceneParts {
+            objects: objects.iter().map(|&i| all.objects[i].clone()).collect(),
+            material_of: objects.iter().map(|&i| all.material_of[i]).collect(),
+            ..all.clone()
+        };
+        let case = Case::of(&Scene::new(parts), &self.settings, self.kind, self.ray);
+        case.ok()?
+            .filter(|case| matches!(case.verdict(), Verdict::Fault { .. }))
+    }
+
+    /// The file's text.
+    pub fn to_json(&self) -> String {
+        let mut scene = Vec::new();
+        nff::write(self.scene.parts(), &mut scene).expect("memory takes all that is written");
+        let scene = String::from_utf8_lossy(&scene);
+        let file = File {
+            scene: scene.lines().map(str::to_owned).collect(),
+            settings: self.settings.clone(),
+            kind: self.kind.name().to_owned(),
+            origin: self.ray.origin,
+            direction: self.ray.direction,
+            t_min: self.ray.t_min,
+            t_max: Some(self.ray.t_max).filter(|t| t.is_finite()),
+            expected: self.expected.into(),
+            found: self.found.into(),
+        };
+        serde_json::to_string_pretty(&file).expect("all of it can be written as JSON")
+    }
+
+    /// Reads a file's text.
+    ///
+    /// # Errors
+    /// It is not JSON, or not that of a case.
+    pub fn from_json(text: &str) -> Result<Case, CaseError> {
+        let file: File = serde_json::from_str(text)?;
+        let parts = nff::read(file.scene.join("\n").as_bytes(), &Progress::new())?;
+        let kind = RayKind::ALL
+            .into_iter()
+            .find(|kind| kind.name() == file.kind)
+            .ok_or(CaseError::Kind(file.kind))?;
+        Ok(Case {
+            scene: Scene::new(parts),
+            settings: file.settings,
+            kind,
+            ray: Ray {
+                origin: file.origin,
+                direction: file.direction,
+                t_min: file.t_min,
+                t_max: file.t_max.unwrap_or(f64::INFINITY),
+            },
+            expected: file.expected.into(),
+            found: file.found.into(),
+        })
+    }
+
+    /// Asks again; `None` where both say the same now.
+    ///
+    /// # Errors
+    /// No tree can be built.
+    pub fn replay(&self) -> Result<Option<Case>, BuildError> {
+        Case::of(&self.scene, &self.settings, self.kind, self.ray)
+    }
+}
+
+/// As few as can be found of `count` things with which it still `fails`, within so many attempts:
+/// parts are left out, smaller and smaller ones (A. Zeller and R. Hildebrandt, "Simplifying and
+/// isolating failure-inducing input", 2002).
+fn fewest(count: usize, attempts: usize, fails: impl Fn(&[usize]) -> bool) -> Vec<usize> {
+    let mut kept: Vec<usize> = (0..count).collect();
+    let mut left = attempts;
+    let mut part = count.div_ceil(2);
+    while part > 0 {
+        let mut from = 0;
+        while from < kept.len() && left > 0 {
+            left -= 1;
+            let to = (from + part).min(kept.len());
+            let rest = [&kept[..from], &kept[to..]].concat();
+            if fails(&rest) {
+                kept = rest;
+            } else {
+                from = to;
+            }
+        }
+        part = if part == 1 || left == 0 {
+            0
+        } else {
+            part.div_ceil(2)
+        };
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_matter_is_left_out() {
+        let needs = |wanted: &'static [usize]| {
+            move |kept: &[usize]| wanted.iter().all(|i| kept.contains(i))
+        };
+        assert_eq!(fewest(1000, 100, needs(&[3, 700])), [3, 700]);
+        assert!(fewest(1, 100, needs(&[])).is_empty());
+        assert!(fewest(0, 100, needs(&[])).is_empty());
+        let few_attempts = fewest(1000, 3, needs(&[3, 700]));
+        assert!(needs(&[3, 700])(&few_attempts) && few_attempts.len() < 1000);
+    }
+}

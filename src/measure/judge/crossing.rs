@@ -1,0 +1,75 @@
+//! Where a ray meets one object, exactly or within a tolerance.
+
+use super::root::Root;
+use super::span::{Span, SpanVec, rational};
+use super::{Tolerance, flat, quadric};
+use crate::geometry::Ray;
+use crate::primitive::Primitive;
+use std::cmp::Ordering;
+
+/// A place where the ray may meet the surface: between `earliest` and `latest`, which are one number
+/// where nothing is left open.
+#[derive(Clone, Debug)]
+pub struct Crossing {
+    pub earliest: Root,
+    pub latest: Root,
+    /// Whether it is met, whatever the tolerance leaves open; `false` too just on an edge, for a
+    /// tangent, and at the very start and end of the ray.
+    pub certain: bool,
+}
+
+impl Crossing {
+    /// The crossing within the ray's own stretch; `None` if it certainly lies outside.
+    fn within(mut self, ray: &Ray) -> Option<Crossing> {
+        let start = Root::from(rational(ray.t_min));
+        let mut inside = self.latest.cmp(&start);
+        let mut surely = self.earliest > start;
+        if ray.t_max.is_finite() {
+            let end = Root::from(rational(ray.t_max));
+            inside = inside.min(end.cmp(&self.earliest));
+            surely &= self.latest < end;
+        }
+        self.certain &= surely;
+        (inside != Ordering::Less).then_some(self)
+    }
+}
+
+/// A ray as the judge sees it.
+pub struct Line<'a> {
+    pub ray: &'a Ray,
+    pub origin: SpanVec,
+    pub direction: SpanVec,
+}
+
+impl<'a> Line<'a> {
+    pub fn new(ray: &'a Ray, tolerance: &Tolerance) -> Self {
+        let turn = tolerance.relative * ray.direction.abs().max_element();
+        Line {
+            ray,
+            origin: SpanVec::around(ray.origin, &rational(tolerance.length)),
+            direction: SpanVec::around(ray.direction, &rational(turn)),
+        }
+    }
+
+    /// The points at a parameter, from another point: `origin + t · direction − from`.
+    pub fn offset_at(&self, t: &Span, from: &SpanVec) -> SpanVec {
+        &(&self.origin - from) + &self.direction.scaled(t)
+    }
+}
+
+/// All places where the ray may meet the object; two at most.
+pub fn crossings(object: &Primitive, line: &Line<'_>, tolerance: &Tolerance) -> Vec<Crossing> {
+    let reach = rational(tolerance.length);
+    let found = match object {
+        Primitive::Sphere(sphere) => quadric::sphere(sphere, line, &reach),
+        Primitive::Cone(cone) => quadric::cone(cone, line, &reach),
+        Primitive::Triangle(triangle) => {
+            flat::triangle(triangle, line, &reach).into_iter().collect()
+        }
+        Primitive::Polygon(polygon) => flat::polygon(polygon, line, &reach).into_iter().collect(),
+    };
+    found
+        .into_iter()
+        .filter_map(|crossing| crossing.within(line.ray))
+        .collect()
+}

@@ -1,0 +1,142 @@
+//! Triangles and polygons: where a ray passes through their outline.
+
+use super::crossing::{Crossing, Line};
+use super::root::Root;
+use super::span::{Span, SpanVec, rational};
+use crate::primitive::{Polygon, Triangle};
+use dashu_ratio::Relaxed as Rational;
+use std::cmp::Ordering;
+
+pub fn triangle(triangle: &Triangle, line: &Line<'_>, reach: &Rational) -> Option<Crossing> {
+    let vertices = triangle.vertices.map(|v| SpanVec::around(v, reach));
+    outline(&vertices, line)
+}
+
+/// The polygon's surface lies in the mean plane of its vertices, each moved there along the axis that
+/// the projection drops: exactly so here, before any tolerance comes in.
+pub fn polygon(polygon: &Polygon, line: &Line<'_>, reach: &Rational) -> Option<Crossing> {
+    let exact: Vec<SpanVec> = polygon
+        .vertices()
+        .iter()
+        .map(|&v| SpanVec::around(v, &Rational::ZERO))
+        .collect();
+    let normal = newell_normal(&exact);
+    let share = Span::exactly(&Rational::ONE / &rational(exact.len() as f64));
+    let mean = exact
+        .iter()
+        .map(|v| v.scaled(&share))
+        .reduce(|sum, v| &sum + &v)?;
+    let k = polygon.projection_axis().index();
+    let moved = exact.into_iter().map(|v| {
+        let off_plane = normal.dot(&(&v - &mean)).divided_by(&normal.0[k])?;
+        let mut moved = v;
+        moved.0[k] = &moved.0[k] - &off_plane;
+        Some(SpanVec(moved.0.map(|x| Span::around(x.lo, reach))))
+    });
+    outline(&moved.collect::<Option<Vec<_>>>()?, line)
+}
+
+/// The sum of the fan's cross products: twice the area, along the normal.
+fn newell_normal(vertices: &[SpanVec]) -> SpanVec {
+    let first = &vertices[0];
+    let fan = vertices.windows(2).skip(1);
+    fan.map(|pair| (&pair[0] - first).cross(&(&pair[1] - first)))
+        .reduce(|sum, cross| &sum + &cross)
+        .expect("an outline has three vertices or more")
+}
+
+/// Where the line passes through a planar outline; a line within its plane does not.
+fn outline(vertices: &[SpanVec], line: &Line<'_>) -> Option<Crossing> {
+    let inside = is_inside(vertices, line);
+    if inside == Some(false) {
+        return None;
+    }
+    let normal = newell_normal(vertices);
+    let speed = normal.dot(&line.direction);
+    if speed.sign() == Some(Ordering::Equal) {
+        return None;
+    }
+    let distance = normal.dot(&(&vertices[0] - &line.origin));
+    let t = match distance.divided_by(&speed) {
+        Some(t) if t.is_exact() => t,
+        // Seen almost edge-on, the plane is met anywhere; but it is met between the vertices.
+        at_plane => {
+            let along = between(vertices, line)?;
+            at_plane.map_or(along.clone(), |t| Span {
+                lo: t.lo.max(along.lo),
+                hi: t.hi.min(along.hi),
+            })
+        }
+    };
+    (t.lo <= t.hi).then(|| Crossing {
+        earliest: Root::from(t.lo),
+        latest: Root::from(t.hi),
+        certain: inside.is_some() && speed.sign().is_some(),
+    })
+}
+
+/// The parameters between which the ray passes the vertices.
+fn between(vertices: &[SpanVec], line: &Line<'_>) -> Option<Span> {
+    let squared_length = line.direction.squared_length();
+    let mut all: Option<Span> = None;
+    for vertex in vertices {
+        let along = (vertex - &line.origin).dot(&line.direction);
+        let t = along.divided_by(&squared_length)?;
+        all = Some(match all {
+            None => t,
+            Some(all) => Span {
+                lo: all.lo.min(t.lo),
+                hi: all.hi.max(t.hi),
+            },
+        });
+    }
+    all
+}
+
+/// Whether the line passes through the outline, by the even–odd rule, as seen along the ray; `None`
+/// on an edge, and wherever the tolerance leaves it open.
+fn is_inside(vertices: &[SpanVec], line: &Line<'_>) -> Option<bool> {
+    let d = &line.direction.0;
+    let size = line.ray.direction.abs();
+    let m = (0..3).max_by(|&i, &j| size[i].total_cmp(&size[j]))?;
+    let (i, j) = ((m + 1) % 3, (m + 2) % 3);
+    let seen: Vec<[Span; 2]> = vertices
+        .iter()
+        .map(|v| {
+            let p = (v - &line.origin).0;
+            [i, j].map(|k| &(&d[m] * &p[k]) - &(&d[k] * &p[m]))
+        })
+        .collect();
+    // Where it is open on which side of the half-line a vertex lies, either will do, if it is the
+    // same for both of its edges: only edges that may pass through the line itself matter.
+    let is_above = |p: &[Span; 2]| p[1].lo > Rational::ZERO;
+    let may_straddle = |a: &Span, b: &Span| {
+        let (lo, hi) = ((&a.lo).min(&b.lo), (&a.hi).max(&b.hi));
+        *lo <= Rational::ZERO && *hi >= Rational::ZERO
+    };
+    let mut inside = false;
+    for (n, a) in seen.iter().enumerate() {
+        let b = &seen[(n + 1) % seen.len()];
+        if !may_straddle(&a[1], &b[1]) {
+            continue;
+        }
+        let cross = &(&a[0] * &b[1]) - &(&a[1] * &b[0]);
+        match cross.sign() {
+            None | Some(Ordering::Equal) => {
+                if may_straddle(&a[0], &b[0]) {
+                    return None;
+                }
+                if is_above(a) != is_above(b) {
+                    // Wholly on one side of the line: to the right it is crossed, else not.
+                    inside ^= a[0].lo > Rational::ZERO;
+                }
+            }
+            Some(side) => {
+                if is_above(a) != is_above(b) {
+                    inside ^= (side == Ordering::Greater) == is_above(b);
+                }
+            }
+        }
+    }
+    Some(inside)
+}

@@ -1,0 +1,180 @@
+//! Roots of quadratic equations with rational coefficients, compared without rounding.
+
+use dashu_ratio::Relaxed as Rational;
+use std::cmp::Ordering;
+
+/// The number `rational ± √radicand`.
+#[derive(Clone, Debug)]
+pub struct Root {
+    rational: Rational,
+    /// Whether the square root is taken away, not added.
+    minus: bool,
+    /// Never negative.
+    radicand: Rational,
+}
+
+impl From<Rational> for Root {
+    fn from(rational: Rational) -> Self {
+        Root {
+            rational,
+            minus: false,
+            radicand: Rational::ZERO,
+        }
+    }
+}
+
+impl Root {
+    /// `rational − √radicand` where `minus`, else `rational + √radicand`; of a negative radicand 0
+    /// is taken.
+    pub fn new(rational: Rational, minus: bool, radicand: &Rational) -> Self {
+        Root {
+            rational,
+            minus,
+            radicand: radicand.clone().max(Rational::ZERO),
+        }
+    }
+
+    /// How it compares with 0.
+    pub fn sign(&self) -> Ordering {
+        let zero = Rational::ZERO;
+        let surd = match self.radicand.cmp(&zero) {
+            Ordering::Equal => Ordering::Equal,
+            _ if self.minus => Ordering::Less,
+            _ => Ordering::Greater,
+        };
+        match (self.rational.cmp(&zero), surd) {
+            (a, Ordering::Equal) => a,
+            (Ordering::Equal, b) => b,
+            (a, b) if a == b => a,
+            // Of opposite signs: the larger in size has it.
+            (a, b) => match (&self.rational * &self.rational).cmp(&self.radicand) {
+                Ordering::Greater => a,
+                Ordering::Equal => Ordering::Equal,
+                Ordering::Less => b,
+            },
+        }
+    }
+
+    /// The root times a factor.
+    pub fn times(&self, factor: &Rational) -> Root {
+        Root {
+            rational: &self.rational * factor,
+            minus: self.minus != (*factor < Rational::ZERO),
+            radicand: &(&self.radicand * factor) * factor,
+        }
+    }
+
+    pub fn plus(&self, term: &Rational) -> Root {
+        Root {
+            rational: &self.rational + term,
+            ..self.clone()
+        }
+    }
+
+    /// Rounded, to hold it against a kernel's answer.
+    pub fn to_f64(&self) -> f64 {
+        let (mut near_one, mut half) = (self.radicand.clone(), 0);
+        let mut step = |near_one: &mut Rational, by: i32| {
+            *near_one = &*near_one * Rational::from(4).pow(by as isize);
+            half -= by;
+        };
+        while near_one.to_f64().value().is_infinite() {
+            step(&mut near_one, -400);
+        }
+        while near_one > Rational::ZERO && !near_one.to_f64().value().is_normal() {
+            step(&mut near_one, 400);
+        }
+        let surd = libm::scalbn(near_one.to_f64().value().sqrt(), half);
+        let sign = if self.minus { -1.0 } else { 1.0 };
+        self.rational.to_f64().value() + sign * surd
+    }
+}
+
+impl Ord for Root {
+    fn cmp(&self, other: &Self) -> Ordering {
+        // self − other = left − right, with the other's square root alone on the right.
+        let left = self.plus(&-&other.rational);
+        let right = Root {
+            rational: Rational::ZERO,
+            ..other.clone()
+        };
+        let (left_sign, right_sign) = (left.sign(), right.sign());
+        if left_sign != right_sign {
+            return left_sign.cmp(&right_sign);
+        }
+        // Of one sign: their squares compare alike, or, both negative, the other way.
+        let squares = Root {
+            rational: &(&(&left.rational * &left.rational) + &left.radicand) - &right.radicand,
+            ..left.times(&(&left.rational + &left.rational))
+        };
+        match left_sign {
+            Ordering::Equal => Ordering::Equal,
+            Ordering::Greater => squares.sign(),
+            Ordering::Less => squares.sign().reverse(),
+        }
+    }
+}
+
+impl PartialOrd for Root {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Root {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Root {}
+
+#[cfg(test)]
+mod tests {
+    use super::super::span::rational;
+    use super::*;
+
+    fn root(p: f64, minus: bool, w: f64) -> Root {
+        Root::new(rational(p), minus, &rational(w))
+    }
+
+    #[test]
+    fn roots_compare_as_the_numbers_that_they_are() {
+        let values = [-3.0, -1.0, 0.0, 0.5, 1.0, 2.0, 3.0];
+        let radicands = [0.0, 0.25, 1.0, 2.0, 5.0, 9.0];
+        let mut all = Vec::new();
+        for p in values {
+            for w in radicands {
+                for minus in [false, true] {
+                    let sign = if minus { -1.0 } else { 1.0 };
+                    all.push((root(p, minus, w), p + sign * f64::sqrt(w)));
+                }
+            }
+        }
+        for (a, x) in &all {
+            assert_eq!(a.sign(), x.partial_cmp(&0.0).unwrap());
+            for (b, y) in &all {
+                assert_eq!(a.cmp(b), x.partial_cmp(y).unwrap(), "{a:?} {b:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_difference_far_below_rounding_is_seen() {
+        // √2 and √(2 + 2⁻¹⁰⁰⁰), beside 1: all three sums are the same f64.
+        let tiny = rational(2.0f64.powi(-1000));
+        let a = root(1.0, false, 2.0);
+        let b = Root::new(rational(1.0), false, &(&rational(2.0) + &tiny));
+        assert!(a < b);
+        assert_eq!(a.to_f64().to_bits(), b.to_f64().to_bits());
+        // 2·√2 is √8.
+        assert_eq!(
+            root(0.0, false, 2.0).times(&rational(2.0)),
+            root(0.0, false, 8.0)
+        );
+        assert_eq!(
+            root(0.0, false, 2.0).times(&rational(-2.0)),
+            root(0.0, true, 8.0)
+        );
+    }
+}
