@@ -150,11 +150,10 @@ impl PicturePane {
         {
             self.offset += response.drag_delta();
         }
-        let Some(pointer) = response.hover_pos() else {
-            return;
-        };
         let wheel = ui.input(|i| i.smooth_scroll_delta().y);
-        if wheel != 0.0 {
+        if let Some(pointer) = response.hover_pos()
+            && wheel != 0.0
+        {
             let before = self.place(pane, picture);
             let zoom = before.width() / picture[0] as f32;
             let next = (zoom * (wheel * 0.004).exp()).clamp(0.02, 200.0);
@@ -163,7 +162,7 @@ impl PicturePane {
             let from_middle = before.center() - pointer;
             self.offset = pointer + from_middle * (next / zoom) - pane.center();
         }
-        for action in pressed(ui.ctx(), Scope::Picture) {
+        for action in pressed(ui.ctx(), Scope::Picture, response.hovered()) {
             match action {
                 Action::Fit => {
                     self.zoom = None;
