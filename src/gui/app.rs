@@ -1,16 +1,20 @@
 //! Puts the window together: bars, panels and panes, and what the window's own keys do.
 
 use super::files::Files;
+use super::kept::KeptFile;
+use super::layout::{self, Layout, Pane};
+use super::palette::{Command, Palette};
 use super::panels::{self, Side};
 use super::picture_pane::PicturePane;
 use super::recent::Recent;
-use super::shortcuts::{Action, Scope, pressed};
+use super::shortcuts::{self, Action, Scope, pressed};
 use super::state::State;
 use super::status::StatusLine;
-use super::tree_panes::{TreePane, TreePanes};
+use super::tree_panes::TreePanes;
 use super::view3d::View3d;
 use super::walk::Go;
 use super::{StartOptions, help, top_bar, walk_bar};
+use crate::overlay::COLORINGS;
 use crate::tree::{BuildSettings, MaxDepth, Method};
 
 /// The window.
@@ -18,17 +22,13 @@ pub struct App {
     state: State,
     files: Files,
     panes: Panes,
-    tiles: egui_tiles::Tree<Pane>,
+    layout: Layout,
+    layout_file: KeptFile,
+    /// The layout as it was kept last.
+    kept_layout: Option<Layout>,
     status: StatusLine,
     help_open: bool,
-}
-
-/// What a tile holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pane {
-    Picture,
-    View3d,
-    Tree(TreePane),
+    palette: Palette,
 }
 
 struct Panes {
@@ -40,26 +40,17 @@ struct Panes {
 impl App {
     /// Makes the window's contents and asks for the first scene.
     pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Self {
-        let recent = if start.remember {
-            Recent::kept()
-        } else {
-            Recent::default()
-        };
+        let recent = Recent::kept(KeptFile::new(&start, "recent.json"));
+        let layout_file = KeptFile::new(&start, layout::FILE);
+        let layout: Layout = layout_file.read().unwrap_or_default();
+        if let Some(dark) = layout.dark {
+            top_bar::set_theme(&cc.egui_ctx, dark);
+        }
         let mut start = start;
         // The screen takes no larger picture.
         let largest = cc.egui_ctx.input(|i| i.max_texture_side) as u32;
         start.render.width = start.render.width.min(largest);
         start.render.height = start.render.height.min(largest);
-        let mut tiles = egui_tiles::Tiles::default();
-        let panes = [Pane::Picture, Pane::View3d].map(|pane| tiles.insert_pane(pane));
-        let views = tiles.insert_horizontal_tile(panes.to_vec());
-        let about_tree = TreePane::ALL.map(|pane| tiles.insert_pane(Pane::Tree(pane)));
-        let about_tree = tiles.insert_tab_tile(about_tree.to_vec());
-        let mut column =
-            egui_tiles::Linear::new(egui_tiles::LinearDir::Vertical, vec![views, about_tree]);
-        column.shares.set_share(views, 0.6);
-        column.shares.set_share(about_tree, 0.4);
-        let root = tiles.insert_new(egui_tiles::Tile::Container(column.into()));
         App {
             state: State::new(&start, &cc.egui_ctx),
             files: Files::new(recent),
@@ -68,9 +59,12 @@ impl App {
                 view3d: View3d::new(cc.wgpu_render_state.as_ref(), start.render.camera),
                 tree: TreePanes::default(),
             },
-            tiles: egui_tiles::Tree::new(egui::Id::unique("panes"), root, tiles),
+            layout,
+            layout_file,
+            kept_layout: None,
             status: StatusLine::default(),
             help_open: false,
+            palette: Palette::default(),
         }
     }
 
@@ -80,13 +74,13 @@ impl App {
         let by = |value: u32, by: i32, most: u32| value.saturating_add_signed(by).min(most);
         match action {
             Action::Help => self.help_open ^= true,
+            Action::Palette => self.palette.toggle(self.files.recent.sources()),
             Action::Open => self.files.open_dialog(ctx),
             Action::Path => self.files.focus_path(),
             Action::Reload => state.reload(),
             Action::Cancel => {
-                if self.help_open {
-                    self.help_open = false;
-                } else if state.failure.take().is_none() && !state.inspect.undo() {
+                let closed = self.palette.close() || std::mem::take(&mut self.help_open);
+                if !closed && state.failure.take().is_none() && !state.inspect.undo() {
                     state.cancel();
                 }
             }
@@ -125,6 +119,9 @@ impl App {
             Action::Compare => state.compare_or_not(),
             Action::OtherTree => state.show(state.which.other()),
             Action::Theme => top_bar::toggle_theme(ctx),
+            Action::LeftBar => self.layout.left.shown ^= true,
+            Action::RightBar => self.layout.right.shown ^= true,
+            Action::ResetLayout => self.layout.reset(ctx),
             Action::FirstStep => state.go(Go::First),
             Action::PreviousStep => state.go(Go::Previous),
             Action::NextStep => state.go(Go::Next),
@@ -135,6 +132,77 @@ impl App {
             Action::NextRay => state.next_ray(1),
             Action::SceneCamera => state.wanted.own_camera = false,
             _ => {}
+        }
+    }
+
+    /// Does what was chosen in the palette; what belongs to a pane brings it to the front.
+    fn run(&mut self, command: Command, ctx: &egui::Context) {
+        match command {
+            Command::Do(action) => {
+                if let Some(pane) = shortcuts::scope(action).and_then(Pane::of) {
+                    self.layout.show(pane);
+                }
+                shortcuts::choose(ctx, action);
+            }
+            Command::Method(method) => {
+                top_bar::choose_method(&mut self.state.wanted.build, method);
+            }
+            Command::Open(scene) => self.state.open(scene),
+            Command::Heatmap(heatmap) => {
+                self.layout.show(Pane::Picture);
+                self.panes.picture.heat.show(heatmap);
+            }
+            Command::Color(place) => {
+                self.layout.show(Pane::View3d);
+                self.panes.view3d.color_by(&COLORINGS[place]);
+            }
+        }
+    }
+
+    /// The panels of one side; the bar can be folded away and resized.
+    fn side_bar(&mut self, ui: &mut egui::Ui, side: Side) {
+        let Layout {
+            left,
+            right,
+            unfolded,
+            ..
+        } = &mut self.layout;
+        let (panel, bar, widths) = match side {
+            Side::Left => (egui::Panel::left("left"), left, 180.0..=480.0),
+            Side::Right => (egui::Panel::right("right"), right, 220.0..=640.0),
+        };
+        let state = &mut self.state;
+        let shown = panel
+            .default_size(bar.width)
+            .size_range(widths)
+            .show_collapsible(ui, &mut bar.shown, |ui| {
+                panels::show(ui, side, state, unfolded);
+            });
+        if let Some(shown) = shown {
+            bar.width = shown.response.rect.width();
+        }
+    }
+
+    /// Takes note of theme and size, and keeps the layout if it is another; a drag counts when it
+    /// is over.
+    fn keep_layout(&mut self, ctx: &egui::Context) {
+        self.layout.dark = match ctx.options(|options| options.theme_preference) {
+            egui::ThemePreference::Dark => Some(true),
+            egui::ThemePreference::Light => Some(false),
+            egui::ThemePreference::System => None,
+        };
+        let (busy, size) = ctx.input(|i| {
+            let window = i.viewport();
+            let free = window.maximized != Some(true) && window.fullscreen != Some(true);
+            let size = window.inner_rect.filter(|_| free).map(|rect| rect.size());
+            (i.pointer.any_down(), size)
+        });
+        if let Some(size) = size {
+            self.layout.size = Some((size * ctx.zoom_factor()).into());
+        }
+        if !busy && self.kept_layout.as_ref() != Some(&self.layout) {
+            self.layout_file.write(&self.layout);
+            self.kept_layout = Some(self.layout.clone());
         }
     }
 
@@ -183,7 +251,7 @@ impl eframe::App for App {
             self.state.inspect.follow(current);
         }
         self.state.remember(ctx.input(|i| i.time));
-        for action in pressed(&ctx, Scope::Window) {
+        for action in pressed(&ctx, Scope::Window, true) {
             self.act(action, &ctx);
         }
         self.state.follow_rays(&ctx);
@@ -196,14 +264,8 @@ impl eframe::App for App {
             self.status.ui(ui, &self.state, picture.hovered, value);
         });
         egui::Panel::bottom("walk bar").show(ui, |ui| walk_bar::show(ui, &mut self.state));
-        egui::Panel::left("left")
-            .default_size(255.0)
-            .size_range(180.0..=480.0)
-            .show(ui, |ui| panels::show(ui, Side::Left, &mut self.state));
-        egui::Panel::right("right")
-            .default_size(400.0)
-            .size_range(220.0..=640.0)
-            .show(ui, |ui| panels::show(ui, Side::Right, &mut self.state));
+        self.side_bar(ui, Side::Left);
+        self.side_bar(ui, Side::Right);
         egui::CentralPanel::default()
             .frame(egui::Frame::new().fill(ui.visuals().panel_fill))
             .show(ui, |ui| {
@@ -211,15 +273,23 @@ impl eframe::App for App {
                     panes: &mut self.panes,
                     state: &mut self.state,
                 };
-                self.tiles.ui(&mut behavior, ui);
+                self.layout.tiles.ui(&mut behavior, ui);
             });
         self.message(&ctx);
         help::show(&ctx, &mut self.help_open);
+        if let Some(command) = self.palette.show(&ctx) {
+            self.run(command, &ctx);
+        }
         if ctx.input(|i| !i.raw.hovered_files.is_empty()) {
             drop_hint(&ctx);
         }
         self.state.send();
         self.panes.picture.heat.make_way(&self.state);
+        self.keep_layout(&ctx);
+    }
+
+    fn on_exit(&mut self) {
+        self.layout_file.write(&self.layout);
     }
 }
 
@@ -245,11 +315,7 @@ struct Behavior<'a> {
 
 impl egui_tiles::Behavior<Pane> for Behavior<'_> {
     fn tab_title_for_pane(&mut self, pane: &Pane) -> egui::WidgetText {
-        match pane {
-            Pane::Picture => "Picture".into(),
-            Pane::View3d => "3D view".into(),
-            Pane::Tree(pane) => pane.title().into(),
-        }
+        pane.title().into()
     }
 
     fn pane_ui(
@@ -270,10 +336,6 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
     }
 
     fn simplification_options(&self) -> egui_tiles::SimplificationOptions {
-        // With tabs, panes can be dragged beside or onto each other.
-        egui_tiles::SimplificationOptions {
-            all_panes_must_have_tabs: true,
-            ..Default::default()
-        }
+        layout::simplification()
     }
 }

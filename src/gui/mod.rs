@@ -12,6 +12,9 @@ mod files;
 mod heat;
 mod help;
 mod inspect;
+mod kept;
+mod layout;
+mod palette;
 mod panels;
 mod picture_pane;
 mod recent;
@@ -35,6 +38,7 @@ use crate::geometry::Vec3;
 use crate::scene::{Camera, SceneRequest};
 use crate::trace::RenderSettings;
 use crate::tree::BuildSettings;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -53,8 +57,10 @@ pub struct StartOptions {
     pub render: RenderSettings,
     /// Whether `render` has its own camera; if not, the scene's is used.
     pub own_camera: bool,
-    /// Whether the list of recent scenes is read from and kept in the user's settings folder.
+    /// Whether recent scenes and the window's layout are read from and kept in the settings folder.
     pub remember: bool,
+    /// The settings folder; `None` for the one that the system has for the user.
+    pub settings_folder: Option<PathBuf>,
 }
 
 impl Default for StartOptions {
@@ -75,6 +81,7 @@ impl Default for StartOptions {
             render: RenderSettings::for_camera(camera),
             own_camera: false,
             remember: true,
+            settings_folder: None,
         }
     }
 }
@@ -102,12 +109,18 @@ pub enum GuiError {
 /// # Errors
 /// No screen, nothing to draw with, or a system library that is missing.
 pub fn run(start: StartOptions) -> Result<(), GuiError> {
+    let kept: Option<layout::Layout> = kept::KeptFile::new(&start, layout::FILE).read();
+    let [width, height] = kept
+        .and_then(|layout| layout.size)
+        .unwrap_or([1400.0, 900.0]);
+    let [least_width, least_height] = layout::LEAST_SIZE;
+    let size = [width.max(least_width), height.max(least_height)];
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("bspscope")
             .with_app_id("bspscope")
-            .with_inner_size([1400.0, 900.0])
-            .with_min_inner_size([640.0, 400.0]),
+            .with_inner_size(size)
+            .with_min_inner_size(layout::LEAST_SIZE),
         ..Default::default()
     };
     let opened = Arc::new(AtomicBool::new(false));

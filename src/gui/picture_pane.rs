@@ -279,11 +279,10 @@ impl PicturePane {
             let split = (pointer.x - rect.left()) / rect.width();
             state.comparing.split = split.clamp(0.0, 1.0);
         }
-        let Some(pointer) = response.hover_pos() else {
-            return;
-        };
         let wheel = ui.input(|i| i.smooth_scroll_delta().y);
-        if wheel != 0.0 {
+        if let Some(pointer) = response.hover_pos()
+            && wheel != 0.0
+        {
             let parts = self.parts(response.rect, state);
             let under = parts.iter().find(|part| part.clip.contains(pointer));
             let pane = under.map_or(response.rect, |part| part.pane);
@@ -295,7 +294,7 @@ impl PicturePane {
             let from_middle = before.center() - pointer;
             self.offset = pointer + from_middle * (next / zoom) - pane.center();
         }
-        for action in pressed(ui.ctx(), Scope::Picture) {
+        for action in pressed(ui.ctx(), Scope::Picture, response.hovered()) {
             if compare_bar::act(action, state) {
                 continue;
             }

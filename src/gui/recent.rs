@@ -1,7 +1,7 @@
-//! The scenes opened lately, kept in the user's settings folder. Failing to keep them is no error.
+//! The scenes opened lately, kept in the user's settings folder.
 
+use super::kept::KeptFile;
 use crate::scene::SceneSource;
-use std::path::PathBuf;
 
 /// As many as a menu shows at a glance.
 const KEPT: usize = 12;
@@ -9,20 +9,14 @@ const KEPT: usize = 12;
 /// The scenes opened lately, the last one first.
 #[derive(Default)]
 pub struct Recent {
-    file: Option<PathBuf>,
+    file: KeptFile,
     sources: Vec<SceneSource>,
 }
 
 impl Recent {
-    /// The list kept from run to run; empty where there is none yet.
-    pub fn kept() -> Self {
-        let file = directories::ProjectDirs::from("", "", "bspscope")
-            .map(|folders| folders.config_dir().join("recent.json"));
-        let sources = file
-            .as_ref()
-            .and_then(|path| std::fs::read(path).ok())
-            .and_then(|bytes| serde_json::from_slice(&bytes).ok())
-            .unwrap_or_default();
+    /// The list kept in a file; empty where there is none yet.
+    pub fn kept(file: KeptFile) -> Self {
+        let sources = file.read().unwrap_or_default();
         Recent { file, sources }
     }
 
@@ -42,22 +36,12 @@ impl Recent {
         self.sources.retain(|known| *known != source);
         self.sources.insert(0, source);
         self.sources.truncate(KEPT);
-        self.write();
+        self.file.write(&self.sources);
     }
 
     pub fn clear(&mut self) {
         self.sources.clear();
-        self.write();
-    }
-
-    fn write(&self) {
-        if let Some(file) = &self.file
-            && let Some(folder) = file.parent()
-            && let Ok(text) = serde_json::to_vec_pretty(&self.sources)
-        {
-            // The list is a convenience: a full or read-only disk is not worth a message.
-            let _ = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(file, text));
-        }
+        self.file.write(&self.sources);
     }
 }
 

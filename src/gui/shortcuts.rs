@@ -39,6 +39,7 @@ impl Scope {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     Help,
+    Palette,
     Open,
     Path,
     Reload,
@@ -59,6 +60,9 @@ pub enum Action {
     Compare,
     OtherTree,
     Theme,
+    LeftBar,
+    RightBar,
+    ResetLayout,
     FirstStep,
     PreviousStep,
     NextStep,
@@ -146,6 +150,7 @@ macro_rules! shortcuts {
 
 shortcuts! {
     Window Help NONE [Questionmark F1] "? or F1" "Show or hide this list";
+    Window Palette COMMAND [K P] "Ctrl+K or Ctrl+P" "Search for a command and do it";
     Window Open COMMAND [O] "Ctrl+O" "Open a scene file";
     Window Path COMMAND [L] "Ctrl+L" "Type a path or a generator's name";
     Window Reload NONE [F5] "F5" "Read the scene's file again";
@@ -166,6 +171,9 @@ shortcuts! {
     Window Compare COMMAND [B] "Ctrl+B" "Compare with another tree, B, or end that";
     Window OtherTree NONE [T] "T" "Bring the other of two compared trees to the front";
     Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
+    Window LeftBar COMMAND [B] "Ctrl+B" "Show or hide the bar on the left";
+    Window RightBar COMMAND [I] "Ctrl+I" "Show or hide the bar on the right";
+    Window ResetLayout COMMAND [D] "Ctrl+D" "Panes, bars and panels back to where they were at first";
     Window PreviousRay NONE [PageUp] "Page up" "Previous ray of the picked pixel";
     Window NextRay NONE [PageDown] "Page down" "Next ray of the picked pixel";
     Window FirstStep SHIFT [Home] "Shift+Home" "First step of the ray's walk";
@@ -243,10 +251,60 @@ fn is_held(action: Action) -> bool {
     )
 }
 
+/// An action that was chosen by its name, until the scope that it belongs to takes it.
+#[derive(Clone, Copy)]
+struct Chosen {
+    action: Action,
+    /// When, in the window's seconds.
+    time: f64,
+}
+
+impl Chosen {
+    /// Where it waits.
+    fn id() -> egui::Id {
+        egui::Id::unique("chosen action")
+    }
+}
+
+/// How long a chosen action may wait for its pane, in seconds: longer would come as a surprise.
+const PATIENCE: f64 = 2.0;
+
+/// Asks for an action as if its keys were pressed where they count.
+pub fn choose(ctx: &egui::Context, action: Action) {
+    let time = ctx.input(|i| i.time);
+    ctx.data_mut(|data| data.insert_temp(Chosen::id(), Chosen { action, time }));
+    ctx.request_repaint();
+}
+
+/// The action that was chosen for this scope, once.
+fn take_chosen(ctx: &egui::Context, scope: Scope) -> Option<Action> {
+    let chosen: Chosen = ctx.data(|data| data.get_temp(Chosen::id()))?;
+    if self::scope(chosen.action) != Some(scope) {
+        return None;
+    }
+    ctx.data_mut(|data| data.remove::<Chosen>(Chosen::id()));
+    let waited = ctx.input(|i| i.time) - chosen.time;
+    (waited < PATIENCE).then_some(chosen.action)
+}
+
+/// Where an action belongs.
+pub fn scope(action: Action) -> Option<Scope> {
+    let line = SHORTCUTS.iter().find(|s| s.action == action)?;
+    Some(line.scope)
+}
+
+/// What this frame asks a scope to do: by its keys if `here`, that is where they count, and by
+/// [`choose`] wherever the pointer is.
+pub fn pressed(ctx: &egui::Context, scope: Scope, here: bool) -> Vec<Action> {
+    let mut actions = if here { keys(ctx, scope) } else { Vec::new() };
+    actions.extend(take_chosen(ctx, scope));
+    actions
+}
+
 /// What the keys of this frame ask for. A shortcut without Shift takes a key with Shift too, so the
 /// one with Shift comes before it in the table. Plain keys belong to the focused widget or the open list, if
 /// there is one.
-pub fn pressed(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
+fn keys(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
     let focused = ctx.egui_wants_keyboard_input() || egui::Popup::is_any_open(ctx);
     let typing = ctx.text_edit_focused();
     ctx.input_mut(|input| {
@@ -254,7 +312,7 @@ pub fn pressed(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
             .iter()
             .filter(|s| s.scope == scope)
             .filter(|s| !focused || s.modifiers != Modifiers::NONE)
-            .filter(|s| !typing || s.action == Action::Open)
+            .filter(|s| !typing || matches!(s.action, Action::Open | Action::Palette))
             .filter(|s| {
                 s.keys.iter().any(|&key| {
                     if is_held(s.action) {

@@ -2,7 +2,7 @@
 
 use super::comparing::Which;
 use super::files::Files;
-use super::shortcuts::{Action, text, tip};
+use super::shortcuts::{Action, choose, text, tip};
 use super::state::State;
 use crate::measure::parameter;
 use crate::tree::{BuildSettings, MaxDepth, Method};
@@ -21,6 +21,7 @@ pub fn show(ui: &mut egui::Ui, state: &mut State, files: &mut Files, help: &mut 
         {
             *help = !*help;
         }
+        view_menu(ui);
         let dark = ui.visuals().dark_mode;
         if ui
             .button(if dark { "Light" } else { "Dark" })
@@ -42,11 +43,35 @@ pub fn show(ui: &mut egui::Ui, state: &mut State, files: &mut Files, help: &mut 
     });
 }
 
+/// What is done to the window as a whole.
+fn view_menu(ui: &mut egui::Ui) {
+    ui.menu_button("View", |ui| {
+        for (name, action) in [
+            ("Search for a command…", Action::Palette),
+            ("Left bar", Action::LeftBar),
+            ("Right bar", Action::RightBar),
+            ("Reset the layout", Action::ResetLayout),
+        ] {
+            let item = egui::Button::new(name).shortcut_text(text(action));
+            if ui.add(item).clicked() {
+                choose(ui.ctx(), action);
+            }
+        }
+    })
+    .response
+    .on_hover_text("Commands, bars and the layout of the panes");
+}
+
 /// From dark to light and back.
 pub fn toggle_theme(ctx: &egui::Context) {
-    ctx.set_theme(match ctx.theme() {
-        egui::Theme::Dark => egui::ThemePreference::Light,
-        egui::Theme::Light => egui::ThemePreference::Dark,
+    set_theme(ctx, ctx.theme() == egui::Theme::Light);
+}
+
+pub fn set_theme(ctx: &egui::Context, dark: bool) {
+    ctx.set_theme(if dark {
+        egui::ThemePreference::Dark
+    } else {
+        egui::ThemePreference::Light
     });
 }
 

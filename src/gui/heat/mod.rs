@@ -245,6 +245,11 @@ impl HeatView {
             .filter(|ranked| ranked.pixel == picked && ranked.key == key)
     }
 
+    /// Shows a heatmap, by its place in the registry; `None` for the picture alone.
+    pub fn show(&mut self, heatmap: Option<usize>) {
+        self.choice.heatmap = heatmap;
+    }
+
     /// Does what a key asks for.
     pub fn act(&mut self, action: Action) {
         match action {

@@ -11,6 +11,7 @@ mod scene_facts;
 mod walk;
 
 use super::state::State;
+use std::collections::BTreeMap;
 
 /// Where a panel stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,15 +43,24 @@ pub static PANELS: &[Panel] = &[
     parameters::PANEL,
 ];
 
-/// Shows the panels of one side.
-pub fn show(ui: &mut egui::Ui, side: Side, state: &mut State) {
+/// Shows the panels of one side; `unfolded` says by title which were folded or unfolded.
+pub fn show(
+    ui: &mut egui::Ui,
+    side: Side,
+    state: &mut State,
+    unfolded: &mut BTreeMap<String, bool>,
+) {
     egui::ScrollArea::vertical()
         .auto_shrink(false)
         .show(ui, |ui| {
             for panel in PANELS.iter().filter(|panel| panel.side == side) {
-                egui::CollapsingHeader::new(egui::RichText::new(panel.title).strong())
-                    .default_open(panel.open)
+                let open = unfolded.get(panel.title).copied().unwrap_or(panel.open);
+                let shown = egui::CollapsingHeader::new(egui::RichText::new(panel.title).strong())
+                    .open(Some(open))
                     .show_unindented(ui, |ui| (panel.show)(ui, state));
+                if shown.header_response.clicked() {
+                    unfolded.insert(panel.title.to_owned(), !open);
+                }
             }
         });
 }

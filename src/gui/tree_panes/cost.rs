@@ -44,7 +44,7 @@ impl CostPane {
             waiting(ui);
             return;
         };
-        if is_under_pointer(ui) && pressed(ui.ctx(), Scope::Cost).contains(&Action::UndoWhatIf) {
+        if pressed(ui.ctx(), Scope::Cost, is_under_pointer(ui)).contains(&Action::UndoWhatIf) {
             state.inspect.undo();
         }
         let of = (TreeKey(Arc::clone(&current.shown.tree)), node);

@@ -41,7 +41,7 @@ impl Histograms {
             let bars = std::array::from_fn(|i| HISTOGRAMS[i].bars(&leaves, MOST_BARS));
             self.bars = Some((key, bars));
         }
-        if is_under_pointer(ui) && pressed(ui.ctx(), Scope::Leaves).contains(&Action::ClearRanges) {
+        if pressed(ui.ctx(), Scope::Leaves, is_under_pointer(ui)).contains(&Action::ClearRanges) {
             state.inspect.ranges = Ranges::default();
         }
         let [selected, of] = state.inspect.selected_leaves(&leaves);

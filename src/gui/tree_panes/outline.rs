@@ -79,22 +79,20 @@ impl Outline {
         let Some((_, rows)) = &mut self.rows else {
             return;
         };
-        if is_under_pointer(ui) {
-            for action in pressed(ui.ctx(), Scope::Tree) {
-                match action {
-                    Action::FrameNode => state.inspect.frame = current.selection.node,
-                    // In a list of matches, up and down go from match to match.
-                    Action::FindNext | Action::FindPrevious | Action::RowDown | Action::RowUp
-                        if self.find.only || !matches!(action, Action::RowDown | Action::RowUp) =>
-                    {
-                        let next = matches!(action, Action::FindNext | Action::RowDown);
-                        let to = if next { Step::Next } else { Step::Previous };
-                        let at = current.selection.node;
-                        current.selection.node =
-                            find_bar::step(found.unwrap_or_default(), at, to).or(at);
-                    }
-                    _ => walk(action, &mut current.selection.node, rows, &tree, &index),
+        for action in pressed(ui.ctx(), Scope::Tree, is_under_pointer(ui)) {
+            match action {
+                Action::FrameNode => state.inspect.frame = current.selection.node,
+                // In a list of matches, up and down go from match to match.
+                Action::FindNext | Action::FindPrevious | Action::RowDown | Action::RowUp
+                    if self.find.only || !matches!(action, Action::RowDown | Action::RowUp) =>
+                {
+                    let next = matches!(action, Action::FindNext | Action::RowDown);
+                    let to = if next { Step::Next } else { Step::Previous };
+                    let at = current.selection.node;
+                    current.selection.node =
+                        find_bar::step(found.unwrap_or_default(), at, to).or(at);
                 }
+                _ => walk(action, &mut current.selection.node, rows, &tree, &index),
             }
         }
         summary(ui, current, &index, &mut self.find);

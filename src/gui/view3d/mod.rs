@@ -134,6 +134,11 @@ impl View3d {
         true
     }
 
+    /// Colours the leaves by something else.
+    pub fn color_by(&mut self, coloring: &'static overlay::Coloring) {
+        self.settings.coloring = coloring;
+    }
+
     /// Takes over a new scene's camera, or the picture's while linked.
     fn follow(&mut self, state: &State) {
         let Some(current) = &state.current else {
@@ -179,9 +184,6 @@ impl View3d {
                 moved = true;
             }
         }
-        if !response.hovered() {
-            return moved;
-        }
         let (wheel, dt) = ui.input(|i| (i.smooth_scroll_delta().y, f64::from(i.stable_dt)));
         if wheel != 0.0
             && let Some(pointer) = response.hover_pos()
@@ -192,7 +194,7 @@ impl View3d {
             moved = true;
         }
         let before = self.camera;
-        for action in pressed(ui.ctx(), Scope::View3d) {
+        for action in pressed(ui.ctx(), Scope::View3d, response.hovered()) {
             if controls::act(self, action, state, dt.min(0.1)) {
                 moved = true;
                 // A key that is held goes on moving.

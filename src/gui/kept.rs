@@ -1,0 +1,73 @@
+//! Small files in the user's settings folder. What they hold is a convenience: failing to read or
+//! write one is no error.
+
+use super::StartOptions;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::path::PathBuf;
+
+/// A JSON file in the settings folder.
+#[derive(Default)]
+pub struct KeptFile {
+    /// `None` where nothing is kept.
+    path: Option<PathBuf>,
+}
+
+impl KeptFile {
+    /// The file of this name, in the folder that the start options say.
+    pub fn new(start: &StartOptions, name: &str) -> Self {
+        let folder = || {
+            start.settings_folder.clone().or_else(|| {
+                let folders = directories::ProjectDirs::from("", "", "bspscope")?;
+                Some(folders.config_dir().to_owned())
+            })
+        };
+        let path = start.remember.then(folder).flatten();
+        KeptFile {
+            path: path.map(|folder| folder.join(name)),
+        }
+    }
+
+    /// What was written last; `None` where there is no such file, or it holds something else.
+    pub fn read<T: DeserializeOwned>(&self) -> Option<T> {
+        let bytes = std::fs::read(self.path.as_ref()?).ok()?;
+        serde_json::from_slice(&bytes).ok()
+    }
+
+    pub fn write<T: Serialize>(&self, value: &T) {
+        if let Some(path) = &self.path
+            && let Some(folder) = path.parent()
+            && let Ok(text) = serde_json::to_vec_pretty(value)
+        {
+            // A full or read-only disk is not worth a message.
+            let _ = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(path, text));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_written_is_read_again_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let start = StartOptions {
+            settings_folder: Some(folder.path().join("not there yet")),
+            ..StartOptions::default()
+        };
+        let file = KeptFile::new(&start, "numbers.json");
+        assert_eq!(file.read::<Vec<u32>>(), None);
+        file.write(&vec![1, 2]);
+        assert_eq!(file.read(), Some(vec![1, 2]));
+        assert_eq!(file.read::<String>(), None);
+        let forgetful = StartOptions {
+            remember: false,
+            ..start
+        };
+        let nowhere = KeptFile::new(&forgetful, "numbers.json");
+        nowhere.write(&vec![3]);
+        assert_eq!(nowhere.read::<Vec<u32>>(), None);
+        assert_eq!(file.read(), Some(vec![1, 2]));
+    }
+}

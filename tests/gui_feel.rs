@@ -1,0 +1,137 @@
+//! What makes the window good to work with: a layout that is remembered, the command palette, names
+//! for screen readers.
+
+mod window_harness;
+
+use bspscope::gui::StartOptions;
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable as _;
+use window_harness::{Window, click, has, open, open_with_graphics, press, small, wait};
+
+/// Waits for the picture, whichever panels are shown.
+fn finish(window: &mut Window<'_>) {
+    wait(window, "the picture", |w| {
+        w.query_by_label("finished").is_some()
+    });
+}
+
+/// Opens the palette and types.
+fn search(window: &mut Window<'_>, query: &str) {
+    press(window, egui::Modifiers::COMMAND, egui::Key::K);
+    let field = window.get_by_role_and_label(Role::TextInput, "Search for a command");
+    field.type_text(query);
+    window.run_steps(2);
+}
+
+fn is_open(window: &Window<'_>) -> bool {
+    window.query_by_label("Search for a command").is_some()
+}
+
+#[test]
+fn the_palette_does_what_is_typed_and_chosen() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    search(&mut window, "next build");
+    window.key_press(egui::Key::Enter);
+    wait(&mut window, "the method", |w| has(w, "balls:1 · sah-cut"));
+    assert!(!is_open(&window));
+    search(&mut window, "method objectmedian");
+    window.key_press(egui::Key::Enter);
+    wait(&mut window, "the method", |w| has(w, "· object-median ·"));
+    // The second of two, by an arrow key.
+    search(&mut window, "bar on the");
+    window.key_press(egui::Key::ArrowDown);
+    window.run_steps(2);
+    window.key_press(egui::Key::Enter);
+    wait(&mut window, "the right bar to go", |w| {
+        w.query_by_label("leaves").is_none()
+    });
+    search(&mut window, "heatmap none");
+    window.key_press(egui::Key::Escape);
+    window.run_steps(3);
+    assert!(!is_open(&window));
+}
+
+#[test]
+fn the_palette_reaches_panes_without_the_pointer() {
+    let mut window = open_with_graphics(small("balls:1"));
+    finish(&mut window);
+    window.remove_cursor();
+    assert!(!has(&window, "Leaf boxes are not shown"));
+    search(&mut window, "show leaf boxes");
+    window.key_press(egui::Key::Enter);
+    wait(&mut window, "no boxes", |w| {
+        has(w, "Leaf boxes are not shown")
+    });
+    // By a click; the pane comes to the front of its tabs.
+    assert!(!has(&window, "leaves selected"));
+    search(&mut window, "select all leaves again");
+    window
+        .get_by_label_contains("Leaf histograms: Select all leaves again")
+        .click();
+    wait(&mut window, "the histograms", |w| has(w, "leaves selected"));
+    assert!(!is_open(&window));
+    search(&mut window, "heatmap nodes");
+    window.key_press(egui::Key::Enter);
+    wait(&mut window, "the heatmap", |w| has(w, "Legend from"));
+}
+
+/// A window that keeps its layout in this folder.
+fn kept(folder: &std::path::Path) -> StartOptions {
+    StartOptions {
+        remember: true,
+        settings_folder: Some(folder.to_owned()),
+        ..small("balls:1")
+    }
+}
+
+#[test]
+fn the_layout_is_remembered_and_reset() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = open(kept(folder.path()));
+    finish(&mut window);
+    let left = |w: &Window<'_>| has(w, "spheres: 10");
+    let outline = |w: &Window<'_>| has(w, "node 0");
+    assert!(left(&window) && outline(&window));
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::B);
+    click(&mut window, "Icicle");
+    wait(&mut window, "the bar to go", |w| !left(w));
+    // The harness starts in the dark, whatever was kept.
+    assert!(window.query_by_label("Light").is_some());
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::T);
+    window.run_steps(3);
+    drop(window);
+    let file = folder.path().join("layout.json");
+    let text = std::fs::read_to_string(&file).unwrap();
+    assert!(text.contains("\"dark\": false"), "{text}");
+
+    let mut window = open(kept(folder.path()));
+    finish(&mut window);
+    assert!(!left(&window) && !outline(&window));
+    assert!(window.query_by_label("Icicle of the tree").is_some());
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::D);
+    wait(&mut window, "the bar", |w| left(w) && outline(w));
+    drop(window);
+
+    std::fs::write(&file, "{\"tiles\": 3").unwrap();
+    let mut window = open(kept(folder.path()));
+    finish(&mut window);
+    assert!(left(&window) && outline(&window));
+}
+
+#[test]
+fn folded_panels_stay_folded() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = open(kept(folder.path()));
+    finish(&mut window);
+    let header = "Λ  the times";
+    assert!(window.query_by_label("build time").is_some());
+    click(&mut window, header);
+    wait(&mut window, "folding", |w| {
+        w.query_by_label("build time").is_none()
+    });
+    drop(window);
+    let mut window = open(kept(folder.path()));
+    finish(&mut window);
+    assert!(window.query_by_label("build time").is_none());
+}
