@@ -11,7 +11,9 @@ mod heat;
 mod help;
 mod inspect;
 mod panels;
+mod picture_marks;
 mod picture_pane;
+mod picture_pass;
 mod recent;
 mod rows;
 mod selection;
@@ -23,6 +25,7 @@ mod symbol;
 mod top_bar;
 mod tree_panes;
 mod view3d;
+mod visits;
 mod walk;
 mod walk_bar;
 

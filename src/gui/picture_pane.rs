@@ -2,6 +2,7 @@
 //! click and arrow keys.
 
 use super::heat::HeatView;
+use super::picture_marks::PictureMarks;
 use super::shortcuts::{Action, Scope, pressed};
 use super::state::{Current, Fresh, State};
 use crate::trace::{Picture, Tile};
@@ -20,12 +21,13 @@ pub struct PicturePane {
     /// The pixel under the pointer.
     pub hovered: Option<[u32; 2]>,
     pub heat: HeatView,
+    marks: PictureMarks,
 }
 
 impl PicturePane {
     /// Shows what there is to see of the pixels, and its legend.
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
-        header(ui, state);
+        header(ui, state, &mut self.marks);
         self.heat.controls(ui);
         self.heat.update(ui.ctx(), state);
         self.picture(ui, state);
@@ -68,6 +70,7 @@ impl PicturePane {
         if let Some((heat, tint)) = self.heat.texture(ui.ctx()) {
             painter.image(heat, rect, whole, tint);
         }
+        self.marks.paint(&painter, rect, current, &state.inspect);
         if let Some(pixel) = current.picked_pixel() {
             cross_hair(&painter, rect, picture, pixel);
         }
@@ -178,6 +181,7 @@ impl PicturePane {
                 Action::PickRight => step(current, 1, 0),
                 Action::PickUp => step(current, 0, -1),
                 Action::PickDown => step(current, 0, 1),
+                Action::OutlineSelection => self.marks.toggle(),
                 action => self.heat.act(action),
             }
         }
@@ -198,7 +202,7 @@ fn step(current: &mut Current, dx: i32, dy: i32) {
 }
 
 /// What the picture is of, and whether it is the one asked for.
-fn header(ui: &mut egui::Ui, state: &State) {
+fn header(ui: &mut egui::Ui, state: &State, marks: &mut PictureMarks) {
     ui.horizontal(|ui| {
         ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
         let Some(current) = &state.current else {
@@ -218,6 +222,7 @@ fn header(ui: &mut egui::Ui, state: &State) {
             "traced"
         };
         ui.strong(status);
+        marks.controls(ui, state);
         ui.label(current.settings_text())
             .on_hover_text(current.settings_text());
     });

@@ -72,6 +72,7 @@ pub enum Action {
     PickUp,
     PickDown,
     Unpick,
+    OutlineSelection,
     NextHeatmap,
     PreviousHeatmap,
     LogScale,
@@ -93,6 +94,7 @@ pub enum Action {
     ShowEmpty,
     Shown,
     AllDepths,
+    VisitedOrNot,
     FlyForward,
     FlyBack,
     FlyLeft,
@@ -106,6 +108,8 @@ pub enum Action {
     FrameNode,
     FindNext,
     FindPrevious,
+    MoreVisited,
+    LessVisited,
     ClearRanges,
     UndoWhatIf,
     /// Done with the mouse; listed for the help window alone.
@@ -175,6 +179,7 @@ shortcuts! {
     Picture PickUp NONE [ArrowUp] "Up" "Pick the pixel above";
     Picture PickDown NONE [ArrowDown] "Down" "Pick the pixel below";
     Picture Unpick NONE [Delete] "Delete" "Pick no pixel";
+    Picture OutlineSelection NONE [S] "S" "Outline the selected cell and object in the picture, or not";
     Picture PreviousHeatmap SHIFT [H] "Shift+H" "Show the heatmap before";
     Picture NextHeatmap NONE [H] "H" "Show the next heatmap";
     Picture LogScale NONE [G] "G" "Heatmap's colours by the logarithm, or not";
@@ -202,6 +207,7 @@ shortcuts! {
     View3d ShowEmpty NONE [P] "P" "Show empty leaves, or not";
     View3d Shown NONE [V] "V" "Show only the leaves that the picked ray visited, or all";
     View3d AllDepths NONE [X] "X" "Show all depths";
+    View3d VisitedOrNot NONE [N] "N" "Show leaves that the picture's rays visited, those never visited, or all";
     View3d FlyForward NONE [W] "W" "Fly forward";
     View3d FlyBack NONE [S] "S" "Fly back";
     View3d FlyLeft NONE [A] "A" "Fly to the left";
@@ -215,6 +221,8 @@ shortcuts! {
     Tree FrameNode NONE [Enter] "Enter" "Show the selected node's cell in 3D";
     Tree FindNext NONE [N] "N" "Select the next match";
     Tree FindPrevious SHIFT [N] "Shift+N" "Select the match before";
+    Tree MoreVisited SHIFT [V] "Shift+V" "Select the leaf before in the order of visits";
+    Tree LessVisited NONE [V] "V" "Select the most visited leaf, then the next";
     Leaves Mouse NONE [] "Drag" "Select the leaves of these bars; click: of one bar, again: of all";
     Leaves ClearRanges NONE [Delete] "Delete" "Select all leaves again";
     Cost Mouse NONE [] "Drag" "Try a plane; it changes no tree";

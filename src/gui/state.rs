@@ -174,6 +174,7 @@ impl State {
             self.worker.cancel();
             self.stopped = true;
         }
+        self.inspect.visits.cancel();
     }
 
     /// Whether what is shown was made with other settings than the widgets say.
@@ -287,6 +288,7 @@ impl State {
                 return;
             }
         }
+        self.inspect.visits.give_way();
         let number = self.worker.request(self.wanted.clone());
         self.sent = Some((number, self.wanted.clone()));
         self.stopped = false;

@@ -8,7 +8,7 @@ use super::{
 use crate::geometry::Ray;
 use crate::progress::Progress;
 use crate::scene::Scene;
-use crate::tree::Tree;
+use crate::tree::{NodeKind, Tree};
 use std::sync::{Mutex, PoisonError};
 
 /// How often the rays of a picture visited every node, and how many nodes each of them visited.
@@ -39,6 +39,15 @@ impl Visits {
             .collect();
         pixels.dedup();
         pixels
+    }
+
+    /// The leaves of the tree that was visited, most visited first; of equals the lower index.
+    pub fn leaves_by_visits(&self, tree: &Tree) -> Vec<u32> {
+        let mut leaves: Vec<u32> = (0..tree.nodes().len() as u32)
+            .filter(|&node| matches!(tree.kind(node), NodeKind::Leaf { .. }))
+            .collect();
+        leaves.sort_by_key(|&leaf| std::cmp::Reverse(self.by_node[leaf as usize]));
+        leaves
     }
 
     fn merge(&mut self, other: &Visits) {

@@ -8,6 +8,7 @@ use crate::gui::inspect::TreeKey;
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::{Current, State};
 use crate::gui::symbol::grouped;
+use crate::gui::visits::{self, PictureVisits};
 use crate::tree::{NodeKind, Tree, TreeIndex};
 use egui::{Align, Sense};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -22,7 +23,7 @@ pub struct Outline {
     find: FindBar,
 }
 
-const COLUMNS: [(&str, f32, &str); 8] = [
+const COLUMNS: [(&str, f32, &str); 9] = [
     (
         "node",
         164.0,
@@ -48,10 +49,11 @@ const COLUMNS: [(&str, f32, &str); 8] = [
          (MacDonald and Booth 1990)",
     ),
     (
-        "visits",
-        50.0,
-        "Nodes that such a ray is expected to visit, this one included",
+        "exp. nodes",
+        66.0,
+        "Expected nodes: those that such a ray is expected to visit, this one included",
     ),
+    ("visits", 110.0, visits::ABOUT),
 ];
 
 impl Outline {
@@ -69,7 +71,12 @@ impl Outline {
             self.rows = Some((key.clone(), Rows::new(&tree)));
             self.followed = None;
         }
-        let matches = self.find.matches(&key, &index, ui.ctx());
+        let resting = state.work.is_none();
+        let visits = state.inspect.visits.of(current, resting, ui.ctx());
+        let picture = current.number;
+        let matches = self
+            .find
+            .matches(&key, &index, visits.clone(), picture, ui.ctx());
         let found = matches.as_deref().map(Vec::as_slice);
         let before = current.selection.node;
         if let Some(to) = self.find.ui(ui, found, before) {
@@ -83,6 +90,10 @@ impl Outline {
             for action in pressed(ui.ctx(), Scope::Tree) {
                 match action {
                     Action::FrameNode => state.inspect.frame = current.selection.node,
+                    Action::MoreVisited | Action::LessVisited => {
+                        let back = action == Action::MoreVisited;
+                        step_by_visits(&mut current.selection.node, visits.as_deref(), back);
+                    }
                     // In a list of matches, up and down go from match to match.
                     Action::FindNext | Action::FindPrevious | Action::RowDown | Action::RowUp
                         if self.find.only || !matches!(action, Action::RowDown | Action::RowUp) =>
@@ -97,7 +108,11 @@ impl Outline {
                 }
             }
         }
-        summary(ui, current, &index, &mut self.find);
+        ui.horizontal(|ui| {
+            by_visits(ui, &mut current.selection.node, visits.as_deref());
+            state.inspect.visits.show(ui, current);
+            summary(ui, current, &index, &mut self.find);
+        });
         let listed = found.filter(|_| self.find.only);
         let mut scroll = None;
         if current.selection.node != self.followed {
@@ -121,6 +136,7 @@ impl Outline {
         let mut table = Table {
             tree: &tree,
             index: &index,
+            visits: visits.as_deref(),
             rows,
             selected: &mut current.selection.node,
             flat: listed.is_some(),
@@ -156,9 +172,37 @@ fn walk(
     }
 }
 
+/// Selects the most visited leaf, or from a leaf on the next or the one before.
+fn step_by_visits(selected: &mut Option<u32>, visits: Option<&PictureVisits>, back: bool) {
+    if let Some(visits) = visits {
+        *selected = visits.step(*selected, back).or(*selected);
+    }
+}
+
+/// The way through the leaves in the order of their visits.
+fn by_visits(ui: &mut egui::Ui, selected: &mut Option<u32>, visits: Option<&PictureVisits>) {
+    for (name, about, action) in [
+        (
+            "More visited",
+            "Select the leaf that comes before in the order of visits.",
+            Action::MoreVisited,
+        ),
+        (
+            "Less visited",
+            "Select the most visited leaf; from a leaf on, the next in the order of visits.",
+            Action::LessVisited,
+        ),
+    ] {
+        let button = ui.add_enabled(visits.is_some(), egui::Button::new(name));
+        if button.on_hover_text(tip(about, action)).clicked() {
+            step_by_visits(selected, visits, action == Action::MoreVisited);
+        }
+    }
+}
+
 /// What is selected, in words.
 fn summary(ui: &mut egui::Ui, current: &Current, index: &TreeIndex, find: &mut FindBar) {
-    ui.horizontal(|ui| {
+    ui.scope(|ui| {
         ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
         if let Some(object) = current.selection.object {
             let leaves = index.leaves_of(object).len();
@@ -195,6 +239,7 @@ fn summary(ui: &mut egui::Ui, current: &Current, index: &TreeIndex, find: &mut F
 struct Table<'a> {
     tree: &'a Tree,
     index: &'a TreeIndex,
+    visits: Option<&'a PictureVisits>,
     rows: &'a mut Rows,
     selected: &'a mut Option<u32>,
     /// A list of matches instead of an outline.
@@ -269,7 +314,8 @@ impl Table<'_> {
             grouped(facts.references as usize),
             format!("{} %", short(100.0 * facts.area / root)),
             short(facts.tests),
-            short(facts.visits),
+            short(facts.expected_visits),
+            self.visits_text(node),
         ] {
             row.col(|ui| {
                 ui.add(egui::Label::new(text).selectable(false).truncate());
@@ -278,6 +324,16 @@ impl Table<'_> {
         if row.response().clicked() {
             *self.selected = Some(node);
         }
+    }
+
+    /// Number of visits and their share of all rays; a dash where they are not counted.
+    fn visits_text(&self, node: u32) -> String {
+        let Some(visits) = self.visits else {
+            return "–".to_owned();
+        };
+        let count = visits.by_node[node as usize];
+        let share = 100.0 * count as f64 / visits.rays() as f64;
+        format!("{} · {} %", grouped(count as usize), short(share))
     }
 
     /// The indentation and the triangle that folds and unfolds.

@@ -4,7 +4,7 @@ use super::View3d;
 use crate::geometry::{Axis, Vec3};
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::{Current, State};
-use crate::overlay::{COLORINGS, Coloring, Filter};
+use crate::overlay::{COLORINGS, Coloring, Filter, Visited};
 
 /// What the 3D view shows.
 #[derive(Clone, Copy)]
@@ -36,6 +36,12 @@ impl Default for Settings {
 }
 
 impl Settings {
+    fn next_visited(&mut self) {
+        let visited = &mut self.filter.visited;
+        let at = Visited::ALL.iter().position(|v| v == visited);
+        *visited = Visited::ALL[(at.unwrap_or(0) + 1) % Visited::ALL.len()];
+    }
+
     fn next_coloring(&mut self) {
         let at = COLORINGS.iter().position(|c| c.name == self.coloring.name);
         self.coloring = &COLORINGS[(at.unwrap_or(0) + 1) % COLORINGS.len()];
@@ -83,6 +89,20 @@ pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &State) {
             })
             .response
             .on_hover_text(tip("What leaves are coloured by.", Action::NextColoring));
+        egui::ComboBox::from_id_salt("visited")
+            .selected_text(settings.filter.visited.title())
+            .width(110.0)
+            .show_ui(ui, |ui| {
+                for visited in Visited::ALL {
+                    let value = &mut settings.filter.visited;
+                    ui.selectable_value(value, visited, visited.title());
+                }
+            })
+            .response
+            .on_hover_text(tip(
+                "Show leaves by whether any ray of the picture visited them.",
+                Action::VisitedOrNot,
+            ));
         depth_filter(&mut settings.filter, depth_reached, ui);
         ui.checkbox(&mut settings.only_visited, "Only visited")
             .on_hover_text(tip(
@@ -161,6 +181,7 @@ pub fn act(view: &mut View3d, action: Action, state: &State, dt: f64) -> bool {
         Action::ShowRays => settings.all_rays ^= true,
         Action::Shown => settings.only_visited ^= true,
         Action::NextColoring => settings.next_coloring(),
+        Action::VisitedOrNot => settings.next_visited(),
         Action::AllDepths => settings.filter.depth = Filter::default().depth,
         Action::Link => view.link(!view.settings.linked, state),
         Action::Orthographic => view.camera.orthographic ^= true,

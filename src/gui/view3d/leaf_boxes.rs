@@ -2,6 +2,7 @@
 
 use crate::geometry::Vec3;
 use crate::gui::background::Latest;
+use crate::gui::visits::PictureVisits;
 use crate::overlay::{Coloring, Filter, LeafBoxes, leaf_boxes};
 use crate::tree::Tree;
 use std::sync::Arc;
@@ -12,6 +13,8 @@ struct Key {
     tree: Arc<Tree>,
     filter: Filter,
     coloring: &'static Coloring,
+    /// Of the picture, where filter or colouring need them.
+    visits: Option<Arc<PictureVisits>>,
 }
 
 impl PartialEq for Key {
@@ -19,6 +22,7 @@ impl PartialEq for Key {
         Arc::ptr_eq(&self.tree, &other.tree)
             && self.filter == other.filter
             && self.coloring.name == other.coloring.name
+            && self.visits.as_ref().map(Arc::as_ptr) == other.visits.as_ref().map(Arc::as_ptr)
     }
 }
 
@@ -41,6 +45,7 @@ impl Boxes {
         tree: &Arc<Tree>,
         filter: Filter,
         coloring: &'static Coloring,
+        visits: Option<Arc<PictureVisits>>,
         center: Vec3,
         ctx: &egui::Context,
     ) -> Option<Arc<LeafBoxes>> {
@@ -48,6 +53,7 @@ impl Boxes {
             tree: Arc::clone(tree),
             filter,
             coloring,
+            visits,
         };
         if let Some(boxes) = self.made.ready(&key) {
             return Some(boxes);
@@ -55,7 +61,8 @@ impl Boxes {
         let make = {
             let key = key.clone();
             move || {
-                let mut boxes = leaf_boxes(&key.tree, &key.filter, key.coloring, center);
+                let visits = key.visits.as_ref().map(|visits| &visits.visits);
+                let mut boxes = leaf_boxes(&key.tree, &key.filter, key.coloring, visits, center);
                 boxes.instances = spread(&boxes.instances);
                 boxes.instances.truncate(MOST_BOXES);
                 boxes

@@ -10,7 +10,7 @@ use crate::overlay::{
     leaves_along,
 };
 use crate::overlay::{Filter, Leaf};
-use crate::tree::{CellOfNode, NodeKind};
+use crate::tree::CellOfNode;
 use egui::{Align2, Color32, Rect, vec2};
 
 /// So many of an object's leaves are drawn.
@@ -159,15 +159,12 @@ impl Marks {
 pub fn pick_leaf(state: &State, filter: &Filter, ray: &crate::geometry::Ray) -> Option<u32> {
     let current = state.current.as_ref()?;
     let tree = &current.shown.tree;
+    let visits = state.inspect.visits.ready();
     let shown: Vec<u32> = leaves_along(tree, ray)
         .into_iter()
-        .filter(|cell| match tree.kind(cell.node) {
-            NodeKind::Leaf { count, .. } => filter.passes(Leaf {
-                depth: cell.depth,
-                objects: count,
-                volume: cell.bounds.volume(),
-            }),
-            NodeKind::Inner { .. } => false,
+        .filter(|cell| {
+            let leaf = Leaf::of(tree, cell, visits.as_deref().map(|v| &v.visits));
+            leaf.is_some_and(|leaf| filter.passes(&leaf))
         })
         .map(|cell| cell.node)
         .collect();

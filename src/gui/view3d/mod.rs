@@ -13,6 +13,7 @@ mod scene_mesh;
 use super::background::Latest;
 use super::shortcuts::{Scope, pressed};
 use super::state::{Current, State};
+use super::visits::PictureVisits;
 use crate::geometry::{Aabb, Vec3};
 use crate::overlay::{self, Line};
 use crate::scene::{Camera, Scene};
@@ -21,6 +22,7 @@ use camera::ViewCamera;
 use controls::Settings;
 use eframe::egui_wgpu::{self, wgpu};
 use egui::{Color32, Rect, vec2};
+pub use legend::color_bar;
 use renderer::{Frame3d, Globals};
 use std::sync::Arc;
 
@@ -108,6 +110,7 @@ impl View3d {
             }
         }
         self.settings.filter.ranges = state.inspect.ranges;
+        let visits = self.visits(state, ui.ctx());
         self.pick(rect, &response, state);
         let [r, g, b] = GROUND;
         ui.painter()
@@ -121,8 +124,27 @@ impl View3d {
                 );
             }
             (Some(_), None) => note(ui, rect, "No scene yet"),
-            (Some(_), Some(current)) => self.draw(ui, rect, current, &marks),
+            (Some(_), Some(current)) => self.draw(ui, rect, current, visits, &marks),
         }
+    }
+
+    /// The visits that the boxes shown need: those of the picture, or why there are none yet. `None`
+    /// where they need none.
+    fn visits(
+        &self,
+        state: &mut State,
+        ctx: &egui::Context,
+    ) -> Option<Result<Arc<PictureVisits>, String>> {
+        let current = state.current.as_ref()?;
+        let Settings {
+            filter, coloring, ..
+        } = &self.settings;
+        if !filter.needs_visits() && !coloring.needs_visits() {
+            return None;
+        }
+        let resting = state.work.is_none();
+        let visits = state.inspect.visits.of(current, resting, ctx);
+        Some(visits.ok_or_else(|| state.inspect.visits.note(current).unwrap_or_default()))
     }
 
     /// Shows the node that another pane asks for; says whether there was one.
@@ -232,7 +254,14 @@ impl View3d {
         self.camera.on_target_plane(&ray)
     }
 
-    fn draw(&mut self, ui: &mut egui::Ui, rect: Rect, current: &Current, marks: &marks::Marks) {
+    fn draw(
+        &mut self,
+        ui: &mut egui::Ui,
+        rect: Rect,
+        current: &Current,
+        visits: Option<Result<Arc<PictureVisits>, String>>,
+        marks: &marks::Marks,
+    ) {
         let (scene, tree) = (&current.shown.scene, &current.shown.tree);
         let center = scene_mesh::center_of(scene);
         let ctx = ui.ctx();
@@ -246,12 +275,17 @@ impl View3d {
             None
         };
         let only_visited = self.settings.only_visited && path.is_some();
-        let boxes = (self.settings.boxes && !only_visited)
+        let (visits, waits_for) = match visits {
+            Some(Ok(visits)) => (Some(visits), None),
+            Some(Err(why)) => (None, Some(why)),
+            None => (None, None),
+        };
+        let boxes = (self.settings.boxes && !only_visited && waits_for.is_none())
             .then(|| {
                 let Settings {
                     filter, coloring, ..
                 } = self.settings;
-                self.boxes.get(tree, filter, coloring, center, ctx)
+                self.boxes.get(tree, filter, coloring, visits, center, ctx)
             })
             .flatten();
         let mut lines = self.lines_for(current, center);
@@ -305,6 +339,7 @@ impl View3d {
             marks: marks.key(),
             settings: &self.settings,
             boxes: boxes.as_deref(),
+            waits_for: waits_for.as_deref(),
             drawn,
             picked: current.picked.as_ref(),
             left_out,
