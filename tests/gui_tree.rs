@@ -9,7 +9,7 @@ use bspscope::trace::{RenderSettings, Visits, thread_pool, visits_pass};
 use bspscope::tree::{BuildSettings, Method, Tree, build};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use window_harness::{Window, click, has, open_sized, small, wait};
+use window_harness::{Window, click, grouped, has, open_sized, small, wait};
 
 /// A window with a finished picture; with the 3D view where `graphics`.
 fn open<'a>(scene: &str, method: &str, graphics: bool) -> Window<'a> {
@@ -192,7 +192,7 @@ fn visits_of_the_picture_are_told_and_lead_to_the_leaves_visited_most() {
     find(
         &mut window,
         "visits 0",
-        &format!("{} matches", grouped(never as u64)),
+        &format!("{} matches", grouped(never)),
     );
     click(&mut window, "Next match");
     let node = text_with(&window, "Selected: node ");
@@ -260,7 +260,7 @@ fn rays_by_nodes_have_a_histogram_that_can_be_brushed() {
             let lo = ends.next().unwrap();
             let pixels = visits.pixels_within([lo, ends.next().unwrap_or(lo)]).len();
             assert!(pixels > 0);
-            let pixels = grouped(pixels as u64);
+            let pixels = grouped(pixels);
             assert!(text.starts_with(&format!("{pixels} pixels")), "{text}");
         }
         click(&mut window, "Clear ranges");
@@ -311,14 +311,6 @@ fn the_selected_cell_is_outlined_in_the_picture() {
     assert_eq!(orange(&mut window), 0);
     click(&mut window, "Selection");
     assert!(orange(&mut window) > 100);
-}
-
-/// A whole number in groups of three digits; there are no more than six here.
-fn grouped(number: u64) -> String {
-    match (number / 1000, number % 1000) {
-        (0, rest) => rest.to_string(),
-        (thousands, rest) => format!("{thousands} {rest:03}"),
-    }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //! the plane that is tried out.
 
 use super::background::Latest;
+use super::build_view::BuildView;
 use super::state::Current;
 use super::visits::{PictureVisits, VisitsPass};
 use crate::geometry::Axis;
@@ -52,6 +53,8 @@ pub struct Inspect {
     /// Numbers of nodes that a ray visits: pixels without a ray in this range are dimmed.
     pub nodes_a_ray: Option<[f64; 2]>,
     pub what_if: Option<WhatIf>,
+    /// The moment of the build that is shown.
+    pub build: BuildView,
     /// A node that the 3D view is to show.
     pub frame: Option<u32>,
 }
@@ -68,6 +71,7 @@ impl Inspect {
             self.counted = None;
             self.what_if = None;
             self.frame = None;
+            self.build.reset();
         }
         let scene = &current.shown.scene;
         if !self.scene.as_ref().is_some_and(|s| Arc::ptr_eq(s, scene)) {

@@ -6,6 +6,8 @@
 
 mod app;
 mod background;
+mod build_bar;
+mod build_view;
 mod files;
 mod heat;
 mod help;

@@ -63,6 +63,13 @@ pub enum Action {
     LastStep,
     Play,
     LeavesOnly,
+    ShowBuild,
+    BuildFirst,
+    BuildPrevious,
+    BuildNext,
+    BuildLast,
+    PlayBuild,
+    BuildByNode,
     PreviousRay,
     NextRay,
     Fit,
@@ -95,6 +102,11 @@ pub enum Action {
     Shown,
     AllDepths,
     VisitedOrNot,
+    Cut,
+    CutAxis,
+    CutSide,
+    CutLess,
+    CutMore,
     FlyForward,
     FlyBack,
     FlyLeft,
@@ -170,6 +182,13 @@ shortcuts! {
     Window LastStep SHIFT [End] "Shift+End" "Last step of the walk";
     Window Play NONE [Space] "Space" "Play the walk, or pause it";
     Window LeavesOnly NONE [K] "K" "Step through leaves only, or through inner nodes, too";
+    Window ShowBuild COMMAND [B] "Ctrl+B" "Show the build of the tree step by step, or the finished tree";
+    Window BuildFirst ALT [Home] "Alt+Home" "First moment of the build";
+    Window BuildPrevious ALT [ArrowLeft] "Alt+Left" "One step of the build back";
+    Window BuildNext ALT [ArrowRight] "Alt+Right" "One step of the build on";
+    Window BuildLast ALT [End] "Alt+End" "Last moment of the build: the finished tree";
+    Window PlayBuild ALT [P] "Alt+P" "Play the build, or pause it";
+    Window BuildByNode ALT [N] "Alt+N" "Go through the build by nodes or by depths";
     Window Mouse NONE [] "Drop a file" "Open it";
     Picture Mouse NONE [] "Click" "Name the object in a pixel and follow its ray";
     Picture Mouse NONE [] "Wheel" "Zoom to the pointer";
@@ -208,6 +227,11 @@ shortcuts! {
     View3d Shown NONE [V] "V" "Show only the leaves that the picked ray visited, or all";
     View3d AllDepths NONE [X] "X" "Show all depths";
     View3d VisitedOrNot NONE [N] "N" "Show leaves that the picture's rays visited, those never visited, or all";
+    View3d Cut NONE [T] "T" "Cut the view open, or not";
+    View3d CutAxis NONE [Y] "Y" "Cut across the next axis";
+    View3d CutSide NONE [U] "U" "Hide the other side of the cut";
+    View3d CutLess NONE [OpenBracket] "[" "Move the cut down its axis";
+    View3d CutMore NONE [CloseBracket] "]" "Move the cut up its axis";
     View3d FlyForward NONE [W] "W" "Fly forward";
     View3d FlyBack NONE [S] "S" "Fly back";
     View3d FlyLeft NONE [A] "A" "Fly to the left";

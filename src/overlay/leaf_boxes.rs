@@ -3,7 +3,7 @@
 use super::{Coloring, Leaf, Ranges, in_ranges, ranges_need_visits};
 use crate::geometry::Vec3;
 use crate::trace::Visits;
-use crate::tree::Tree;
+use crate::tree::{Moment, Tree};
 
 /// Leaves by whether rays of the picture visited them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,6 +47,8 @@ pub struct Filter {
     pub empty: bool,
     pub full: bool,
     pub visited: Visited,
+    /// The moment of the build that is shown; `None` for the finished tree.
+    pub moment: Option<Moment>,
     /// Ranges of the histograms.
     pub ranges: Ranges,
 }
@@ -59,6 +61,7 @@ impl Default for Filter {
             empty: true,
             full: true,
             visited: Visited::default(),
+            moment: None,
             ranges: Ranges::default(),
         }
     }
@@ -91,9 +94,13 @@ impl Filter {
 pub struct Instance {
     pub lo: [f32; 3],
     pub hi: [f32; 3],
-    /// sRGB; the fourth is 255 for solid edges (full leaves), 0 for dashed ones (empty leaves).
+    /// sRGB; the fourth is 255 for solid edges (full leaves), 0 for dashed ones (empty leaves),
+    /// 128 for dotted ones (cells that were not decided yet).
     pub color: [u8; 4],
 }
+
+/// The colour of cells that were not decided yet: no colouring of leaves has it.
+pub const UNDECIDED_COLOR: [u8; 3] = [235; 3];
 
 /// The boxes of a tree's leaves.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -101,13 +108,16 @@ pub struct LeafBoxes {
     pub instances: Vec<Instance>,
     /// Leaves of the tree, hidden ones included.
     pub leaves: usize,
+    /// Boxes of cells that were not decided yet.
+    pub undecided: usize,
     /// The least and the greatest value of the legend.
     pub range: [f64; 2],
 }
 
 /// The boxes of the leaves that pass the filter, coloured, relative to `center` to stay precise in
 /// 32 bits. The legend spans all leaves of the tree, so that a filter changes no colour. Filters and
-/// colourings by visits need them; without, no leaf has a colour or passes.
+/// colourings by visits need them; without, no leaf has a colour or passes. At a moment of the build,
+/// cells that were not decided yet pass by their depth alone.
 pub fn leaf_boxes(
     tree: &Tree,
     filter: &Filter,
@@ -124,17 +134,31 @@ pub fn leaf_boxes(
         range,
         ..LeafBoxes::default()
     };
-    for (cell, leaf) in leaves() {
-        boxes.leaves += 1;
-        if let Some(value) = coloring.value(&leaf)
-            && filter.passes(&leaf)
-        {
-            let [r, g, b] = coloring.color(value, range);
+    boxes.leaves = leaves().count();
+    // At the greatest depth the tree is finished.
+    let moment = filter.moment.unwrap_or(Moment::Depth(u32::MAX));
+    for (cell, decided) in tree.cells_at(moment) {
+        let mut add = |[r, g, b]: [u8; 3], edges: u8| {
             boxes.instances.push(Instance {
                 lo: (cell.bounds.lo - center).as_vec3().to_array(),
                 hi: (cell.bounds.hi - center).as_vec3().to_array(),
-                color: [r, g, b, if leaf.objects == 0 { 0 } else { 255 }],
+                color: [r, g, b, edges],
             });
+        };
+        let [lowest, highest] = filter.depth;
+        if !decided {
+            if (lowest..=highest).contains(&cell.depth) {
+                add(UNDECIDED_COLOR, 128);
+                boxes.undecided += 1;
+            }
+            continue;
+        }
+        if let Some(leaf) = Leaf::of(tree, &cell, visits)
+            && let Some(value) = coloring.value(&leaf)
+            && filter.passes(&leaf)
+        {
+            let edges = if leaf.objects == 0 { 0 } else { 255 };
+            add(coloring.color(value, range), edges);
         }
     }
     boxes

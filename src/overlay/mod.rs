@@ -19,7 +19,7 @@ pub use histogram::{
     Bars, HISTOGRAM_COUNT, HISTOGRAMS, Histogram, HistogramAxis, NODES_A_RAY, Ranges, Spread,
     in_ranges, leaves, ranges_need_visits, ray_bars,
 };
-pub use leaf_boxes::{Filter, Instance, LeafBoxes, Visited, leaf_boxes};
+pub use leaf_boxes::{Filter, Instance, LeafBoxes, UNDECIDED_COLOR, Visited, leaf_boxes};
 pub use legend::{Captions, HeatPicture, with_legend};
 pub use lines::{BOX_EDGES, Line, box_lines, frustum_lines, order_color};
 pub use rays::{RayStyle, RaysShown, ray_lines, ray_style};

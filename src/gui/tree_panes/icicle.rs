@@ -10,14 +10,14 @@ use crate::gui::symbol::grouped;
 use crate::gui::view3d::color_bar;
 use crate::gui::visits::PictureVisits;
 use crate::overlay::{COLORINGS, Coloring, Leaf};
-use crate::tree::{NodeKind, Tree, TreeIndex};
+use crate::tree::{Moment, NodeKind, Tree, TreeIndex};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, pos2, vec2};
 use std::sync::Arc;
 
 /// The narrowest piece that is drawn, in points.
 const NARROWEST: f32 = 1.5;
 
-/// The colour of nodes while their visits are being counted.
+/// The colour of nodes while their visits are being counted, and of those not decided yet.
 const UNKNOWN: [u8; 3] = [120; 3];
 
 /// What a node's width stands for.
@@ -60,12 +60,15 @@ struct Key {
     width: Width,
     top: u32,
     area: Rect,
+    moment: Option<Moment>,
 }
 
 /// What nodes are coloured by.
 struct Facts<'a> {
     index: &'a TreeIndex,
     visits: Option<&'a PictureVisits>,
+    /// The moment of the build that is shown.
+    moment: Option<Moment>,
 }
 
 /// The pieces that are drawn; those drawn later lie on top.
@@ -98,6 +101,7 @@ impl Icicle {
         let facts = Facts {
             index: &index,
             visits: visits.as_deref(),
+            moment: state.inspect.build.moment(),
         };
         let values = (
             key,
@@ -125,6 +129,7 @@ impl Icicle {
             width: self.width,
             top: self.top,
             area,
+            moment: facts.moment,
         };
         let pieces = match self.made.take() {
             Some((made, pieces)) if made == key => pieces,
@@ -278,13 +283,23 @@ impl Icicle {
         let mut rects = Vec::with_capacity(spans.len());
         let mut mesh = egui::Mesh::default();
         for (node, left, right) in spans {
+            let parent = index.of(node).parent;
+            if node != 0 && !facts.is_decided(tree, parent) {
+                continue;
+            }
             let y = area.top() + height * (index.of(node).depth - top) as f32;
             let rect = Rect::from_min_max(pos2(left, y), pos2(right, y + height));
             let value = self.coloring.value(&facts.leaf_like(node));
+            let value = value.filter(|_| facts.is_decided(tree, node));
             let [r, g, b] = value.map_or(UNKNOWN, |value| self.coloring.color(value, range));
             let gap = if rect.width() > 4.0 { 0.5 } else { 0.0 };
             let drawn = rect.shrink2(vec2(gap, if height > 4.0 { 0.5 } else { 0.0 }));
             mesh.add_colored_rect(drawn, Color32::from_rgb(r, g, b));
+            if !facts.is_decided(tree, node) {
+                // A hollow piece.
+                let inside = drawn.shrink2(vec2(1.0, height * 0.25));
+                mesh.add_colored_rect(inside, Color32::from_gray(30));
+            }
             rects.push((rect, node));
         }
         Pieces {
@@ -336,6 +351,13 @@ impl Icicle {
 }
 
 impl Facts<'_> {
+    /// Whether a node was a leaf or split by the moment that is shown.
+    fn is_decided(&self, tree: &Tree, node: u32) -> bool {
+        let depth = self.index.of(node).depth;
+        self.moment
+            .is_none_or(|moment| tree.is_decided(node, depth, moment))
+    }
+
     /// A node as colourings see it.
     fn leaf_like(&self, node: u32) -> Leaf {
         let facts = self.index.of(node);

@@ -58,6 +58,7 @@ const COLUMNS: [(&str, f32, &str); 9] = [
 
 impl Outline {
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
+        let moment = state.inspect.build.moment();
         let Some(current) = &mut state.current else {
             return;
         };
@@ -68,7 +69,7 @@ impl Outline {
         let tree = Arc::clone(&current.shown.tree);
         let key = TreeKey(Arc::clone(&tree));
         if self.rows.as_ref().is_none_or(|(of, _)| *of != key) {
-            self.rows = Some((key.clone(), Rows::new(&tree)));
+            self.rows = Some((key.clone(), Rows::new(&tree, &index)));
             self.followed = None;
         }
         let resting = state.work.is_none();
@@ -86,6 +87,7 @@ impl Outline {
         let Some((_, rows)) = &mut self.rows else {
             return;
         };
+        rows.show(&tree, &index, moment);
         if is_under_pointer(ui) {
             for action in pressed(ui.ctx(), Scope::Tree) {
                 match action {
@@ -157,7 +159,8 @@ fn walk(
         *selected = Some(0);
         return;
     };
-    let inner = matches!(tree.kind(node), NodeKind::Inner { .. });
+    let inner =
+        matches!(tree.kind(node), NodeKind::Inner { .. }) && rows.is_decided(tree, index, node);
     let row = rows.row_of(node).unwrap_or(0);
     match action {
         Action::RowUp => *selected = rows.nodes().get(row.saturating_sub(1)).copied(),
@@ -165,8 +168,8 @@ fn walk(
             *selected = rows.nodes().get(row + 1).copied().or(Some(node));
         }
         Action::Unfold if inner && rows.is_unfolded(node) => *selected = Some(node + 1),
-        Action::Unfold => rows.set(tree, node, inner),
-        Action::Fold if inner && rows.is_unfolded(node) => rows.set(tree, node, false),
+        Action::Unfold => rows.set(tree, index, node, inner),
+        Action::Fold if inner && rows.is_unfolded(node) => rows.set(tree, index, node, false),
         Action::Fold => *selected = Some(index.of(node).parent),
         _ => {}
     }
@@ -298,7 +301,9 @@ impl Table<'_> {
                 *self.selected = Some(node);
             }
         });
+        let decided = self.rows.is_decided(self.tree, self.index, node);
         let (about, objects) = match self.tree.kind(node) {
+            _ if !decided => ("not decided yet".to_owned(), facts.objects),
             NodeKind::Inner { .. } => {
                 let plane = self.tree.plane(node);
                 let text = plane.map(|(axis, at)| format!("{axis} = {at:.6}"));
@@ -307,15 +312,17 @@ impl Table<'_> {
             NodeKind::Leaf { count, stop, .. } => (format!("leaf: {}", stop.text()), count),
         };
         let root = self.index.of(0).area;
+        // What the subtree will amount to is not known before it is built.
+        let later = |text: String| if decided { text } else { "–".to_owned() };
         for text in [
             facts.depth.to_string(),
             about,
             grouped(objects as usize),
-            grouped(facts.references as usize),
+            later(grouped(facts.references as usize)),
             format!("{} %", short(100.0 * facts.area / root)),
-            short(facts.tests),
-            short(facts.expected_visits),
-            self.visits_text(node),
+            later(short(facts.tests)),
+            later(short(facts.expected_visits)),
+            later(self.visits_text(node)),
         ] {
             row.col(|ui| {
                 ui.add(egui::Label::new(text).selectable(false).truncate());
@@ -342,7 +349,8 @@ impl Table<'_> {
         let levels = self.tree.depth_reached().max(1);
         ui.add_space(depth as f32 * (64.0 / levels as f32).min(8.0));
         let size = egui::vec2(14.0, ui.available_height());
-        if !matches!(self.tree.kind(node), NodeKind::Inner { .. }) {
+        let inner = matches!(self.tree.kind(node), NodeKind::Inner { .. });
+        if !inner || !self.rows.is_decided(self.tree, self.index, node) {
             ui.allocate_space(size);
             return;
         }
@@ -360,7 +368,7 @@ impl Table<'_> {
             Action::Unfold
         };
         if response.on_hover_text(tip(verb, action)).clicked() {
-            self.rows.set(self.tree, node, !unfolded);
+            self.rows.set(self.tree, self.index, node, !unfolded);
         }
     }
 }

@@ -1,7 +1,9 @@
 //! What the 3D view shows, the widgets above it, and what its keys do.
 
 use super::View3d;
+use super::cut::Cut;
 use crate::geometry::{Axis, Vec3};
+use crate::gui::build_bar;
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::{Current, State};
 use crate::overlay::{COLORINGS, Coloring, Filter, Visited};
@@ -13,6 +15,8 @@ pub struct Settings {
     pub boxes: bool,
     pub coloring: &'static Coloring,
     pub filter: Filter,
+    /// What is hidden of objects and leaf boxes.
+    pub cut: Cut,
     /// Whether the picture's camera is this view's.
     pub linked: bool,
     /// Of all leaves, only those that the picked ray visited.
@@ -28,6 +32,7 @@ impl Default for Settings {
             boxes: true,
             coloring: &COLORINGS[0],
             filter: Filter::default(),
+            cut: Cut::default(),
             linked: true,
             only_visited: false,
             all_rays: true,
@@ -49,7 +54,7 @@ impl Settings {
 }
 
 /// The row of widgets above the view.
-pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &State) {
+pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &mut State) {
     let depth_reached = state
         .current
         .as_ref()
@@ -104,6 +109,10 @@ pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &State) {
                 Action::VisitedOrNot,
             ));
         depth_filter(&mut settings.filter, depth_reached, ui);
+        build_bar::switch(ui, state);
+        if let Some(current) = &state.current {
+            settings.cut.controls(ui, &current.shown.tree.root_cell());
+        }
         ui.checkbox(&mut settings.only_visited, "Only visited")
             .on_hover_text(tip(
                 "Of all leaves, show only those that the picked pixel's ray visited.",
@@ -200,7 +209,7 @@ pub fn act(view: &mut View3d, action: Action, state: &State, dt: f64) -> bool {
         Action::Front => return look(view, Axis::Y),
         Action::Side => return look(view, Axis::X),
         Action::Top => return look(view, Axis::Z),
-        _ => {}
+        action => settings.cut.act(action),
     }
     false
 }

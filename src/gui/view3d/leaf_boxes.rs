@@ -36,10 +36,13 @@ const MOST_BOXES: usize = 9_000_000;
 #[derive(Default)]
 pub struct Boxes {
     made: Latest<Key, LeafBoxes>,
+    /// The last that were given.
+    given: Option<(Key, Arc<LeafBoxes>)>,
 }
 
 impl Boxes {
-    /// The boxes; `None` while they are being made. Those of another tree are never given.
+    /// The boxes; `None` while they are being made. While others of the same build are made, those of
+    /// the moment before are given; those of another tree never are.
     pub fn get(
         &mut self,
         tree: &Arc<Tree>,
@@ -55,7 +58,19 @@ impl Boxes {
             coloring,
             visits,
         };
-        if let Some(boxes) = self.made.ready(&key) {
+        let boxes = self.make(&key, center, ctx);
+        if let Some(boxes) = boxes {
+            self.given = Some((key, Arc::clone(&boxes)));
+            return Some(boxes);
+        }
+        let (before, boxes) = self.given.as_ref()?;
+        let mut now = key;
+        now.filter.moment = before.filter.moment;
+        (now == *before).then(|| Arc::clone(boxes))
+    }
+
+    fn make(&mut self, key: &Key, center: Vec3, ctx: &egui::Context) -> Option<Arc<LeafBoxes>> {
+        if let Some(boxes) = self.made.ready(key) {
             return Some(boxes);
         }
         let make = {
@@ -68,10 +83,10 @@ impl Boxes {
                 boxes
             }
         };
-        if tree.nodes().len() <= NODES_AT_ONCE {
-            Some(self.made.put(key, make()))
+        if key.tree.nodes().len() <= NODES_AT_ONCE {
+            Some(self.made.put(key.clone(), make()))
         } else {
-            self.made.get(&key, ctx, make)
+            self.made.get(key, ctx, make)
         }
     }
 }

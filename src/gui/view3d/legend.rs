@@ -82,13 +82,19 @@ fn contents(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
             if visited != Visited::Either {
                 ui.label(format!("leaves shown: {}", visited.title().to_lowercase()));
             }
-            let shown = boxes.instances.len();
+            if boxes.undecided > 0 {
+                ui.label(format!(
+                    "dotted white: {} cells not decided yet",
+                    grouped(boxes.undecided)
+                ));
+            }
+            let shown = boxes.instances.len() - boxes.undecided;
             ui.label(format!(
                 "{} of {} leaves shown",
                 grouped(shown),
                 grouped(boxes.leaves)
             ));
-            if (legend.drawn as usize) < shown {
+            if (legend.drawn as usize) < boxes.instances.len() {
                 ui.label(format!(
                     "drawn by the processor: {} of them",
                     grouped(legend.drawn as usize)

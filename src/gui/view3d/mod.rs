@@ -2,6 +2,7 @@
 
 mod camera;
 mod controls;
+mod cut;
 mod leaf_boxes;
 mod legend;
 mod marks;
@@ -48,7 +49,7 @@ pub struct View3d {
     rays: ray_lines::RayLines,
     lines: Arc<Vec<Line>>,
     faces: Arc<Vec<overlay::FaceCorner>>,
-    /// When the camera moved last, in seconds.
+    /// When the camera or the build moved last, in seconds.
     moved: f64,
 }
 
@@ -110,6 +111,11 @@ impl View3d {
             }
         }
         self.settings.filter.ranges = state.inspect.ranges;
+        let moment = state.inspect.build.moment();
+        if self.settings.filter.moment != moment {
+            self.settings.filter.moment = moment;
+            self.moved = ui.input(|i| i.time);
+        }
         let visits = self.visits(state, ui.ctx());
         self.pick(rect, &response, state);
         let [r, g, b] = GROUND;
@@ -232,7 +238,7 @@ impl View3d {
         {
             let at = (at - rect.center()) / (rect.height() * 0.5);
             let ray = self.camera.ray(f64::from(at.x), f64::from(-at.y));
-            let leaf = marks::pick_leaf(state, &self.settings.filter, &ray);
+            let leaf = marks::pick_leaf(state, &self.settings, &ray);
             if let Some(current) = &mut state.current {
                 current.selection.node = leaf;
             }
@@ -317,7 +323,7 @@ impl View3d {
         let left_out = mesh.as_ref().map_or(0, |mesh| mesh.left_out);
         let pixels = ctx.pixels_per_point();
         let frame = Frame3d {
-            globals: self.globals(rect, center, &bounds),
+            globals: self.globals(rect, center, &bounds, &tree.root_cell()),
             size: [
                 (rect.width() * pixels).round().max(1.0) as u32,
                 (rect.height() * pixels).round().max(1.0) as u32,
@@ -335,8 +341,10 @@ impl View3d {
             self.number_leaves(ui, rect, path);
         }
         marks.name(self, ui, rect);
+        let mut keys = marks.key();
+        keys.extend(self.settings.cut.text(&tree.root_cell()));
         let legend = legend::Legend {
-            marks: marks.key(),
+            marks: keys,
             settings: &self.settings,
             boxes: boxes.as_deref(),
             waits_for: waits_for.as_deref(),
@@ -347,7 +355,7 @@ impl View3d {
         legend::show(&legend, ui, rect);
     }
 
-    fn globals(&self, rect: Rect, center: Vec3, bounds: &Aabb) -> Globals {
+    fn globals(&self, rect: Rect, center: Vec3, bounds: &Aabb, root: &Aabb) -> Globals {
         let [forward, right, up] = self.camera.frame();
         let eye = self.camera.camera.from - center;
         let full = |v: Vec3, w: f32| v.as_vec3().extend(w).to_array();
@@ -358,6 +366,7 @@ impl View3d {
             forward: full(forward, 0.0),
             right: full(right, 0.0),
             up: full(up, 0.0),
+            cut: self.settings.cut.for_shader(root, center),
             size: [
                 rect.width(),
                 rect.height(),
