@@ -70,7 +70,7 @@ fn comparing(graphics: bool) -> Window<'static> {
         open(small(SCENE))
     };
     finish(&mut window);
-    press(&mut window, Modifiers::COMMAND, Key::B);
+    press(&mut window, Modifiers::COMMAND, Key::E);
     wait_for(&mut window, "May be compared");
     click(&mut window, "Tree B");
     press(&mut window, Modifiers::COMMAND, Key::M);
@@ -127,16 +127,16 @@ fn either_tree_comes_to_the_front_and_the_pixel_stays_picked() {
         p.format((p.value)(&measured(method, &render()).measurement))
     };
     assert!(has(&window, "gap-fraction"), "sah-cut is in front");
-    press(&mut window, Modifiers::NONE, Key::T);
+    press(&mut window, Modifiers::NONE, Key::J);
     wait(&mut window, "midpoint", |w| !has(w, "gap-fraction"));
     wait_for(&mut window, "Pixel 24, 24 (");
     assert!(window.query_all_by_label(&leaves("midpoint")).count() >= 2);
     // Nothing is traced again.
     assert!(has(&window, "ready"));
-    press(&mut window, Modifiers::NONE, Key::T);
+    press(&mut window, Modifiers::NONE, Key::J);
     wait_for(&mut window, "gap-fraction");
     // The tree in front is the one that stays.
-    press(&mut window, Modifiers::COMMAND, Key::B);
+    press(&mut window, Modifiers::COMMAND, Key::E);
     window.run_steps(3);
     assert!(has(&window, "gap-fraction"));
     assert!(!has(&window, "A: balls:1"));

@@ -3,10 +3,13 @@
 
 mod window_harness;
 
-use bspscope::tree::{BuildSettings, Method};
+use bspscope::progress::Progress;
+use bspscope::scene::load;
+use bspscope::trace::{RenderSettings, Visits, thread_pool, visits_pass};
+use bspscope::tree::{BuildSettings, Method, Tree, build};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use window_harness::{Window, click, has, open_sized, small, wait};
+use window_harness::{Window, click, grouped, has, open_sized, small, wait};
 
 /// A window with a finished picture; with the 3D view where `graphics`.
 fn open<'a>(scene: &str, method: &str, graphics: bool) -> Window<'a> {
@@ -151,6 +154,163 @@ fn brushing_a_histogram_changes_the_leaves_shown() {
     window.key_press(egui::Key::Delete);
     window.run_steps(3);
     assert_eq!(text_with(&window, "leaves selected"), all);
+}
+
+/// What the library counts of the picture that [`open`] shows.
+fn expected_visits(scene: &str, method: &str) -> (Tree, Visits) {
+    let start = small(scene);
+    let progress = Progress::new();
+    let scene = load(&start.scene, &progress).unwrap();
+    let settings = BuildSettings::for_method(Method::named(method).unwrap());
+    let tree = build(&scene, &settings, &progress).unwrap();
+    let render = RenderSettings {
+        camera: *scene.camera(),
+        ..start.render
+    };
+    let pool = thread_pool(2).unwrap();
+    let visits = visits_pass(&scene, &tree, &render, &pool, &progress).unwrap();
+    (tree, visits)
+}
+
+#[test]
+fn visits_of_the_picture_are_told_and_lead_to_the_leaves_visited_most() {
+    let mut window = open("balls:1", "midpoint", false);
+    let (tree, visits) = expected_visits("balls:1", "midpoint");
+    let root = format!("{} · ", grouped(visits.by_node[0]));
+    wait(&mut window, "the visits", |w| has(w, &root));
+    assert!(window.query_by_label("exp. nodes").is_some());
+    let leaves = visits.leaves_by_visits(&tree);
+    let selected = |w: &Window<'_>, leaf: u32| has(w, &format!("Selected: node {leaf}, "));
+    click(&mut window, "Less visited");
+    assert!(selected(&window, leaves[0]));
+    click(&mut window, "Less visited");
+    assert!(selected(&window, leaves[1]));
+    click(&mut window, "More visited");
+    assert!(selected(&window, leaves[0]));
+    let never = visits.by_node.iter().filter(|&&n| n == 0).count();
+    assert!(never > 1);
+    find(
+        &mut window,
+        "visits 0",
+        &format!("{} matches", grouped(never)),
+    );
+    click(&mut window, "Next match");
+    let node = text_with(&window, "Selected: node ");
+    let node = node["Selected: node ".len()..].split(',').next().unwrap();
+    assert_eq!(visits.by_node[node.parse::<usize>().unwrap()], 0);
+}
+
+#[test]
+fn leaves_are_coloured_and_filtered_by_visits() {
+    let mut window = open("balls:1", "midpoint", true);
+    let (tree, visits) = expected_visits("balls:1", "midpoint");
+    let leaves = visits.leaves_by_visits(&tree);
+    let is_never = |leaf: &&u32| visits.by_node[**leaf as usize] == 0;
+    let never = leaves.iter().filter(is_never).count();
+    assert!(never > 0 && never < leaves.len());
+    let view = window.get_by_label("3D view of scene and tree").rect();
+    window.hover_at(view.center());
+    window.run_steps(2);
+    for (says, count) in [
+        ("leaves shown: visited by the picture", leaves.len() - never),
+        ("leaves shown: never visited", never),
+    ] {
+        window.key_press(egui::Key::N);
+        wait(&mut window, says, |w| has(w, says));
+        let shown = format!("{count} of {} leaves shown", leaves.len());
+        assert!(has(&window, &shown), "{shown}");
+    }
+    for _ in 0..3 {
+        window.key_press(egui::Key::C);
+        window.run_steps(2);
+    }
+    wait(&mut window, "the colouring", |w| {
+        has(w, "Visits (rays of the picture that visited it)")
+    });
+}
+
+#[test]
+fn rays_by_nodes_have_a_histogram_that_can_be_brushed() {
+    let mut window = open("balls:1", "midpoint", false);
+    let (_, visits) = expected_visits("balls:1", "midpoint");
+    click(&mut window, "Leaf histograms");
+    wait(&mut window, "the visits", |w| {
+        has(w, "leaves selected") && !has(w, "visits: counted") && !has(w, "counting visits")
+    });
+    for name in ["Visits of a leaf", "Nodes a ray"] {
+        let clear = |w: &Window<'_>| {
+            !w.get_by_label("Clear ranges")
+                .accesskit_node()
+                .is_disabled()
+        };
+        assert!(!clear(&window));
+        let plot = window.get_by_label(&format!("Histogram: {name}")).rect();
+        let at = egui::pos2(plot.left() + 60.0, plot.center().y);
+        window.drag_at(at);
+        window.drop_at(at);
+        window.run_steps(3);
+        assert!(clear(&window), "{name}");
+        if name == "Nodes a ray" {
+            // Exactly the pixels that the library finds are named.
+            wait(&mut window, "the pixels", |w| has(w, "others hatched"));
+            let text = text_with(&window, "others hatched");
+            let nodes = text.split("a ray of ").nth(1).unwrap();
+            let nodes = nodes.split(" nodes").next().unwrap();
+            let mut ends = nodes.split(" to ").map(|n| n.parse::<u32>().unwrap());
+            let lo = ends.next().unwrap();
+            let pixels = visits.pixels_within([lo, ends.next().unwrap_or(lo)]).len();
+            assert!(pixels > 0);
+            let pixels = grouped(pixels);
+            assert!(text.starts_with(&format!("{pixels} pixels")), "{text}");
+        }
+        click(&mut window, "Clear ranges");
+    }
+}
+
+#[test]
+fn the_icicle_is_coloured_by_every_histogram() {
+    let mut window = open("balls:1", "midpoint", false);
+    click(&mut window, "Icicle");
+    for (title, unit) in [
+        ("Objects", "Objects (objects in a leaf)"),
+        ("Volume", "Volume (cubed units of length)"),
+        ("Visits", "Visits (rays of the picture that visited it)"),
+        ("Depth", "Depth (levels below the root)"),
+    ] {
+        let shade = |node: &egui_kittest::Node<'_>| {
+            node.value().is_some_and(|value| value.starts_with("Shade"))
+        };
+        let combo = window.query_all_by_role(Role::ComboBox).find(shade);
+        combo.expect("the list of colourings").click();
+        window.run_steps(3);
+        window.get_by_role_and_label(Role::Button, title).click();
+        wait(&mut window, unit, |w| has(w, unit));
+    }
+}
+
+#[test]
+fn the_selected_cell_is_outlined_in_the_picture() {
+    let mut window = open("balls:1", "midpoint", true);
+    click(&mut window, "node 0");
+    click(&mut window, "node 1");
+    let picture = window.get_by_label("Traced picture").rect();
+    window.hover_at(picture.center());
+    window.run_steps(3);
+    let orange = |window: &mut Window<'_>| {
+        let image = window.render().unwrap();
+        let inside = |x: u32, y: u32| picture.contains(egui::pos2(x as f32, y as f32));
+        let pixels = image.enumerate_pixels();
+        pixels
+            .filter(|(x, y, pixel)| inside(*x, *y) && pixel.0[..3] == [255, 176, 0])
+            .count()
+    };
+    let with = orange(&mut window);
+    assert!(with > 100, "{with}");
+    window.key_press(egui::Key::S);
+    window.run_steps(3);
+    assert_eq!(orange(&mut window), 0);
+    click(&mut window, "Selection");
+    assert!(orange(&mut window) > 100);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use super::status::StatusLine;
 use super::tree_panes::TreePanes;
 use super::view3d::View3d;
 use super::walk::Go;
-use super::{StartOptions, help, top_bar, walk_bar};
+use super::{StartOptions, build_bar, help, top_bar, walk_bar};
 use crate::overlay::COLORINGS;
 use crate::tree::{BuildSettings, MaxDepth, Method};
 
@@ -131,7 +131,7 @@ impl App {
             Action::PreviousRay => state.next_ray(-1),
             Action::NextRay => state.next_ray(1),
             Action::SceneCamera => state.wanted.own_camera = false,
-            _ => {}
+            action => build_bar::act(action, state, ctx.input(|i| i.time)),
         }
     }
 
@@ -264,6 +264,7 @@ impl eframe::App for App {
             self.status.ui(ui, &self.state, picture.hovered, value);
         });
         egui::Panel::bottom("walk bar").show(ui, |ui| walk_bar::show(ui, &mut self.state));
+        build_bar::show(ui, &mut self.state);
         self.side_bar(ui, Side::Left);
         self.side_bar(ui, Side::Right);
         egui::CentralPanel::default()

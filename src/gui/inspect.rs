@@ -2,12 +2,17 @@
 //! the plane that is tried out.
 
 use super::background::Latest;
+use super::build_view::BuildView;
 use super::state::Current;
+use super::visits::{PictureVisits, VisitsPass};
 use crate::geometry::Axis;
 use crate::overlay::{Leaf, Ranges, in_ranges, leaves};
 use crate::scene::Scene;
 use crate::tree::{NodeCost, Tree, TreeIndex};
 use std::sync::Arc;
+
+/// What decides the facts of leaves: the tree and, where visits are known, the picture's number.
+pub type LeavesKey = (TreeKey, Option<u64>);
 
 /// A tree by identity.
 #[derive(Clone)]
@@ -38,12 +43,18 @@ pub struct Inspect {
     /// The scene that the ranges were chosen in.
     scene: Option<Arc<Scene>>,
     index: Latest<TreeKey, TreeIndex>,
-    leaves: Latest<TreeKey, Vec<Leaf>>,
+    leaves: Latest<LeavesKey, Vec<Leaf>>,
+    /// How often rays of the picture visited every node.
+    pub visits: VisitsPass,
     cost: Latest<(TreeKey, u32), NodeCost>,
-    counted: Option<(Ranges, usize)>,
+    counted: Option<(Ranges, bool, usize)>,
     /// Ranges of the histograms: leaves outside are not shown.
     pub ranges: Ranges,
+    /// Numbers of nodes that a ray visits: pixels without a ray in this range are dimmed.
+    pub nodes_a_ray: Option<[f64; 2]>,
     pub what_if: Option<WhatIf>,
+    /// The moment of the build that is shown.
+    pub build: BuildView,
     /// A node that the 3D view is to show.
     pub frame: Option<u32>,
 }
@@ -51,17 +62,21 @@ pub struct Inspect {
 impl Inspect {
     /// Forgets what was about another tree or scene, or about another selection.
     pub fn follow(&mut self, current: &Current) {
+        if self.visits.follow(current) {
+            self.counted = None;
+        }
         let key = TreeKey(Arc::clone(&current.shown.tree));
         if self.tree.as_ref() != Some(&key) {
             self.tree = Some(key);
             self.counted = None;
             self.what_if = None;
             self.frame = None;
+            self.build.reset();
         }
         let scene = &current.shown.scene;
         if !self.scene.as_ref().is_some_and(|s| Arc::ptr_eq(s, scene)) {
             self.scene = Some(Arc::clone(scene));
-            self.ranges = Ranges::default();
+            self.clear_ranges();
         }
         self.what_if = self
             .what_if
@@ -78,12 +93,21 @@ impl Inspect {
         get(&mut self.index, key, size, ctx, make)
     }
 
-    /// All leaves; `None` while they are being gathered.
-    pub fn leaves(&mut self, current: &Current, ctx: &egui::Context) -> Option<Arc<Vec<Leaf>>> {
-        let key = TreeKey(Arc::clone(&current.shown.tree));
-        let making = Arc::clone(&key.0);
-        let size = making.nodes().len();
-        get(&mut self.leaves, key, size, ctx, move || leaves(&making))
+    /// All leaves, with their visits if those are there; `None` while they are being gathered.
+    pub fn leaves(
+        &mut self,
+        current: &Current,
+        visits: Option<&Arc<PictureVisits>>,
+        ctx: &egui::Context,
+    ) -> Option<Arc<Vec<Leaf>>> {
+        let tree = Arc::clone(&current.shown.tree);
+        let size = tree.nodes().len();
+        let picture = visits.map(|_| current.number);
+        let key = (TreeKey(Arc::clone(&tree)), picture);
+        let visits = visits.cloned();
+        get(&mut self.leaves, key, size, ctx, move || {
+            leaves(&tree, visits.as_ref().map(|visits| &visits.visits))
+        })
     }
 
     /// The cost of splitting a node; `None` while it is being worked out.
@@ -104,15 +128,22 @@ impl Inspect {
 
     /// How many leaves lie in all ranges, and of how many.
     pub fn selected_leaves(&mut self, leaves: &[Leaf]) -> [usize; 2] {
+        let visited = leaves.first().is_some_and(|leaf| leaf.visits.is_some());
         let count = match self.counted {
-            Some((ranges, count)) if ranges == self.ranges => count,
+            Some((ranges, known, count)) if (ranges, known) == (self.ranges, visited) => count,
             _ => leaves
                 .iter()
                 .filter(|leaf| in_ranges(leaf, &self.ranges))
                 .count(),
         };
-        self.counted = Some((self.ranges, count));
+        self.counted = Some((self.ranges, visited, count));
         [count, leaves.len()]
+    }
+
+    /// Selects all leaves and rays again.
+    pub fn clear_ranges(&mut self) {
+        self.ranges = Ranges::default();
+        self.nodes_a_ray = None;
     }
 
     /// Takes the tried plane away; says whether there was one.

@@ -6,6 +6,8 @@
 
 mod app;
 mod background;
+mod build_bar;
+mod build_view;
 mod compare_bar;
 mod comparing;
 mod files;
@@ -16,7 +18,9 @@ mod kept;
 mod layout;
 mod palette;
 mod panels;
+mod picture_marks;
 mod picture_pane;
+mod picture_pass;
 mod recent;
 mod rows;
 mod selection;
@@ -28,6 +32,7 @@ mod symbol;
 mod top_bar;
 mod tree_panes;
 mod view3d;
+mod visits;
 mod walk;
 mod walk_bar;
 

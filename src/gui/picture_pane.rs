@@ -4,6 +4,7 @@
 use super::compare_bar;
 use super::comparing::{View, Which};
 use super::heat::HeatView;
+use super::picture_marks::PictureMarks;
 use super::shortcuts::{Action, Scope, pressed};
 use super::state::{Current, Fresh, State};
 use crate::trace::{Picture, Tile};
@@ -25,6 +26,7 @@ pub struct PicturePane {
     /// The pixel under the pointer.
     pub hovered: Option<[u32; 2]>,
     pub heat: HeatView,
+    marks: PictureMarks,
 }
 
 /// One picture's share of the pane.
@@ -41,7 +43,7 @@ const WHOLE: Rect = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
 impl PicturePane {
     /// Shows what there is to see of the pixels, and its legend.
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
-        header(ui, state);
+        header(ui, state, &mut self.marks);
         if std::mem::take(&mut state.comparing.asks_for_pixels) {
             self.heat.show_picture();
         }
@@ -193,6 +195,9 @@ impl PicturePane {
         if comparing && state.comparing.view == View::Difference && self.heat.is_picture() {
             self.mark_differing(ui.ctx(), &painter, rect, state);
         }
+        if let (true, Some(current)) = (in_front, &state.current) {
+            self.marks.paint(&painter, rect, current, &state.inspect);
+        }
         if let Some([x, y]) = picked
             && x < picture[0]
             && y < picture[1]
@@ -315,6 +320,7 @@ impl PicturePane {
                 Action::PickRight => step(current, 1, 0),
                 Action::PickUp => step(current, 0, -1),
                 Action::PickDown => step(current, 0, 1),
+                Action::OutlineSelection => self.marks.toggle(),
                 action => self.heat.act(action),
             }
         }
@@ -392,7 +398,7 @@ fn step(current: &mut Current, dx: i32, dy: i32) {
 }
 
 /// What the picture is of, and whether it is the one asked for.
-fn header(ui: &mut egui::Ui, state: &State) {
+fn header(ui: &mut egui::Ui, state: &State, marks: &mut PictureMarks) {
     ui.horizontal(|ui| {
         ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
         let Some(current) = &state.current else {
@@ -415,6 +421,7 @@ fn header(ui: &mut egui::Ui, state: &State) {
             ui.strong(state.which.name());
         }
         ui.strong(status);
+        marks.controls(ui, state);
         ui.label(current.settings_text())
             .on_hover_text(current.settings_text());
     });

@@ -69,6 +69,13 @@ pub enum Action {
     LastStep,
     Play,
     LeavesOnly,
+    ShowBuild,
+    BuildFirst,
+    BuildPrevious,
+    BuildNext,
+    BuildLast,
+    PlayBuild,
+    BuildByNode,
     PreviousRay,
     NextRay,
     Fit,
@@ -82,6 +89,7 @@ pub enum Action {
     Flip,
     WipeLeft,
     WipeRight,
+    OutlineSelection,
     NextHeatmap,
     PreviousHeatmap,
     LogScale,
@@ -103,6 +111,12 @@ pub enum Action {
     ShowEmpty,
     Shown,
     AllDepths,
+    VisitedOrNot,
+    Cut,
+    CutAxis,
+    CutSide,
+    CutLess,
+    CutMore,
     FlyForward,
     FlyBack,
     FlyLeft,
@@ -116,6 +130,8 @@ pub enum Action {
     FrameNode,
     FindNext,
     FindPrevious,
+    MoreVisited,
+    LessVisited,
     ClearRanges,
     UndoWhatIf,
     /// Done with the mouse; listed for the help window alone.
@@ -168,8 +184,8 @@ shortcuts! {
     Window SceneCamera COMMAND [Home] "Ctrl+Home" "Back to the scene's own camera";
     Window Undo COMMAND [Z] "Ctrl+Z" "Undo the last change of settings, scene or camera";
     Window Redo COMMAND [Y] "Ctrl+Y" "Redo what was undone";
-    Window Compare COMMAND [B] "Ctrl+B" "Compare with another tree, B, or end that";
-    Window OtherTree NONE [T] "T" "Bring the other of two compared trees to the front";
+    Window Compare COMMAND [E] "Ctrl+E" "Compare with another tree, B, or end that";
+    Window OtherTree NONE [J] "J" "Bring the other of two compared trees to the front";
     Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
     Window LeftBar COMMAND [B] "Ctrl+B" "Show or hide the bar on the left";
     Window RightBar COMMAND [I] "Ctrl+I" "Show or hide the bar on the right";
@@ -182,6 +198,13 @@ shortcuts! {
     Window LastStep SHIFT [End] "Shift+End" "Last step of the walk";
     Window Play NONE [Space] "Space" "Play the walk, or pause it";
     Window LeavesOnly NONE [K] "K" "Step through leaves only, or through inner nodes, too";
+    Window ShowBuild COMMAND [G] "Ctrl+G" "Show the build of the tree step by step, or the finished tree";
+    Window BuildFirst ALT [Home] "Alt+Home" "First moment of the build";
+    Window BuildPrevious ALT [ArrowLeft] "Alt+Left" "One step of the build back";
+    Window BuildNext ALT [ArrowRight] "Alt+Right" "One step of the build on";
+    Window BuildLast ALT [End] "Alt+End" "Last moment of the build: the finished tree";
+    Window PlayBuild ALT [P] "Alt+P" "Play the build, or pause it";
+    Window BuildByNode ALT [N] "Alt+N" "Go through the build by nodes or by depths";
     Window Mouse NONE [] "Drop a file" "Open it";
     Picture Mouse NONE [] "Click" "Name the object in a pixel and follow its ray";
     Picture Mouse NONE [] "Wheel" "Zoom to the pointer";
@@ -191,6 +214,7 @@ shortcuts! {
     Picture PickUp NONE [ArrowUp] "Up" "Pick the pixel above";
     Picture PickDown NONE [ArrowDown] "Down" "Pick the pixel below";
     Picture Unpick NONE [Delete] "Delete" "Pick no pixel";
+    Picture OutlineSelection NONE [S] "S" "Outline the selected cell and object in the picture, or not";
     Picture PreviousHeatmap SHIFT [H] "Shift+H" "Show the heatmap before";
     Picture NextHeatmap NONE [H] "H" "Show the next heatmap";
     Picture LogScale NONE [G] "G" "Heatmap's colours by the logarithm, or not";
@@ -223,6 +247,12 @@ shortcuts! {
     View3d ShowEmpty NONE [P] "P" "Show empty leaves, or not";
     View3d Shown NONE [V] "V" "Show only the leaves that the picked ray visited, or all";
     View3d AllDepths NONE [X] "X" "Show all depths";
+    View3d VisitedOrNot NONE [N] "N" "Show leaves that the picture's rays visited, those never visited, or all";
+    View3d Cut NONE [T] "T" "Cut the view open, or not";
+    View3d CutAxis NONE [Y] "Y" "Cut across the next axis";
+    View3d CutSide NONE [U] "U" "Hide the other side of the cut";
+    View3d CutLess NONE [OpenBracket] "[" "Move the cut down its axis";
+    View3d CutMore NONE [CloseBracket] "]" "Move the cut up its axis";
     View3d FlyForward NONE [W] "W" "Fly forward";
     View3d FlyBack NONE [S] "S" "Fly back";
     View3d FlyLeft NONE [A] "A" "Fly to the left";
@@ -236,6 +266,8 @@ shortcuts! {
     Tree FrameNode NONE [Enter] "Enter" "Show the selected node's cell in 3D";
     Tree FindNext NONE [N] "N" "Select the next match";
     Tree FindPrevious SHIFT [N] "Shift+N" "Select the match before";
+    Tree MoreVisited SHIFT [V] "Shift+V" "Select the leaf before in the order of visits";
+    Tree LessVisited NONE [V] "V" "Select the most visited leaf, then the next";
     Leaves Mouse NONE [] "Drag" "Select the leaves of these bars; click: of one bar, again: of all";
     Leaves ClearRanges NONE [Delete] "Delete" "Select all leaves again";
     Cost Mouse NONE [] "Drag" "Try a plane; it changes no tree";

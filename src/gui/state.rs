@@ -341,6 +341,7 @@ impl State {
             self.worker.cancel();
             self.stopped = true;
         }
+        self.inspect.visits.cancel();
     }
 
     /// Whether what is shown was made with other settings than the widgets say.
@@ -482,6 +483,7 @@ impl State {
     }
 
     fn ask(&mut self, which: Which, wanted: Request) -> u64 {
+        self.inspect.visits.give_way();
         let number = self.worker.request(wanted);
         self.asked.insert(number, which);
         self.stopped = false;

@@ -27,7 +27,7 @@ impl Line {
 }
 
 /// Pairs of corners ([`Aabb::corners`]) that edges join.
-const EDGES: [[usize; 2]; 12] = [
+pub const BOX_EDGES: [[usize; 2]; 12] = [
     [0, 1],
     [2, 3],
     [4, 5],
@@ -45,7 +45,7 @@ const EDGES: [[usize; 2]; 12] = [
 /// The edges of a box.
 pub fn box_lines(bounds: &Aabb, center: Vec3, color: [u8; 4], width: f32) -> Vec<Line> {
     let corners = bounds.corners();
-    EDGES
+    BOX_EDGES
         .iter()
         .map(|&[a, b]| Line::new(corners[a], corners[b], center, color, width))
         .collect()

@@ -16,11 +16,12 @@ pub use coloring::{COLORINGS, Coloring, Leaf, Mark, coloring};
 pub use colormap::{COLORMAPS, Colormap, colormap};
 pub use heat::{HeatScale, Range, Scale, Tick, blend, heat_colors};
 pub use histogram::{
-    Bars, HISTOGRAM_COUNT, HISTOGRAMS, Histogram, Ranges, Spread, in_ranges, leaves,
+    Bars, HISTOGRAM_COUNT, HISTOGRAMS, Histogram, HistogramAxis, NODES_A_RAY, Ranges, Spread,
+    in_ranges, leaves, ranges_need_visits, ray_bars,
 };
-pub use leaf_boxes::{Filter, Instance, LeafBoxes, leaf_boxes};
+pub use leaf_boxes::{Filter, Instance, LeafBoxes, UNDECIDED_COLOR, Visited, leaf_boxes};
 pub use legend::{Captions, HeatPicture, with_legend};
-pub use lines::{Line, box_lines, frustum_lines, order_color};
+pub use lines::{BOX_EDGES, Line, box_lines, frustum_lines, order_color};
 pub use rays::{RayStyle, RaysShown, ray_lines, ray_style};
 pub use selection::{
     CELL_COLOR, FaceCorner, PLANE_COLOR, REFERRING_COLOR, cell_faces, cell_lines, leaves_along,

@@ -129,6 +129,43 @@ impl View {
     }
 }
 
+impl View {
+    /// Where a line shows in the picture, in pixels from its upper left corner; the centre of pixel
+    /// (0, 0) lies at (0.5, 0.5). What lies behind the eye is cut off; `None` where that is all.
+    pub fn project_line(&self, ends: [Vec3; 2]) -> Option<[[f64; 2]; 2]> {
+        let [a, b] = ends.map(|end| end - self.eye);
+        let [depth_a, depth_b] = [a, b].map(|end| end.dot(self.forward));
+        // In front of the eye by far less than the line is long.
+        let near = 1e-6 * (a.length() + b.length());
+        if depth_a.max(depth_b) <= near {
+            return None;
+        }
+        let cut = |end: Vec3, depth: f64, other: Vec3, other_depth: f64| {
+            if depth >= near {
+                end
+            } else {
+                end + (other - end) * ((near - depth) / (other_depth - depth))
+            }
+        };
+        let visible = [cut(a, depth_a, b, depth_b), cut(b, depth_b, a, depth_a)];
+        Some(visible.map(|end| self.place(end)))
+    }
+
+    /// Place in the picture of a point before the eye, given from the eye.
+    fn place(&self, point: Vec3) -> [f64; 2] {
+        let depth = point.dot(self.forward);
+        let along = |side: Vec3| point.dot(side) / (side.length_squared() * depth);
+        let pixel = |place: f64, n: u32| match self.sampling {
+            Sampling::Corner if n > 1 => (place + 1.0) * 0.5 * f64::from(n - 1) + 0.5,
+            _ => (place + 1.0) * 0.5 * f64::from(n),
+        };
+        [
+            pixel(along(self.right), self.width),
+            pixel(-along(self.up), self.height),
+        ]
+    }
+}
+
 /// The unit vector along `v` for any finite length, also where its square over- or underflows.
 fn unit(v: Vec3) -> Option<Vec3> {
     let scale = v.abs().max_element();
@@ -162,6 +199,34 @@ mod tests {
         let center = camera().view(2, 2, Sampling::Center).unwrap();
         let first = center.primary_ray(0, 0, 0).direction;
         assert!((first - Vec3::new(-0.5, 1.0, 0.5).normalize()).length() < 1e-15);
+    }
+
+    #[test]
+    fn points_on_a_pixels_ray_show_at_its_centre() {
+        for sampling in [Sampling::Center, Sampling::Corner] {
+            let view = camera().view(30, 20, sampling).unwrap();
+            for [x, y] in [[0, 0], [29, 19], [7, 13]] {
+                let ray = view.primary_ray(x, y, 0);
+                let ends = view.project_line([ray.at(0.1), ray.at(50.0)]).unwrap();
+                for [u, v] in ends {
+                    assert!((u - f64::from(x) - 0.5).abs() < 1e-9);
+                    assert!((v - f64::from(y) - 0.5).abs() < 1e-9);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn lines_are_cut_off_behind_the_eye() {
+        let view = camera().view(10, 10, Sampling::Center).unwrap();
+        let (ahead, behind) = (Vec3::new(1.0, 2.0, 0.0), Vec3::new(1.0, -3.0, 0.0));
+        assert_eq!(view.project_line([behind, behind - Vec3::Y]), None);
+        let [a, b] = view.project_line([ahead, behind]).unwrap();
+        assert!((a[0] - 7.5).abs() < 1e-9 && (a[1] - 5.0).abs() < 1e-9);
+        // It leaves the picture to the right, where it is seen while it comes nearer.
+        assert!(b[0] > 1e3 && (b[1] - 5.0).abs() < 1e-9, "{b:?}");
+        let [c, d] = view.project_line([behind, ahead]).unwrap();
+        assert_eq!([c, d], [b, a]);
     }
 
     #[test]

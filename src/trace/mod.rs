@@ -11,6 +11,7 @@ mod render;
 mod settings;
 mod shapes;
 mod traverse;
+mod visits;
 mod waiting;
 mod whitted;
 
@@ -29,5 +30,6 @@ pub use render::{
 pub use settings::RenderSettings;
 pub use shapes::Shapes;
 pub use traverse::{LeafVisitor, Scratch, traverse};
+pub use visits::{Visits, visits_pass};
 pub use waiting::Waiting;
 pub use whitted::trace_samples;

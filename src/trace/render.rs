@@ -104,7 +104,7 @@ impl CountedPass {
 }
 
 /// A pass's tiles in parallel; every tile is given to `work` once.
-fn over_tiles<R: Send>(
+pub(super) fn over_tiles<R: Send>(
     settings: &RenderSettings,
     pool: &rayon::ThreadPool,
     progress: &Progress,

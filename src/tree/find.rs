@@ -30,6 +30,8 @@ pub enum Field {
     Area,
     /// Expected intersection tests of a ray through the cell.
     Tests,
+    /// Rays of the picture that visited the node.
+    Visits,
 }
 
 /// How a number compares.
@@ -49,6 +51,7 @@ const FIELDS: &[(&str, Field)] = &[
     ("leaves", Field::Leaves),
     ("area", Field::Area),
     ("tests", Field::Tests),
+    ("visits", Field::Visits),
 ];
 
 /// Longer signs first, or `>=` would be read as `>`.
@@ -88,7 +91,7 @@ impl Query {
                 let (_, field) = FIELDS.iter().find(|(name, _)| *name == word).ok_or_else(|| {
                     format!(
                         "expected node, object, stop, empty, depth, objects, references, leaves, \
-                         area or tests, found '{text}'"
+                         area, tests or visits, found '{text}'"
                     )
                 })?;
                 let (order, number) = ORDERS
@@ -104,8 +107,14 @@ impl Query {
         }
     }
 
-    /// All nodes that match, in the order of the array.
-    pub fn find(&self, tree: &Tree, index: &TreeIndex) -> Vec<u32> {
+    /// Whether visits must be counted for it.
+    pub fn needs_visits(&self) -> bool {
+        matches!(self, Query::Number(Field::Visits, ..))
+    }
+
+    /// All nodes that match, in the order of the array. `visits` are those of every node, where they
+    /// were counted; without, no node matches by them.
+    pub fn find(&self, tree: &Tree, index: &TreeIndex, visits: Option<&[u64]>) -> Vec<u32> {
         let nodes = 0..index.len() as u32;
         match self {
             Query::Node(node) => nodes.filter(|n| n == node).collect(),
@@ -130,6 +139,10 @@ impl Query {
                             Field::Leaves => f64::from(facts.leaves),
                             Field::Area => 100.0 * facts.area / root,
                             Field::Tests => facts.tests,
+                            Field::Visits => match visits {
+                                Some(visits) => visits[node as usize] as f64,
+                                None => return false,
+                            },
                         };
                         order.holds(value, *number)
                     })
@@ -203,7 +216,7 @@ mod tests {
     fn what_is_found_is_what_was_asked_for() {
         let (scene, tree) = small("balls:1", "midpoint");
         let index = TreeIndex::new(&tree, scene.objects().len());
-        let find = |text: &str| Query::parse(text).unwrap().find(&tree, &index);
+        let find = |text: &str| Query::parse(text).unwrap().find(&tree, &index, None);
         assert_eq!(find("node 3"), [3]);
         assert_eq!(find("depth 0"), [0]);
         assert_eq!(find("object 2"), index.leaves_of(2));
@@ -215,5 +228,10 @@ mod tests {
         assert_eq!(find("leaves = 1").len(), leaves);
         assert_eq!(find("area 100 %"), [0]);
         assert!(!find("stop d_max").is_empty());
+        let often = Query::parse("visits >= 3").unwrap();
+        assert!(often.needs_visits() && find("visits >= 3").is_empty());
+        let visits: Vec<u64> = (0..tree.nodes().len() as u64).map(|n| n % 5).collect();
+        let found = often.find(&tree, &index, Some(&visits));
+        assert!(found.starts_with(&[3, 4, 8, 9]) && found.iter().all(|n| n % 5 >= 3));
     }
 }

@@ -25,7 +25,7 @@ pub struct NodeFacts {
     pub volume: f64,
     /// Nodes of the subtree, itself included, that a ray through the cell is expected to visit if
     /// nothing stops it; at least 1.
-    pub visits: f64,
+    pub expected_visits: f64,
     /// Intersection tests that such a ray is expected to make.
     pub tests: f64,
 }
@@ -151,7 +151,7 @@ fn sum_up(tree: &Tree, nodes: &mut [NodeFacts]) {
                 facts.end = node as u32 + 1;
                 facts.leaves = 1;
                 facts.references = count;
-                facts.visits = 1.0;
+                facts.expected_visits = 1.0;
                 facts.tests = f64::from(count);
             }
             NodeKind::Inner { below, above, .. } => {
@@ -160,10 +160,10 @@ fn sum_up(tree: &Tree, nodes: &mut [NodeFacts]) {
                 facts.end = above.end;
                 facts.leaves = below.leaves + above.leaves;
                 facts.references = below.references + above.references;
-                facts.visits = 1.0;
+                facts.expected_visits = 1.0;
                 for child in [below, above] {
                     let share = child.area / facts.area;
-                    facts.visits += share * child.visits;
+                    facts.expected_visits += share * child.expected_visits;
                     facts.tests += share * child.tests;
                 }
             }

@@ -81,3 +81,11 @@ pub fn press(window: &mut Window<'_>, modifiers: egui::Modifiers, key: egui::Key
     window.key_press_modifiers(modifiers, key);
     window.run_steps(2);
 }
+
+/// A whole number as people read it, in groups of three digits.
+pub fn grouped(number: impl TryInto<u64>) -> String {
+    let digits = number.try_into().ok().expect("a count").to_string();
+    let groups = digits.as_bytes().rchunks(3).rev();
+    let groups: Vec<_> = groups.map(String::from_utf8_lossy).collect();
+    groups.join(" ")
+}

@@ -4,6 +4,7 @@ use crate::gui::background::Latest;
 use crate::gui::inspect::TreeKey;
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::symbol::grouped;
+use crate::gui::visits::PictureVisits;
 use crate::tree::{Query, TreeIndex};
 use std::sync::Arc;
 
@@ -13,8 +14,11 @@ pub struct FindBar {
     pub text: String,
     /// Whether the outline lists the matches alone.
     pub only: bool,
-    found: Latest<(TreeKey, String), Vec<u32>>,
+    found: Latest<Key, Vec<u32>>,
 }
+
+/// What decides the matches: the tree, the query, and for queries by visits the picture's number.
+type Key = (TreeKey, String, Option<u64>);
 
 /// What the line's widgets ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,20 +31,31 @@ const ABOUT: &str = "Find nodes:\n\
     depth 12 · node 17 · object 138 (leaves that refer to it)\n\
     objects > 8 (in a leaf) · references >= 100 · leaves > 5 (in a subtree)\n\
     area > 2 % (of the root's) · tests > 3 (expected tests of a ray)\n\
+    visits >= 1000 (rays of the picture) · visits 0 (never visited)\n\
     stop depth (why a leaf stopped, in words) · empty";
 
 impl FindBar {
-    /// All matches; `None` while there is nothing to look for or the search goes on.
+    /// All matches; `None` while there is nothing to look for, the search goes on, or visits are
+    /// looked for that are not counted yet. `visits` are of the picture of this number.
     pub fn matches(
         &mut self,
         tree: &TreeKey,
         index: &Arc<TreeIndex>,
+        visits: Option<Arc<PictureVisits>>,
+        picture: u64,
         ctx: &egui::Context,
     ) -> Option<Arc<Vec<u32>>> {
         let query = Query::parse(&self.text).ok()?;
-        let key = (tree.clone(), self.text.clone());
+        if query.needs_visits() && visits.is_none() {
+            return None;
+        }
+        let of = query.needs_visits().then_some(picture);
+        let key = (tree.clone(), self.text.clone(), of);
         let (tree, index) = (Arc::clone(&tree.0), Arc::clone(index));
-        self.found.get(&key, ctx, move || query.find(&tree, &index))
+        self.found.get(&key, ctx, move || {
+            let visits = visits.as_ref().map(|visits| visits.by_node.as_slice());
+            query.find(&tree, &index, visits)
+        })
     }
 
     /// Shows the line.

@@ -1,19 +1,19 @@
-//! Histograms of the leaves. Dragging over bars selects leaves: the 3D view shows them alone.
+//! Histograms of the leaves and of the rays. Dragging over bars of leaves selects leaves: the 3D view
+//! shows them alone. Dragging over bars of rays selects pixels: the picture marks them.
 
 use super::{is_under_pointer, waiting};
-use crate::gui::inspect::TreeKey;
+use crate::gui::inspect::{LeavesKey, TreeKey};
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::State;
 use crate::gui::symbol::grouped;
-use crate::overlay::{Bars, HISTOGRAM_COUNT, HISTOGRAMS, Histogram, Leaf, Ranges};
-use crate::tree::NodeKind;
+use crate::overlay::{Bars, HISTOGRAMS, HistogramAxis, Leaf, NODES_A_RAY, Spread, ray_bars};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, pos2, vec2};
 use std::sync::Arc;
 
-/// The histograms of the latest tree.
+/// The histograms of the latest tree and picture.
 #[derive(Default)]
 pub struct Histograms {
-    bars: Option<(TreeKey, [Bars; HISTOGRAM_COUNT])>,
+    bars: Option<(LeavesKey, Vec<Bars>)>,
     /// The bar where a drag began.
     from: usize,
     /// Whether heights go by the logarithm, so that low bars are seen beside high ones.
@@ -23,6 +23,9 @@ pub struct Histograms {
 /// The most bars that can be told apart in a third of a narrow pane.
 const MOST_BARS: usize = 36;
 
+/// The least width of a histogram beside others, in points.
+const LEAST_WIDTH: f32 = 185.0;
+
 const FULL: Color32 = Color32::from_rgb(76, 145, 205);
 const BRUSH: Color32 = Color32::from_rgba_premultiplied(60, 46, 0, 70);
 
@@ -31,18 +34,22 @@ impl Histograms {
         let Some(current) = &state.current else {
             return;
         };
-        let Some(leaves) = state.inspect.leaves(current, ui.ctx()) else {
+        let resting = state.work.is_none();
+        let visits = state.inspect.visits.of(current, resting, ui.ctx());
+        let Some(leaves) = state.inspect.leaves(current, visits.as_ref(), ui.ctx()) else {
             waiting(ui);
             return;
         };
         let tree = &current.shown.tree;
-        let key = TreeKey(Arc::clone(tree));
+        let picture = visits.as_ref().map(|_| current.number);
+        let key = (TreeKey(Arc::clone(tree)), picture);
         if self.bars.as_ref().is_none_or(|(of, _)| *of != key) {
-            let bars = std::array::from_fn(|i| HISTOGRAMS[i].bars(&leaves, MOST_BARS));
-            self.bars = Some((key, bars));
+            let of_leaves = HISTOGRAMS.iter().map(|h| h.bars(&leaves, MOST_BARS));
+            let of_rays = visits.iter().map(|visits| ray_bars(visits, MOST_BARS));
+            self.bars = Some((key, of_leaves.chain(of_rays).collect()));
         }
         if pressed(ui.ctx(), Scope::Leaves, is_under_pointer(ui)).contains(&Action::ClearRanges) {
-            state.inspect.ranges = Ranges::default();
+            state.inspect.clear_ranges();
         }
         let [selected, of] = state.inspect.selected_leaves(&leaves);
         ui.horizontal(|ui| {
@@ -51,49 +58,73 @@ impl Histograms {
                 grouped(selected),
                 grouped(of)
             ));
-            let some = state.inspect.ranges.iter().any(Option::is_some);
+            let some = state.inspect.ranges.iter().any(Option::is_some)
+                || state.inspect.nodes_a_ray.is_some();
             if ui
                 .add_enabled(some, egui::Button::new("Clear ranges"))
-                .on_hover_text(tip("Select all leaves again.", Action::ClearRanges))
+                .on_hover_text(tip(
+                    "Select all leaves and rays again.",
+                    Action::ClearRanges,
+                ))
                 .clicked()
             {
-                state.inspect.ranges = Ranges::default();
+                state.inspect.clear_ranges();
             }
             ui.checkbox(&mut self.log, "Log heights").on_hover_text(
                 "Bars as high as the logarithm of their leaves, so that few are seen beside many; \
                  the full share of a bar stays true.",
             );
-            let key = "filled: full leaves · hollow: empty · drag to select";
+            state.inspect.visits.show(ui, current);
+            let key = "filled: full leaves, rays · hollow: empty leaves · drag to select";
             ui.add(egui::Label::new(key).truncate());
         });
-        let marked = current.selection.node.and_then(|node| {
+        let node = current.selection.node;
+        let marked = node.and_then(|node| {
             let cell = tree.cell_of(node);
-            match tree.kind(node) {
-                NodeKind::Leaf { count, .. } => Some(Leaf {
-                    depth: cell.depth,
-                    objects: count,
-                    volume: cell.bounds.volume(),
-                }),
-                NodeKind::Inner { .. } => None,
-            }
+            Leaf::of(tree, &cell, visits.as_deref().map(|v| &v.visits))
         });
         let Some((_, all)) = &self.bars else {
             return;
         };
+        let nothing = Bars {
+            start: 0.0,
+            width: 1.0,
+            counts: Vec::new(),
+        };
+        let plots: Vec<_> = HISTOGRAMS
+            .iter()
+            .map(|histogram| {
+                (
+                    &histogram.axis,
+                    marked.and_then(|leaf| histogram.value(&leaf)),
+                )
+            })
+            .chain([(&NODES_A_RAY, None)])
+            .collect();
+        let ranges = state.inspect.ranges.iter_mut();
+        let mut ranges: Vec<_> = ranges.chain([&mut state.inspect.nodes_a_ray]).collect();
         let size = crate::gui::rest_of(ui);
-        let gap = 10.0;
-        let width = ((size.x - gap * 2.0) / HISTOGRAM_COUNT as f32).max(40.0);
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = gap;
-            for (i, bars) in all.iter().enumerate() {
-                let range = &mut state.inspect.ranges[i];
-                let plot = Plot {
-                    histogram: &HISTOGRAMS[i],
-                    bars,
-                    log: self.log,
-                    marked: marked.map(|leaf| HISTOGRAMS[i].value(&leaf)),
-                };
-                plot.ui(ui, vec2(width, size.y), range, &mut self.from);
+        let gap = 8.0;
+        let columns = ((size.x / LEAST_WIDTH) as usize).clamp(1, plots.len());
+        let rows = plots.len().div_ceil(columns);
+        let width = (size.x + gap) / columns as f32 - gap;
+        let height = ((size.y + gap) / rows as f32 - gap).max(80.0);
+        ui.spacing_mut().item_spacing = vec2(gap, gap);
+        egui::ScrollArea::vertical().show(ui, |ui| {
+            for first in (0..plots.len()).step_by(columns) {
+                ui.horizontal(|ui| {
+                    for i in first..(first + columns).min(plots.len()) {
+                        let (axis, marked) = plots[i];
+                        let plot = Plot {
+                            axis,
+                            bars: all.get(i).unwrap_or(&nothing),
+                            log: self.log,
+                            marked,
+                            selects_pixels: i >= HISTOGRAMS.len(),
+                        };
+                        plot.ui(ui, vec2(width, height), ranges[i], &mut self.from);
+                    }
+                });
             }
         });
     }
@@ -101,11 +132,14 @@ impl Histograms {
 
 /// One histogram in one frame.
 struct Plot<'a> {
-    histogram: &'a Histogram,
+    axis: &'static HistogramAxis,
+    /// None where there is nothing to count, or while it is not counted.
     bars: &'a Bars,
     log: bool,
     /// Value of the selected leaf.
     marked: Option<f64>,
+    /// A range selects pixels, not leaves.
+    selects_pixels: bool,
 }
 
 impl Plot<'_> {
@@ -121,11 +155,25 @@ impl Plot<'_> {
             egui::WidgetInfo::labeled(
                 egui::Role::Canvas,
                 true,
-                format!("Histogram: {}", self.histogram.title),
+                format!("Histogram: {}", self.axis.title),
             )
         });
         let area = Rect::from_min_max(outer.min + vec2(34.0, 18.0), outer.max - vec2(8.0, 32.0));
-        if !area.is_positive() || self.bars.counts.is_empty() {
+        if !area.is_positive() {
+            return;
+        }
+        if self.bars.counts.is_empty() {
+            let text = format!("{}: not counted yet", self.axis.title);
+            let color = ui.visuals().weak_text_color();
+            let painter = ui.painter().with_clip_rect(outer);
+            let at = outer.left_top() + vec2(34.0, 0.0);
+            painter.text(
+                at,
+                Align2::LEFT_TOP,
+                text,
+                FontId::proportional(12.5),
+                color,
+            );
             return;
         }
         self.brush(&response, area, range, from);
@@ -134,13 +182,21 @@ impl Plot<'_> {
             let bar = self.bar_at(area, at.x);
             let [full, empty] = self.bars.counts[bar];
             let [lo, hi] = self.values_of([bar, bar]);
+            let counted = if self.selects_pixels {
+                format!(
+                    "{} rays of all kinds\nA range marks the pixels in the picture of which at \
+                     least one ray visits so many nodes.",
+                    grouped(full as usize)
+                )
+            } else {
+                let [full, empty] = [full, empty].map(|leaves| grouped(leaves as usize));
+                format!("{full} full and {empty} empty leaves")
+            };
             let text = format!(
-                "{}: {} {}\n{} full and {} empty leaves",
-                self.histogram.title,
-                self.text([lo, hi]),
-                self.histogram.unit,
-                grouped(full as usize),
-                grouped(empty as usize)
+                "{}: {} {}\n{counted}",
+                self.axis.title,
+                self.axis.format_range([lo, hi]),
+                self.axis.unit,
             );
             response.on_hover_text_at_pointer(text);
         }
@@ -189,24 +245,6 @@ impl Plot<'_> {
         ]
     }
 
-    fn text(&self, [lo, hi]: [f64; 2]) -> String {
-        use crate::overlay::Spread;
-        let (lo, hi) = match self.histogram.spread {
-            // Bars lie around whole numbers.
-            Spread::Whole => (lo + 0.5, hi - 0.5),
-            Spread::Powers => (lo, hi),
-        };
-        if lo == hi {
-            self.histogram.format(lo)
-        } else {
-            format!(
-                "{} to {}",
-                self.histogram.format(lo),
-                self.histogram.format(hi)
-            )
-        }
-    }
-
     fn paint(&self, ui: &egui::Ui, outer: Rect, area: Rect, range: Option<[f64; 2]>) {
         let painter = ui.painter().with_clip_rect(outer);
         let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
@@ -218,8 +256,8 @@ impl Plot<'_> {
             area.left() + area.width() * place.clamp(0.0, 1.0) as f32
         };
         let title = match range {
-            Some(range) => format!("{}: {}", self.histogram.title, self.text(range)),
-            None => self.histogram.title.to_owned(),
+            Some(range) => format!("{}: {}", self.axis.title, self.axis.format_range(range)),
+            None => self.axis.title.to_owned(),
         };
         let top = pos2(area.left(), outer.top());
         painter.text(top, Align2::LEFT_TOP, title, font, text);
@@ -239,13 +277,13 @@ impl Plot<'_> {
             let gap = if step > 4.0 { 1.0 } else { 0.0 };
             let all = full + empty;
             let height = if self.log {
-                f64::from(all).ln_1p() / f64::from(highest).ln_1p()
+                (all as f64).ln_1p() / (highest as f64).ln_1p()
             } else {
-                f64::from(all) / f64::from(highest)
+                all as f64 / highest as f64
             };
             let unit = area.height() * height as f32 / all.max(1) as f32;
-            let y = |count: u32| area.bottom() - unit * count as f32;
-            let part = |from: u32, to: u32| {
+            let y = |count: u64| area.bottom() - unit * count as f32;
+            let part = |from: u64, to: u64| {
                 Rect::from_min_max(pos2(left + gap, y(to)), pos2(left + step - gap, y(from)))
             };
             painter.rect_filled(part(0, full), 0.0, FULL);
@@ -278,44 +316,43 @@ impl Plot<'_> {
             painter.text(at, anchor, count_text(count), small.clone(), weak);
         }
         let middle = pos2(area.left() - 3.0, area.center().y);
-        painter.text(middle, Align2::RIGHT_CENTER, "leaves", small.clone(), weak);
-        self.ticks(&painter, area, &small, weak);
-        let below = pos2(area.center().x, outer.bottom());
         painter.text(
-            below,
-            Align2::CENTER_BOTTOM,
-            self.histogram.unit,
-            small,
+            middle,
+            Align2::RIGHT_CENTER,
+            self.axis.counted,
+            small.clone(),
             weak,
         );
+        self.ticks(&painter, area, &small, weak);
+        let below = pos2(area.center().x, outer.bottom());
+        painter.text(below, Align2::CENTER_BOTTOM, self.axis.unit, small, weak);
     }
 
     /// Numbers below the bars: as many as there is room for.
     fn ticks(&self, painter: &egui::Painter, area: Rect, font: &FontId, color: Color32) {
-        use crate::overlay::Spread;
         let n = self.bars.counts.len();
         let room = (area.width() / 48.0).max(1.0) as usize;
         let every = n.div_ceil(room).max(1);
         let step = area.width() / n as f32;
         for i in (0..n).step_by(every) {
             let [lo, hi] = self.values_of([i, i]);
-            let (x, value) = match self.histogram.spread {
+            let (x, value) = match self.axis.spread {
                 Spread::Whole => (step * (i as f32 + 0.5), (lo + 0.5).min(hi - 0.5)),
-                Spread::Powers => (step * i as f32, lo),
+                Spread::Powers | Spread::Counts => (step * i as f32, lo),
             };
             let at = pos2(area.left() + x, area.bottom() + 2.0);
             painter.vline(at.x, area.bottom()..=at.y, Stroke::new(1.0, color));
-            let text = self.histogram.format(value);
+            let text = self.axis.format(value);
             painter.text(at, Align2::CENTER_TOP, text, font.clone(), color);
         }
     }
 }
 
-/// A number of leaves in the room beside an axis.
-fn count_text(count: u32) -> String {
+/// A number of leaves or rays in the room beside an axis.
+fn count_text(count: u64) -> String {
     match count {
         0..10_000 => count.to_string(),
-        10_000..1_000_000 => format!("{:.0}k", f64::from(count) / 1e3),
-        _ => format!("{:.1}M", f64::from(count) / 1e6),
+        10_000..1_000_000 => format!("{:.0}k", count as f64 / 1e3),
+        _ => format!("{:.1}M", count as f64 / 1e6),
     }
 }

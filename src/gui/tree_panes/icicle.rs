@@ -7,13 +7,18 @@ use super::{short, waiting};
 use crate::gui::inspect::TreeKey;
 use crate::gui::state::State;
 use crate::gui::symbol::grouped;
+use crate::gui::view3d::color_bar;
+use crate::gui::visits::PictureVisits;
 use crate::overlay::{COLORINGS, Coloring, Leaf};
-use crate::tree::{NodeKind, Tree, TreeIndex};
+use crate::tree::{Moment, NodeKind, Tree, TreeIndex};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, pos2, vec2};
 use std::sync::Arc;
 
 /// The narrowest piece that is drawn, in points.
 const NARROWEST: f32 = 1.5;
+
+/// The colour of nodes while their visits are being counted, and of those not decided yet.
+const UNKNOWN: [u8; 3] = [120; 3];
 
 /// What a node's width stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,8 +34,8 @@ pub struct Icicle {
     /// The node that spans the whole width.
     top: u32,
     made: Option<(Key, Pieces)>,
-    /// The value at the light end of the colours, by tree and colouring.
-    highest: Option<(TreeKey, &'static str, f64)>,
+    /// The values at the ends of the colours.
+    range: Option<(RangeKey, [f64; 2])>,
 }
 
 impl Default for Icicle {
@@ -40,19 +45,30 @@ impl Default for Icicle {
             coloring: &COLORINGS[0],
             top: 0,
             made: None,
-            highest: None,
+            range: None,
         }
     }
 }
 
+/// What decides the values of the colours: tree, colouring, and for visits the picture's number.
+type RangeKey = (TreeKey, &'static str, Option<u64>);
+
 /// What decides the pieces.
 #[derive(Clone, PartialEq)]
 struct Key {
-    tree: TreeKey,
+    values: RangeKey,
     width: Width,
-    coloring: &'static str,
     top: u32,
     area: Rect,
+    moment: Option<Moment>,
+}
+
+/// What nodes are coloured by.
+struct Facts<'a> {
+    index: &'a TreeIndex,
+    visits: Option<&'a PictureVisits>,
+    /// The moment of the build that is shown.
+    moment: Option<Moment>,
 }
 
 /// The pieces that are drawn; those drawn later lie on top.
@@ -72,11 +88,33 @@ impl Icicle {
         };
         let tree = Arc::clone(&current.shown.tree);
         let key = TreeKey(Arc::clone(&tree));
-        if self.made.as_ref().is_none_or(|(made, _)| made.tree != key) {
+        let another = |(made, _): &(Key, Pieces)| made.values.0 != key;
+        if self.made.as_ref().is_none_or(another) {
             self.top = 0;
         }
-        let highest = self.highest(&key, &index);
-        self.toolbar(ui, current.selection.node, &index, highest);
+        let visits = self.coloring.needs_visits().then(|| {
+            let resting = state.work.is_none();
+            state.inspect.visits.of(current, resting, ui.ctx())
+        });
+        let waits = matches!(visits, Some(None));
+        let visits = visits.flatten();
+        let facts = Facts {
+            index: &index,
+            visits: visits.as_deref(),
+            moment: state.inspect.build.moment(),
+        };
+        let values = (
+            key,
+            self.coloring.name,
+            visits.as_ref().map(|_| current.number),
+        );
+        let range = self.range(&values, &facts);
+        self.toolbar(ui, current.selection.node, &index);
+        if waits {
+            ui.horizontal(|ui| state.inspect.visits.show(ui, current));
+        } else {
+            self.legend(ui, range, &index);
+        }
         let (outer, response) =
             ui.allocate_exact_size(crate::gui::rest_of(ui), Sense::click_and_drag());
         response.widget_info(|| {
@@ -87,15 +125,15 @@ impl Icicle {
             return;
         }
         let key = Key {
-            tree: key,
+            values,
             width: self.width,
-            coloring: self.coloring.name,
             top: self.top,
             area,
+            moment: facts.moment,
         };
         let pieces = match self.made.take() {
             Some((made, pieces)) if made == key => pieces,
-            _ => self.pieces(&tree, &index, area, highest),
+            _ => self.pieces(&tree, &facts, area, range),
         };
         let painter = ui.painter().with_clip_rect(outer);
         painter.add(egui::Shape::mesh(Arc::clone(&pieces.mesh)));
@@ -132,13 +170,7 @@ impl Icicle {
         self.made = Some((key, pieces));
     }
 
-    fn toolbar(
-        &mut self,
-        ui: &mut egui::Ui,
-        selected: Option<u32>,
-        index: &TreeIndex,
-        highest: f64,
-    ) {
+    fn toolbar(&mut self, ui: &mut egui::Ui, selected: Option<u32>, index: &TreeIndex) {
         ui.horizontal(|ui| {
             ui.label("Width");
             for (width, name, about) in [
@@ -186,46 +218,46 @@ impl Icicle {
             {
                 self.top = index.of(self.top).parent;
             }
-            let mut scale = self.scale(highest);
-            if let Some((_, pieces)) = &self.made {
-                scale += &format!(
-                    " · {} of {} nodes drawn",
-                    grouped(pieces.rects.len()),
-                    grouped((index.of(self.top).end - self.top) as usize)
-                );
-            }
-            ui.add(egui::Label::new(&scale).truncate())
-                .on_hover_text(&scale);
         });
     }
 
-    /// What the colours run from and to, in words.
-    fn scale(&self, highest: f64) -> String {
-        let marks = self.coloring.marks(highest);
-        let unit = self.coloring.unit;
-        match (marks.first(), marks.last()) {
-            (Some(a), Some(b)) => format!("dark: {} · light: {} {unit}", a.text, b.text),
-            _ => String::new(),
-        }
+    /// What the colours mean, and how much of the tree is drawn.
+    fn legend(&self, ui: &mut egui::Ui, range: [f64; 2], index: &TreeIndex) {
+        ui.horizontal(|ui| {
+            let what = match self.coloring.unit {
+                "" => self.coloring.title.to_owned(),
+                unit => format!("{} ({unit})", self.coloring.title),
+            };
+            ui.label(what);
+            color_bar(self.coloring, range, ui);
+            if let Some((_, pieces)) = &self.made {
+                let text = format!(
+                    "{} of {} nodes drawn",
+                    grouped(pieces.rects.len()),
+                    grouped((index.of(self.top).end - self.top) as usize)
+                );
+                ui.add(egui::Label::new(&text).truncate())
+                    .on_hover_text(&text);
+            }
+        });
     }
 
-    /// The value at the light end of the colours.
-    fn highest(&mut self, tree: &TreeKey, index: &TreeIndex) -> f64 {
-        let name = self.coloring.name;
-        if let Some((of, coloring, highest)) = &self.highest
-            && of == tree
-            && *coloring == name
+    /// The values at the ends of the colours.
+    fn range(&mut self, key: &RangeKey, facts: &Facts<'_>) -> [f64; 2] {
+        if let Some((of, range)) = &self.range
+            && of == key
         {
-            return *highest;
+            return *range;
         }
-        let highest = (0..index.len() as u32)
-            .map(|node| self.coloring.value(leaf_like(index, node)))
-            .fold(0.0, f64::max);
-        self.highest = Some((tree.clone(), name, highest));
-        highest
+        let nodes = 0..facts.index.len() as u32;
+        let values = nodes.filter_map(|node| self.coloring.value(&facts.leaf_like(node)));
+        let range = self.coloring.range(values);
+        self.range = Some((key.clone(), range));
+        range
     }
 
-    fn pieces(&self, tree: &Tree, index: &TreeIndex, area: Rect, highest: f64) -> Pieces {
+    fn pieces(&self, tree: &Tree, facts: &Facts<'_>, area: Rect, range: [f64; 2]) -> Pieces {
+        let index = facts.index;
         let top = index.of(self.top).depth;
         let mut spans = Vec::new();
         let mut stack = vec![(self.top, area.left(), area.right())];
@@ -251,14 +283,23 @@ impl Icicle {
         let mut rects = Vec::with_capacity(spans.len());
         let mut mesh = egui::Mesh::default();
         for (node, left, right) in spans {
+            let parent = index.of(node).parent;
+            if node != 0 && !facts.is_decided(tree, parent) {
+                continue;
+            }
             let y = area.top() + height * (index.of(node).depth - top) as f32;
             let rect = Rect::from_min_max(pos2(left, y), pos2(right, y + height));
-            let [r, g, b] = self
-                .coloring
-                .color(self.coloring.value(leaf_like(index, node)), highest);
+            let value = self.coloring.value(&facts.leaf_like(node));
+            let value = value.filter(|_| facts.is_decided(tree, node));
+            let [r, g, b] = value.map_or(UNKNOWN, |value| self.coloring.color(value, range));
             let gap = if rect.width() > 4.0 { 0.5 } else { 0.0 };
             let drawn = rect.shrink2(vec2(gap, if height > 4.0 { 0.5 } else { 0.0 }));
             mesh.add_colored_rect(drawn, Color32::from_rgb(r, g, b));
+            if !facts.is_decided(tree, node) {
+                // A hollow piece.
+                let inside = drawn.shrink2(vec2(1.0, height * 0.25));
+                mesh.add_colored_rect(inside, Color32::from_gray(30));
+            }
             rects.push((rect, node));
         }
         Pieces {
@@ -309,13 +350,23 @@ impl Icicle {
     }
 }
 
-/// A node as colourings see it.
-fn leaf_like(index: &TreeIndex, node: u32) -> Leaf {
-    let facts = index.of(node);
-    Leaf {
-        depth: facts.depth,
-        objects: facts.objects,
-        volume: facts.volume,
+impl Facts<'_> {
+    /// Whether a node was a leaf or split by the moment that is shown.
+    fn is_decided(&self, tree: &Tree, node: u32) -> bool {
+        let depth = self.index.of(node).depth;
+        self.moment
+            .is_none_or(|moment| tree.is_decided(node, depth, moment))
+    }
+
+    /// A node as colourings see it.
+    fn leaf_like(&self, node: u32) -> Leaf {
+        let facts = self.index.of(node);
+        Leaf {
+            depth: facts.depth,
+            objects: facts.objects,
+            volume: facts.volume,
+            visits: self.visits.map(|visits| visits.by_node[node as usize]),
+        }
     }
 }
 

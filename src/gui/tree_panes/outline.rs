@@ -8,6 +8,7 @@ use crate::gui::inspect::TreeKey;
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::{Current, State};
 use crate::gui::symbol::grouped;
+use crate::gui::visits::{self, PictureVisits};
 use crate::tree::{NodeKind, Tree, TreeIndex};
 use egui::{Align, Sense};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -22,7 +23,7 @@ pub struct Outline {
     find: FindBar,
 }
 
-const COLUMNS: [(&str, f32, &str); 8] = [
+const COLUMNS: [(&str, f32, &str); 9] = [
     (
         "node",
         164.0,
@@ -48,14 +49,16 @@ const COLUMNS: [(&str, f32, &str); 8] = [
          (MacDonald and Booth 1990)",
     ),
     (
-        "visits",
-        50.0,
-        "Nodes that such a ray is expected to visit, this one included",
+        "exp. nodes",
+        66.0,
+        "Expected nodes: those that such a ray is expected to visit, this one included",
     ),
+    ("visits", 110.0, visits::ABOUT),
 ];
 
 impl Outline {
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
+        let moment = state.inspect.build.moment();
         let Some(current) = &mut state.current else {
             return;
         };
@@ -66,10 +69,15 @@ impl Outline {
         let tree = Arc::clone(&current.shown.tree);
         let key = TreeKey(Arc::clone(&tree));
         if self.rows.as_ref().is_none_or(|(of, _)| *of != key) {
-            self.rows = Some((key.clone(), Rows::new(&tree)));
+            self.rows = Some((key.clone(), Rows::new(&tree, &index)));
             self.followed = None;
         }
-        let matches = self.find.matches(&key, &index, ui.ctx());
+        let resting = state.work.is_none();
+        let visits = state.inspect.visits.of(current, resting, ui.ctx());
+        let picture = current.number;
+        let matches = self
+            .find
+            .matches(&key, &index, visits.clone(), picture, ui.ctx());
         let found = matches.as_deref().map(Vec::as_slice);
         let before = current.selection.node;
         if let Some(to) = self.find.ui(ui, found, before) {
@@ -79,9 +87,14 @@ impl Outline {
         let Some((_, rows)) = &mut self.rows else {
             return;
         };
+        rows.show(&tree, &index, moment);
         for action in pressed(ui.ctx(), Scope::Tree, is_under_pointer(ui)) {
             match action {
                 Action::FrameNode => state.inspect.frame = current.selection.node,
+                Action::MoreVisited | Action::LessVisited => {
+                    let back = action == Action::MoreVisited;
+                    step_by_visits(&mut current.selection.node, visits.as_deref(), back);
+                }
                 // In a list of matches, up and down go from match to match.
                 Action::FindNext | Action::FindPrevious | Action::RowDown | Action::RowUp
                     if self.find.only || !matches!(action, Action::RowDown | Action::RowUp) =>
@@ -95,7 +108,11 @@ impl Outline {
                 _ => walk(action, &mut current.selection.node, rows, &tree, &index),
             }
         }
-        summary(ui, current, &index, &mut self.find);
+        ui.horizontal(|ui| {
+            by_visits(ui, &mut current.selection.node, visits.as_deref());
+            state.inspect.visits.show(ui, current);
+            summary(ui, current, &index, &mut self.find);
+        });
         let listed = found.filter(|_| self.find.only);
         let mut scroll = None;
         if current.selection.node != self.followed {
@@ -119,6 +136,7 @@ impl Outline {
         let mut table = Table {
             tree: &tree,
             index: &index,
+            visits: visits.as_deref(),
             rows,
             selected: &mut current.selection.node,
             flat: listed.is_some(),
@@ -139,7 +157,8 @@ fn walk(
         *selected = Some(0);
         return;
     };
-    let inner = matches!(tree.kind(node), NodeKind::Inner { .. });
+    let inner =
+        matches!(tree.kind(node), NodeKind::Inner { .. }) && rows.is_decided(tree, index, node);
     let row = rows.row_of(node).unwrap_or(0);
     match action {
         Action::RowUp => *selected = rows.nodes().get(row.saturating_sub(1)).copied(),
@@ -147,16 +166,44 @@ fn walk(
             *selected = rows.nodes().get(row + 1).copied().or(Some(node));
         }
         Action::Unfold if inner && rows.is_unfolded(node) => *selected = Some(node + 1),
-        Action::Unfold => rows.set(tree, node, inner),
-        Action::Fold if inner && rows.is_unfolded(node) => rows.set(tree, node, false),
+        Action::Unfold => rows.set(tree, index, node, inner),
+        Action::Fold if inner && rows.is_unfolded(node) => rows.set(tree, index, node, false),
         Action::Fold => *selected = Some(index.of(node).parent),
         _ => {}
     }
 }
 
+/// Selects the most visited leaf, or from a leaf on the next or the one before.
+fn step_by_visits(selected: &mut Option<u32>, visits: Option<&PictureVisits>, back: bool) {
+    if let Some(visits) = visits {
+        *selected = visits.step(*selected, back).or(*selected);
+    }
+}
+
+/// The way through the leaves in the order of their visits.
+fn by_visits(ui: &mut egui::Ui, selected: &mut Option<u32>, visits: Option<&PictureVisits>) {
+    for (name, about, action) in [
+        (
+            "More visited",
+            "Select the leaf that comes before in the order of visits.",
+            Action::MoreVisited,
+        ),
+        (
+            "Less visited",
+            "Select the most visited leaf; from a leaf on, the next in the order of visits.",
+            Action::LessVisited,
+        ),
+    ] {
+        let button = ui.add_enabled(visits.is_some(), egui::Button::new(name));
+        if button.on_hover_text(tip(about, action)).clicked() {
+            step_by_visits(selected, visits, action == Action::MoreVisited);
+        }
+    }
+}
+
 /// What is selected, in words.
 fn summary(ui: &mut egui::Ui, current: &Current, index: &TreeIndex, find: &mut FindBar) {
-    ui.horizontal(|ui| {
+    ui.scope(|ui| {
         ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
         if let Some(object) = current.selection.object {
             let leaves = index.leaves_of(object).len();
@@ -193,6 +240,7 @@ fn summary(ui: &mut egui::Ui, current: &Current, index: &TreeIndex, find: &mut F
 struct Table<'a> {
     tree: &'a Tree,
     index: &'a TreeIndex,
+    visits: Option<&'a PictureVisits>,
     rows: &'a mut Rows,
     selected: &'a mut Option<u32>,
     /// A list of matches instead of an outline.
@@ -251,7 +299,9 @@ impl Table<'_> {
                 *self.selected = Some(node);
             }
         });
+        let decided = self.rows.is_decided(self.tree, self.index, node);
         let (about, objects) = match self.tree.kind(node) {
+            _ if !decided => ("not decided yet".to_owned(), facts.objects),
             NodeKind::Inner { .. } => {
                 let plane = self.tree.plane(node);
                 let text = plane.map(|(axis, at)| format!("{axis} = {at:.6}"));
@@ -260,14 +310,17 @@ impl Table<'_> {
             NodeKind::Leaf { count, stop, .. } => (format!("leaf: {}", stop.text()), count),
         };
         let root = self.index.of(0).area;
+        // What the subtree will amount to is not known before it is built.
+        let later = |text: String| if decided { text } else { "–".to_owned() };
         for text in [
             facts.depth.to_string(),
             about,
             grouped(objects as usize),
-            grouped(facts.references as usize),
+            later(grouped(facts.references as usize)),
             format!("{} %", short(100.0 * facts.area / root)),
-            short(facts.tests),
-            short(facts.visits),
+            later(short(facts.tests)),
+            later(short(facts.expected_visits)),
+            later(self.visits_text(node)),
         ] {
             row.col(|ui| {
                 ui.add(egui::Label::new(text).selectable(false).truncate());
@@ -278,13 +331,24 @@ impl Table<'_> {
         }
     }
 
+    /// Number of visits and their share of all rays; a dash where they are not counted.
+    fn visits_text(&self, node: u32) -> String {
+        let Some(visits) = self.visits else {
+            return "–".to_owned();
+        };
+        let count = visits.by_node[node as usize];
+        let share = 100.0 * count as f64 / visits.rays() as f64;
+        format!("{} · {} %", grouped(count as usize), short(share))
+    }
+
     /// The indentation and the triangle that folds and unfolds.
     fn fold(&mut self, ui: &mut egui::Ui, node: u32, depth: u32) {
         // The deepest node still has room for its name.
         let levels = self.tree.depth_reached().max(1);
         ui.add_space(depth as f32 * (64.0 / levels as f32).min(8.0));
         let size = egui::vec2(14.0, ui.available_height());
-        if !matches!(self.tree.kind(node), NodeKind::Inner { .. }) {
+        let inner = matches!(self.tree.kind(node), NodeKind::Inner { .. });
+        if !inner || !self.rows.is_decided(self.tree, self.index, node) {
             ui.allocate_space(size);
             return;
         }
@@ -302,7 +366,7 @@ impl Table<'_> {
             Action::Unfold
         };
         if response.on_hover_text(tip(verb, action)).clicked() {
-            self.rows.set(self.tree, node, !unfolded);
+            self.rows.set(self.tree, self.index, node, !unfolded);
         }
     }
 }

@@ -1,10 +1,12 @@
 //! What the 3D view shows, the widgets above it, and what its keys do.
 
 use super::View3d;
+use super::cut::Cut;
 use crate::geometry::{Axis, Vec3};
+use crate::gui::build_bar;
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::{Current, State};
-use crate::overlay::{COLORINGS, Coloring, Filter};
+use crate::overlay::{COLORINGS, Coloring, Filter, Visited};
 
 /// What the 3D view shows.
 #[derive(Clone, Copy)]
@@ -13,6 +15,8 @@ pub struct Settings {
     pub boxes: bool,
     pub coloring: &'static Coloring,
     pub filter: Filter,
+    /// What is hidden of objects and leaf boxes.
+    pub cut: Cut,
     /// Whether the picture's camera is this view's.
     pub linked: bool,
     /// Of all leaves, only those that the picked ray visited.
@@ -28,6 +32,7 @@ impl Default for Settings {
             boxes: true,
             coloring: &COLORINGS[0],
             filter: Filter::default(),
+            cut: Cut::default(),
             linked: true,
             only_visited: false,
             all_rays: true,
@@ -36,6 +41,12 @@ impl Default for Settings {
 }
 
 impl Settings {
+    fn next_visited(&mut self) {
+        let visited = &mut self.filter.visited;
+        let at = Visited::ALL.iter().position(|v| v == visited);
+        *visited = Visited::ALL[(at.unwrap_or(0) + 1) % Visited::ALL.len()];
+    }
+
     fn next_coloring(&mut self) {
         let at = COLORINGS.iter().position(|c| c.name == self.coloring.name);
         self.coloring = &COLORINGS[(at.unwrap_or(0) + 1) % COLORINGS.len()];
@@ -43,7 +54,7 @@ impl Settings {
 }
 
 /// The row of widgets above the view.
-pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &State) {
+pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &mut State) {
     let depth_reached = state
         .current
         .as_ref()
@@ -83,7 +94,25 @@ pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &State) {
             })
             .response
             .on_hover_text(tip("What leaves are coloured by.", Action::NextColoring));
+        egui::ComboBox::from_id_salt("visited")
+            .selected_text(settings.filter.visited.title())
+            .width(110.0)
+            .show_ui(ui, |ui| {
+                for visited in Visited::ALL {
+                    let value = &mut settings.filter.visited;
+                    ui.selectable_value(value, visited, visited.title());
+                }
+            })
+            .response
+            .on_hover_text(tip(
+                "Show leaves by whether any ray of the picture visited them.",
+                Action::VisitedOrNot,
+            ));
         depth_filter(&mut settings.filter, depth_reached, ui);
+        build_bar::switch(ui, state);
+        if let Some(current) = &state.current {
+            settings.cut.controls(ui, &current.shown.tree.root_cell());
+        }
         ui.checkbox(&mut settings.only_visited, "Only visited")
             .on_hover_text(tip(
                 "Of all leaves, show only those that the picked pixel's ray visited.",
@@ -161,6 +190,7 @@ pub fn act(view: &mut View3d, action: Action, state: &State, dt: f64) -> bool {
         Action::ShowRays => settings.all_rays ^= true,
         Action::Shown => settings.only_visited ^= true,
         Action::NextColoring => settings.next_coloring(),
+        Action::VisitedOrNot => settings.next_visited(),
         Action::AllDepths => settings.filter.depth = Filter::default().depth,
         Action::Link => view.link(!view.settings.linked, state),
         Action::Orthographic => view.camera.orthographic ^= true,
@@ -179,7 +209,7 @@ pub fn act(view: &mut View3d, action: Action, state: &State, dt: f64) -> bool {
         Action::Front => return look(view, Axis::Y),
         Action::Side => return look(view, Axis::X),
         Action::Top => return look(view, Axis::Z),
-        _ => {}
+        action => settings.cut.act(action),
     }
     false
 }

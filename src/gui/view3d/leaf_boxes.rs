@@ -2,6 +2,7 @@
 
 use crate::geometry::Vec3;
 use crate::gui::background::Latest;
+use crate::gui::visits::PictureVisits;
 use crate::overlay::{Coloring, Filter, LeafBoxes, leaf_boxes};
 use crate::tree::Tree;
 use std::sync::Arc;
@@ -12,6 +13,8 @@ struct Key {
     tree: Arc<Tree>,
     filter: Filter,
     coloring: &'static Coloring,
+    /// Of the picture, where filter or colouring need them.
+    visits: Option<Arc<PictureVisits>>,
 }
 
 impl PartialEq for Key {
@@ -19,6 +22,7 @@ impl PartialEq for Key {
         Arc::ptr_eq(&self.tree, &other.tree)
             && self.filter == other.filter
             && self.coloring.name == other.coloring.name
+            && self.visits.as_ref().map(Arc::as_ptr) == other.visits.as_ref().map(Arc::as_ptr)
     }
 }
 
@@ -32,15 +36,19 @@ const MOST_BOXES: usize = 9_000_000;
 #[derive(Default)]
 pub struct Boxes {
     made: Latest<Key, LeafBoxes>,
+    /// The last that were given.
+    given: Option<(Key, Arc<LeafBoxes>)>,
 }
 
 impl Boxes {
-    /// The boxes; `None` while they are being made. Those of another tree are never given.
+    /// The boxes; `None` while they are being made. While others of the same build are made, those of
+    /// the moment before are given; those of another tree never are.
     pub fn get(
         &mut self,
         tree: &Arc<Tree>,
         filter: Filter,
         coloring: &'static Coloring,
+        visits: Option<Arc<PictureVisits>>,
         center: Vec3,
         ctx: &egui::Context,
     ) -> Option<Arc<LeafBoxes>> {
@@ -48,23 +56,37 @@ impl Boxes {
             tree: Arc::clone(tree),
             filter,
             coloring,
+            visits,
         };
-        if let Some(boxes) = self.made.ready(&key) {
+        let boxes = self.make(&key, center, ctx);
+        if let Some(boxes) = boxes {
+            self.given = Some((key, Arc::clone(&boxes)));
+            return Some(boxes);
+        }
+        let (before, boxes) = self.given.as_ref()?;
+        let mut now = key;
+        now.filter.moment = before.filter.moment;
+        (now == *before).then(|| Arc::clone(boxes))
+    }
+
+    fn make(&mut self, key: &Key, center: Vec3, ctx: &egui::Context) -> Option<Arc<LeafBoxes>> {
+        if let Some(boxes) = self.made.ready(key) {
             return Some(boxes);
         }
         let make = {
             let key = key.clone();
             move || {
-                let mut boxes = leaf_boxes(&key.tree, &key.filter, key.coloring, center);
+                let visits = key.visits.as_ref().map(|visits| &visits.visits);
+                let mut boxes = leaf_boxes(&key.tree, &key.filter, key.coloring, visits, center);
                 boxes.instances = spread(&boxes.instances);
                 boxes.instances.truncate(MOST_BOXES);
                 boxes
             }
         };
-        if tree.nodes().len() <= NODES_AT_ONCE {
-            Some(self.made.put(key, make()))
+        if key.tree.nodes().len() <= NODES_AT_ONCE {
+            Some(self.made.put(key.clone(), make()))
         } else {
-            self.made.get(&key, ctx, make)
+            self.made.get(key, ctx, make)
         }
     }
 }

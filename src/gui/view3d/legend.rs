@@ -3,7 +3,9 @@
 use super::Settings;
 use crate::gui::symbol::grouped;
 use crate::gui::walk::Picked;
-use crate::overlay::{Coloring, INTERVAL, LeafBoxes, RaysShown, WAITING, order_color, ray_style};
+use crate::overlay::{
+    Coloring, INTERVAL, LeafBoxes, RaysShown, Visited, WAITING, order_color, ray_style,
+};
 use crate::trace::RayKind;
 use egui::{Color32, Rect, pos2, vec2};
 
@@ -17,6 +19,8 @@ const ROOMY: f32 = 640.0;
 pub struct Legend<'a> {
     pub settings: &'a Settings,
     pub boxes: Option<&'a LeafBoxes>,
+    /// What is to be done before there can be boxes.
+    pub waits_for: Option<&'a str>,
     /// How many of the boxes are drawn.
     pub drawn: u32,
     pub picked: Option<&'a Picked>,
@@ -72,15 +76,25 @@ fn contents(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
             } else {
                 ui.strong(format!("{} ({})", coloring.title, coloring.unit));
             }
-            color_bar(coloring, boxes.highest, ui);
+            color_bar(coloring, boxes.range, ui);
             ui.label("solid edges: full leaf · dashed edges: empty leaf");
-            let shown = boxes.instances.len();
+            let visited = legend.settings.filter.visited;
+            if visited != Visited::Either {
+                ui.label(format!("leaves shown: {}", visited.title().to_lowercase()));
+            }
+            if boxes.undecided > 0 {
+                ui.label(format!(
+                    "dotted white: {} cells not decided yet",
+                    grouped(boxes.undecided)
+                ));
+            }
+            let shown = boxes.instances.len() - boxes.undecided;
             ui.label(format!(
                 "{} of {} leaves shown",
                 grouped(shown),
                 grouped(boxes.leaves)
             ));
-            if (legend.drawn as usize) < shown {
+            if (legend.drawn as usize) < boxes.instances.len() {
                 ui.label(format!(
                     "drawn by the processor: {} of them",
                     grouped(legend.drawn as usize)
@@ -88,7 +102,7 @@ fn contents(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
             }
         }
         None if legend.settings.boxes && !legend.settings.only_visited => {
-            ui.label("Preparing the leaf boxes …");
+            ui.label(legend.waits_for.unwrap_or("Preparing the leaf boxes …"));
         }
         _ => {
             ui.label("Leaf boxes are not shown");
@@ -114,7 +128,7 @@ fn contents(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
 }
 
 /// The colours from the lowest to the highest value, with numbers.
-fn color_bar(coloring: &Coloring, highest: f64, ui: &mut egui::Ui) {
+pub fn color_bar(coloring: &Coloring, range: [f64; 2], ui: &mut egui::Ui) {
     let bar = BAR.min(ui.available_width() - 24.0);
     let (rect, _) = ui.allocate_exact_size(vec2(bar + 24.0, 28.0), egui::Sense::hover());
     let painter = ui.painter();
@@ -125,7 +139,7 @@ fn color_bar(coloring: &Coloring, highest: f64, ui: &mut egui::Ui) {
         let [r, g, b] = coloring.color_at(place);
         Color32::from_rgb(r, g, b)
     };
-    let marks = coloring.marks(highest);
+    let marks = coloring.marks(range);
     if coloring.is_continuous() {
         const STEPS: u32 = 64;
         for i in 0..STEPS {

@@ -2,15 +2,16 @@
 //! to the selected object.
 
 use super::View3d;
+use super::controls::Settings;
 use crate::geometry::{Aabb, Axis, Vec3};
 use crate::gui::state::State;
 use crate::gui::symbol::grouped;
+use crate::overlay::Leaf;
 use crate::overlay::{
     CELL_COLOR, FaceCorner, Line, PLANE_COLOR, REFERRING_COLOR, box_lines, cell_faces, cell_lines,
     leaves_along,
 };
-use crate::overlay::{Filter, Leaf};
-use crate::tree::{CellOfNode, NodeKind};
+use crate::tree::CellOfNode;
 use egui::{Align2, Color32, Rect, vec2};
 
 /// So many of an object's leaves are drawn.
@@ -156,18 +157,16 @@ impl Marks {
 
 /// The leaf whose box is clicked: the nearest that is shown. A click where the selected leaf lies
 /// goes on to the next behind it.
-pub fn pick_leaf(state: &State, filter: &Filter, ray: &crate::geometry::Ray) -> Option<u32> {
+pub fn pick_leaf(state: &State, shown: &Settings, ray: &crate::geometry::Ray) -> Option<u32> {
     let current = state.current.as_ref()?;
     let tree = &current.shown.tree;
+    let Settings { filter, cut, .. } = shown;
+    let (visits, root) = (state.inspect.visits.ready(), tree.root_cell());
     let shown: Vec<u32> = leaves_along(tree, ray)
         .into_iter()
-        .filter(|cell| match tree.kind(cell.node) {
-            NodeKind::Leaf { count, .. } => filter.passes(Leaf {
-                depth: cell.depth,
-                objects: count,
-                volume: cell.bounds.volume(),
-            }),
-            NodeKind::Inner { .. } => false,
+        .filter(|cell| {
+            let leaf = Leaf::of(tree, cell, visits.as_deref().map(|v| &v.visits));
+            !cut.hides(&cell.bounds, &root) && leaf.is_some_and(|leaf| filter.passes(&leaf))
         })
         .map(|cell| cell.node)
         .collect();

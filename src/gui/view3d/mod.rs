@@ -2,6 +2,7 @@
 
 mod camera;
 mod controls;
+mod cut;
 mod leaf_boxes;
 mod legend;
 mod marks;
@@ -13,6 +14,7 @@ mod scene_mesh;
 use super::background::Latest;
 use super::shortcuts::{Scope, pressed};
 use super::state::{Current, State};
+use super::visits::PictureVisits;
 use crate::geometry::{Aabb, Vec3};
 use crate::overlay::{self, Line};
 use crate::scene::{Camera, Scene};
@@ -21,6 +23,7 @@ use camera::ViewCamera;
 use controls::Settings;
 use eframe::egui_wgpu::{self, wgpu};
 use egui::{Color32, Rect, vec2};
+pub use legend::color_bar;
 use renderer::{Frame3d, Globals};
 use std::sync::Arc;
 
@@ -46,7 +49,7 @@ pub struct View3d {
     rays: ray_lines::RayLines,
     lines: Arc<Vec<Line>>,
     faces: Arc<Vec<overlay::FaceCorner>>,
-    /// When the camera moved last, in seconds.
+    /// When the camera or the build moved last, in seconds.
     moved: f64,
 }
 
@@ -108,6 +111,12 @@ impl View3d {
             }
         }
         self.settings.filter.ranges = state.inspect.ranges;
+        let moment = state.inspect.build.moment();
+        if self.settings.filter.moment != moment {
+            self.settings.filter.moment = moment;
+            self.moved = ui.input(|i| i.time);
+        }
+        let visits = self.visits(state, ui.ctx());
         self.pick(rect, &response, state);
         let [r, g, b] = GROUND;
         ui.painter()
@@ -121,8 +130,27 @@ impl View3d {
                 );
             }
             (Some(_), None) => note(ui, rect, "No scene yet"),
-            (Some(_), Some(current)) => self.draw(ui, rect, current, &marks),
+            (Some(_), Some(current)) => self.draw(ui, rect, current, visits, &marks),
         }
+    }
+
+    /// The visits that the boxes shown need: those of the picture, or why there are none yet. `None`
+    /// where they need none.
+    fn visits(
+        &self,
+        state: &mut State,
+        ctx: &egui::Context,
+    ) -> Option<Result<Arc<PictureVisits>, String>> {
+        let current = state.current.as_ref()?;
+        let Settings {
+            filter, coloring, ..
+        } = &self.settings;
+        if !filter.needs_visits() && !coloring.needs_visits() {
+            return None;
+        }
+        let resting = state.work.is_none();
+        let visits = state.inspect.visits.of(current, resting, ctx);
+        Some(visits.ok_or_else(|| state.inspect.visits.note(current).unwrap_or_default()))
     }
 
     /// Shows the node that another pane asks for; says whether there was one.
@@ -212,7 +240,7 @@ impl View3d {
         {
             let at = (at - rect.center()) / (rect.height() * 0.5);
             let ray = self.camera.ray(f64::from(at.x), f64::from(-at.y));
-            let leaf = marks::pick_leaf(state, &self.settings.filter, &ray);
+            let leaf = marks::pick_leaf(state, &self.settings, &ray);
             if let Some(current) = &mut state.current {
                 current.selection.node = leaf;
             }
@@ -234,7 +262,14 @@ impl View3d {
         self.camera.on_target_plane(&ray)
     }
 
-    fn draw(&mut self, ui: &mut egui::Ui, rect: Rect, current: &Current, marks: &marks::Marks) {
+    fn draw(
+        &mut self,
+        ui: &mut egui::Ui,
+        rect: Rect,
+        current: &Current,
+        visits: Option<Result<Arc<PictureVisits>, String>>,
+        marks: &marks::Marks,
+    ) {
         let (scene, tree) = (&current.shown.scene, &current.shown.tree);
         let center = scene_mesh::center_of(scene);
         let ctx = ui.ctx();
@@ -248,12 +283,17 @@ impl View3d {
             None
         };
         let only_visited = self.settings.only_visited && path.is_some();
-        let boxes = (self.settings.boxes && !only_visited)
+        let (visits, waits_for) = match visits {
+            Some(Ok(visits)) => (Some(visits), None),
+            Some(Err(why)) => (None, Some(why)),
+            None => (None, None),
+        };
+        let boxes = (self.settings.boxes && !only_visited && waits_for.is_none())
             .then(|| {
                 let Settings {
                     filter, coloring, ..
                 } = self.settings;
-                self.boxes.get(tree, filter, coloring, center, ctx)
+                self.boxes.get(tree, filter, coloring, visits, center, ctx)
             })
             .flatten();
         let mut lines = self.lines_for(current, center);
@@ -285,7 +325,7 @@ impl View3d {
         let left_out = mesh.as_ref().map_or(0, |mesh| mesh.left_out);
         let pixels = ctx.pixels_per_point();
         let frame = Frame3d {
-            globals: self.globals(rect, center, &bounds),
+            globals: self.globals(rect, center, &bounds, &tree.root_cell()),
             size: [
                 (rect.width() * pixels).round().max(1.0) as u32,
                 (rect.height() * pixels).round().max(1.0) as u32,
@@ -303,10 +343,13 @@ impl View3d {
             self.number_leaves(ui, rect, path);
         }
         marks.name(self, ui, rect);
+        let mut keys = marks.key();
+        keys.extend(self.settings.cut.text(&tree.root_cell()));
         let legend = legend::Legend {
-            marks: marks.key(),
+            marks: keys,
             settings: &self.settings,
             boxes: boxes.as_deref(),
+            waits_for: waits_for.as_deref(),
             drawn,
             picked: current.picked.as_ref(),
             left_out,
@@ -314,7 +357,7 @@ impl View3d {
         legend::show(&legend, ui, rect);
     }
 
-    fn globals(&self, rect: Rect, center: Vec3, bounds: &Aabb) -> Globals {
+    fn globals(&self, rect: Rect, center: Vec3, bounds: &Aabb, root: &Aabb) -> Globals {
         let [forward, right, up] = self.camera.frame();
         let eye = self.camera.camera.from - center;
         let full = |v: Vec3, w: f32| v.as_vec3().extend(w).to_array();
@@ -325,6 +368,7 @@ impl View3d {
             forward: full(forward, 0.0),
             right: full(right, 0.0),
             up: full(up, 0.0),
+            cut: self.settings.cut.for_shader(root, center),
             size: [
                 rect.width(),
                 rect.height(),

@@ -18,6 +18,7 @@ pub struct Globals {
     pub forward: [f32; 4],
     pub right: [f32; 4],
     pub up: [f32; 4],
+    pub cut: [f32; 4],
     pub size: [f32; 4],
 }
 

@@ -7,11 +7,17 @@ struct Globals {
     forward: vec4f,
     right: vec4f,
     up: vec4f,
+    // What lies further along xyz than w is hidden.
+    cut: vec4f,
     // Width and height of the target in points; z is the radius of what is shown.
     size: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> globals: Globals;
+
+fn is_cut(place: vec3f) -> bool {
+    return dot(globals.cut.xyz, place) > globals.cut.w;
+}
 
 fn to_eye(place: vec3f) -> vec3f {
     if globals.eye.w > 0.5 {
@@ -50,6 +56,9 @@ fn mesh_vertex(@location(0) place: vec3f, @location(1) normal: vec3f, @location(
 
 @fragment
 fn mesh_fragment(in: MeshOut) -> @location(0) vec4f {
+    if is_cut(in.place) {
+        discard;
+    }
     return shaded(in.color, in.normal, in.place);
 }
 
@@ -106,13 +115,14 @@ fn sphere_fragment(in: SphereOut) -> SphereHit {
     let cover = clamp((radius - gap) / max(fwidth(gap), 1e-12) + 0.5, 0.0, 1.0);
     let half = sqrt(max(radius * radius - gap * gap, 0.0));
     var t = along - half;
-    if t < 0.0 {
+    // From inside, and through a cut, the far side is seen.
+    if t < 0.0 || is_cut(origin + t * direction) {
         t = along + half;
     }
-    if cover <= 0.0 || t < 0.0 {
+    let place = origin + t * direction;
+    if cover <= 0.0 || t < 0.0 || is_cut(place) {
         discard;
     }
-    let place = origin + t * direction;
     let clip = globals.clip_from_scene * vec4f(place, 1.0);
     let color = shaded(in.color, place - in.sphere.xyz, place);
     return SphereHit(vec4f(color.rgb, cover), clamp(clip.z / clip.w, 0.0, 1.0));
@@ -125,6 +135,7 @@ struct BoxOut {
     // Along the edge, 0 to 1.
     @location(0) along: f32,
     @location(1) @interpolate(flat) color: vec4f,
+    @location(2) place: vec3f,
 }
 
 @vertex
@@ -139,12 +150,19 @@ fn box_vertex(@builtin(vertex_index) v: u32, @location(0) lo: vec3f, @location(1
     } else if edge >= 4u {
         corner = vec3f(a, end, b);
     }
-    return BoxOut(globals.clip_from_scene * vec4f(nearer(mix(lo, hi, corner)), 1.0), end, color);
+    let place = mix(lo, hi, corner);
+    return BoxOut(globals.clip_from_scene * vec4f(nearer(place), 1.0), end, color, place);
 }
 
 @fragment
 fn box_fragment(in: BoxOut) -> @location(0) vec4f {
-    if in.color.a < 0.5 && fract(in.along * 6.0) > 0.5 {
+    if is_cut(in.place) {
+        discard;
+    }
+    if in.color.a < 0.25 && fract(in.along * 6.0) > 0.5 {
+        discard;
+    }
+    if in.color.a > 0.25 && in.color.a < 0.75 && fract(in.along * 24.0) > 0.35 {
         discard;
     }
     return vec4f(in.color.rgb, 0.55);

@@ -1,0 +1,158 @@
+//! The plane that cuts the 3D view open: what lies on one side of it is hidden.
+
+use crate::geometry::{Aabb, Axis, Vec3};
+use crate::gui::shortcuts::{Action, tip};
+
+/// How far a key moves the plane: a share of the root cell.
+const STEP: f64 = 0.02;
+
+/// A plane across an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
+    pub on: bool,
+    pub axis: Axis,
+    /// Where on each axis the plane lies, 0 to 1 through the root cell.
+    places: [f64; 3],
+    /// Whether the lesser side is hidden rather than the greater.
+    pub hides_less: bool,
+}
+
+impl Default for Cut {
+    /// Off; through the middle.
+    fn default() -> Self {
+        Cut {
+            on: false,
+            axis: Axis::X,
+            places: [0.5; 3],
+            hides_less: false,
+        }
+    }
+}
+
+impl Cut {
+    /// Where the plane lies, in units of length.
+    pub fn at(&self, root: &Aabb) -> f64 {
+        let k = self.axis.index();
+        root.lo[k] + self.places[k] * (root.hi[k] - root.lo[k])
+    }
+
+    /// As the shaders take it: a point is hidden where its product with the first three, relative
+    /// to `center`, is greater than the fourth; nowhere while the cut is off.
+    pub fn for_shader(&self, root: &Aabb, center: Vec3) -> [f32; 4] {
+        if !self.on {
+            return [0.0; 4];
+        }
+        let k = self.axis.index();
+        let sign = if self.hides_less { -1.0 } else { 1.0 };
+        let mut plane = [0.0; 4];
+        plane[k] = sign as f32;
+        plane[3] = (sign * (self.at(root) - center[k])) as f32;
+        plane
+    }
+
+    /// Whether all of a box is hidden.
+    pub fn hides(&self, bounds: &Aabb, root: &Aabb) -> bool {
+        let (k, at) = (self.axis.index(), self.at(root));
+        self.on
+            && if self.hides_less {
+                bounds.hi[k] <= at
+            } else {
+                bounds.lo[k] >= at
+            }
+    }
+
+    /// Does what a key asks for.
+    pub fn act(&mut self, action: Action) {
+        match action {
+            Action::Cut => self.on ^= true,
+            Action::CutAxis => self.axis = self.axis.next(),
+            Action::CutSide => self.hides_less ^= true,
+            Action::CutLess => self.shift(-STEP),
+            Action::CutMore => self.shift(STEP),
+            _ => {}
+        }
+    }
+
+    fn shift(&mut self, by: f64) {
+        let place = &mut self.places[self.axis.index()];
+        *place = (*place + by).clamp(0.0, 1.0);
+    }
+
+    /// The widgets of the cut.
+    pub fn controls(&mut self, ui: &mut egui::Ui, root: &Aabb) {
+        ui.checkbox(&mut self.on, "Cut").on_hover_text(tip(
+            "Cut objects and leaf boxes open: hide what lies on one side of a plane.",
+            Action::Cut,
+        ));
+        if !self.on {
+            return;
+        }
+        for axis in Axis::ALL {
+            ui.selectable_value(&mut self.axis, axis, format!("across {axis}"))
+                .on_hover_text(tip("The axis that the plane cuts.", Action::CutAxis));
+        }
+        let k = self.axis.index();
+        let (lo, hi) = (root.lo[k], root.hi[k]);
+        let mut at = self.at(root);
+        ui.spacing_mut().slider_width = 120.0;
+        let slider = egui::Slider::new(&mut at, lo..=hi).max_decimals(4);
+        let about = format!(
+            "Where the plane cuts the axis, in units of length.\nShortcuts: {} and {}",
+            crate::gui::shortcuts::text(Action::CutLess),
+            crate::gui::shortcuts::text(Action::CutMore),
+        );
+        let moved = ui.name_inputs("Place of the cut", |ui| {
+            ui.add(slider).on_hover_text(about).changed()
+        });
+        if moved && hi > lo {
+            self.places[k] = ((at - lo) / (hi - lo)).clamp(0.0, 1.0);
+        }
+        ui.checkbox(&mut self.hides_less, "Other side")
+            .on_hover_text(tip("Hide the other side of the plane.", Action::CutSide));
+    }
+
+    /// What is cut, for the legend; `None` while nothing is.
+    pub fn text(&self, root: &Aabb) -> Option<String> {
+        let side = if self.hides_less { "less" } else { "greater" };
+        let (axis, at) = (self.axis, self.at(root));
+        self.on
+            .then(|| format!("cut at {axis} = {at:.4} units of length: {side} {axis} is hidden"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shader_hides_what_the_cut_hides() {
+        let root = Aabb::new(Vec3::new(-1.0, 2.0, 0.0), Vec3::new(3.0, 4.0, 8.0));
+        let center = Vec3::new(0.5, 3.0, 1.0);
+        let mut cut = Cut::default();
+        assert_eq!(cut.for_shader(&root, center), [0.0; 4]);
+        cut.act(Action::Cut);
+        for _ in 0..3 {
+            for _ in 0..2 {
+                let plane = cut.for_shader(&root, center);
+                let k = cut.axis.index();
+                for place in [0.1, 0.45, 0.55, 0.9] {
+                    let mut point = root.center();
+                    point[k] = root.lo[k] + place * (root.hi[k] - root.lo[k]);
+                    let from = (point - center).as_vec3().to_array();
+                    let product: f32 = (0..3).map(|i| from[i] * plane[i]).sum();
+                    assert_eq!(product > plane[3], (place > 0.5) != cut.hides_less);
+                    assert_eq!(
+                        product > plane[3],
+                        cut.hides(&Aabb::new(point, point), &root)
+                    );
+                }
+                cut.act(Action::CutSide);
+            }
+            cut.act(Action::CutAxis);
+        }
+        for _ in 0..100 {
+            cut.act(Action::CutMore);
+        }
+        assert_eq!(cut.at(&root), root.hi[cut.axis.index()]);
+    }
+}
