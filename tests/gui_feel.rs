@@ -5,8 +5,10 @@ mod window_harness;
 
 use bspscope::gui::StartOptions;
 use egui::accesskit::Role;
-use egui_kittest::kittest::Queryable as _;
-use window_harness::{Window, click, has, open, open_with_graphics, press, small, wait};
+use egui_kittest::kittest::{By, NodeT as _, Queryable as _};
+use window_harness::{
+    Window, click, has, open, open_sized, open_with_graphics, press, small, wait,
+};
 
 /// Waits for the picture, whichever panels are shown.
 fn finish(window: &mut Window<'_>) {
@@ -134,4 +136,70 @@ fn folded_panels_stay_folded() {
     let mut window = open(kept(folder.path()));
     finish(&mut window);
     assert!(window.query_by_label("build time").is_none());
+}
+
+/// Whatever has the keyboard's focus or takes a click must say what it is.
+#[test]
+fn every_widget_has_a_name() {
+    let mut window = open_sized(small("balls:1"), [1500.0, 1900.0], true);
+    finish(&mut window);
+    click(&mut window, "Traced picture");
+    wait(&mut window, "the object", |w| has(w, "Hits sphere "));
+    click(&mut window, "All parameters (Tables 1 to 3)");
+    click(&mut window, "node 0");
+    let mut checked = named(&window, "outline");
+    for pane in ["Leaf histograms", "Icicle", "Split cost"] {
+        click(&mut window, pane);
+        window.run_steps(20);
+        checked += named(&window, pane);
+    }
+    search(&mut window, "heatmap nodes");
+    checked += named(&window, "palette");
+    window.key_press(egui::Key::Enter);
+    wait(&mut window, "the heatmap", |w| has(w, "Legend from"));
+    checked += named(&window, "heatmap");
+    window.key_press(egui::Key::F1);
+    window.run_steps(3);
+    checked += named(&window, "shortcuts");
+    press(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
+    for menu in ["View", "Recent"] {
+        click(&mut window, menu);
+        checked += named(&window, menu);
+        press(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
+    }
+    assert!(checked > 300, "{checked} widgets");
+}
+
+/// How many widgets there are; panics if one has no name.
+fn named(window: &Window<'_>, place: &str) -> usize {
+    const WIDGETS: [Role; 9] = [
+        Role::Button,
+        Role::CheckBox,
+        Role::ComboBox,
+        Role::DisclosureTriangle,
+        Role::Link,
+        Role::RadioButton,
+        Role::Slider,
+        Role::SpinButton,
+        Role::TextInput,
+    ];
+    let widgets: Vec<_> = window
+        .query_all(By::new().recursive(true))
+        .filter(|node| WIDGETS.contains(&node.accesskit_node().role()))
+        .collect();
+    let nameless: Vec<String> = widgets
+        .iter()
+        .map(|node| (node.rect(), node.accesskit_node()))
+        .filter(|(_, node)| {
+            let name = node.label().unwrap_or_default();
+            // A number's unit does not say what the number is.
+            let words = node.value().unwrap_or_default();
+            let is_unit = node.role() == Role::SpinButton
+                && name.split_whitespace().all(|word| words.contains(word));
+            name.trim().is_empty() || is_unit
+        })
+        .map(|(rect, node)| format!("{:?} {:?} at {rect:?}", node.role(), node.value()))
+        .collect();
+    assert!(nameless.is_empty(), "{place}: {nameless:#?}");
+    widgets.len()
 }

@@ -23,6 +23,8 @@ pub struct App {
     files: Files,
     panes: Panes,
     layout: Layout,
+    /// Whether no layout was kept: it is made when the width of the window is known.
+    layout_is_new: bool,
     layout_file: KeptFile,
     /// The layout as it was kept last.
     kept_layout: Option<Layout>,
@@ -42,8 +44,8 @@ impl App {
     pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Self {
         let recent = Recent::kept(KeptFile::new(&start, "recent.json"));
         let layout_file = KeptFile::new(&start, layout::FILE);
-        let layout: Layout = layout_file.read().unwrap_or_default();
-        if let Some(dark) = layout.dark {
+        let layout: Option<Layout> = layout_file.read();
+        if let Some(dark) = layout.as_ref().and_then(|layout| layout.dark) {
             top_bar::set_theme(&cc.egui_ctx, dark);
         }
         let mut start = start;
@@ -59,7 +61,8 @@ impl App {
                 view3d: View3d::new(cc.wgpu_render_state.as_ref(), start.render.camera),
                 tree: TreePanes::default(),
             },
-            layout,
+            layout_is_new: layout.is_none(),
+            layout: layout.unwrap_or_default(),
             layout_file,
             kept_layout: None,
             status: StatusLine::default(),
@@ -249,6 +252,9 @@ impl eframe::App for App {
         let ctx = ui.ctx().clone();
         if let Some(current) = &self.state.current {
             self.state.inspect.follow(current);
+        }
+        if std::mem::take(&mut self.layout_is_new) {
+            self.layout.reset(&ctx);
         }
         self.state.remember(ctx.input(|i| i.time));
         for action in pressed(&ctx, Scope::Window, true) {

@@ -88,6 +88,7 @@ impl Files {
             .truncate()
             .show_ui(ui, |ui| self.generators(ui, state))
             .response
+            .accessible_name("Scene")
             .on_hover_text("Scenes made by generators");
         self.size(ui, state);
         ui.menu_button("Recent", |ui| {
@@ -120,13 +121,12 @@ impl Files {
         let field = egui::TextEdit::singleline(&mut self.path)
             .hint_text("path or generator, Enter")
             .desired_width(170.0);
-        let field = ui.add(field).on_hover_text(tip(
+        let field = ui.add(field).accessible_name("Path of a scene");
+        let field = field.on_hover_text(tip(
             "A file's path, or a generator's name with or without a size, such as balls:3; \
              then Enter.",
             Action::Path,
         ));
-        let name = |node: &mut egui::accesskit::Node| node.set_label("Path of a scene");
-        ui.ctx().accesskit_node_builder(field.id, name);
         if std::mem::take(&mut self.focus_path) {
             field.request_focus();
         }

@@ -83,26 +83,33 @@ pub struct SideBar {
     pub width: f32,
 }
 
-impl SideBar {
-    const fn of_width(width: f32) -> Self {
-        SideBar { shown: true, width }
+impl Default for Layout {
+    /// For a window with room for everything.
+    fn default() -> Self {
+        Layout::for_width(f32::INFINITY)
     }
 }
 
-impl Default for Layout {
-    fn default() -> Self {
+impl Layout {
+    /// The layout at first, in a window of this width in points.
+    pub fn for_width(window: f32) -> Self {
+        /// In a narrower window, bars beside and panes below would leave no room for a picture.
+        const LEAST: f32 = 900.0;
+        let narrow = window < LEAST;
+        let bar = |share: f32, most: f32| SideBar {
+            shown: !narrow,
+            width: (share * window).min(most),
+        };
         Layout {
-            tiles: default_tiles(),
-            left: SideBar::of_width(255.0),
-            right: SideBar::of_width(400.0),
+            tiles: default_tiles(narrow),
+            left: bar(0.17, 255.0),
+            right: bar(0.31, 400.0),
             unfolded: BTreeMap::new(),
             dark: None,
             size: None,
         }
     }
-}
 
-impl Layout {
     /// Brings panes, bars and panels back to where they were at first.
     pub fn reset(&mut self, ctx: &egui::Context) {
         // Widths that were dragged.
@@ -110,7 +117,7 @@ impl Layout {
         *self = Layout {
             dark: self.dark,
             size: self.size,
-            ..Layout::default()
+            ..Layout::for_width(ctx.content_rect().width())
         };
     }
 
@@ -121,17 +128,24 @@ impl Layout {
     }
 }
 
-/// Picture beside 3D view, and below them the panes about the tree as tabs.
-fn default_tiles() -> Tree<Pane> {
+/// Picture beside 3D view, and the panes about the tree as tabs: below them, or in a narrow window
+/// with the picture.
+fn default_tiles(narrow: bool) -> Tree<Pane> {
     let mut tiles = Tiles::default();
-    let panes = [Pane::Picture, Pane::View3d].map(|pane| tiles.insert_pane(pane));
-    let views = tiles.insert_horizontal_tile(panes.to_vec());
+    let [picture, view] = [Pane::Picture, Pane::View3d].map(|pane| tiles.insert_pane(pane));
     let about_tree = TreePane::ALL.map(|pane| tiles.insert_pane(Pane::Tree(pane)));
-    let about_tree = tiles.insert_tab_tile(about_tree.to_vec());
-    let mut column = Linear::new(LinearDir::Vertical, vec![views, about_tree]);
-    column.shares.set_share(views, 0.6);
-    column.shares.set_share(about_tree, 0.4);
-    let root = tiles.insert_container(column);
+    let root = if narrow {
+        let tabs = [&[picture], &about_tree[..]].concat();
+        let tabs = tiles.insert_tab_tile(tabs);
+        tiles.insert_horizontal_tile(vec![tabs, view])
+    } else {
+        let views = tiles.insert_horizontal_tile(vec![picture, view]);
+        let tabs = tiles.insert_tab_tile(about_tree.to_vec());
+        let mut column = Linear::new(LinearDir::Vertical, vec![views, tabs]);
+        column.shares.set_share(views, 0.66);
+        column.shares.set_share(tabs, 0.34);
+        tiles.insert_container(column)
+    };
     tree_of(root, tiles)
 }
 
@@ -164,7 +178,7 @@ fn write_tiles<S: Serializer>(tree: &Tree<Pane>, serializer: S) -> Result<S::Ok,
 /// The tiles that were kept, less the panes that are not known, and with those that are missing.
 fn read_tiles<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Tree<Pane>, D::Error> {
     let Some(kept) = Option::<KeptTiles>::deserialize(deserializer)? else {
-        return Ok(default_tiles());
+        return Ok(default_tiles(false));
     };
     let mut tiles = Tiles::default();
     for (id, tile) in kept.tiles {
@@ -182,7 +196,7 @@ fn read_tiles<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Tree<Pane>, 
     // What was emptied just now goes, too.
     tree.simplify(&simplification());
     if tree.root.is_none() {
-        return Ok(default_tiles());
+        return Ok(default_tiles(false));
     }
     for pane in Pane::all() {
         add_if_missing(&mut tree.tiles, pane);

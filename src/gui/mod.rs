@@ -1,7 +1,9 @@
 //! The window: a progressive picture, the tree in 3D, and the figures, all of one setting.
 //!
 //! [`app`] puts the parts together; [`state`] keeps what is wanted apart from what is shown;
-//! [`panels`] are one file and one line each; the panes are [`picture_pane`], [`view3d`] and
+//! [`layout`] is where panes and bars lie, kept from run to run; [`shortcuts`] is the one table of
+//! actions, which keys, help and the command [`palette`] share. [`panels`] are one file and one line
+//! each; the panes are [`picture_pane`], [`view3d`] and
 //! [`tree_panes`], which share what [`inspect`] knows of the tree.
 
 mod app;

@@ -115,9 +115,7 @@ impl Search {
         let field = egui::TextEdit::singleline(&mut self.query)
             .hint_text("Search for a command; Enter does it")
             .desired_width(f32::INFINITY);
-        let field = ui.add(field);
-        let name = |node: &mut egui::accesskit::Node| node.set_label("Search for a command");
-        ui.ctx().accesskit_node_builder(field.id, name);
+        let field = ui.add(field).accessible_name("Search for a command");
         field.request_focus();
         if field.changed() {
             self.find();

@@ -165,7 +165,7 @@ macro_rules! shortcuts {
 }
 
 shortcuts! {
-    Window Help NONE [Questionmark F1] "? or F1" "Show or hide this list";
+    Window Help NONE [Questionmark F1] "? or F1" "Show or hide the list of shortcuts";
     Window Palette COMMAND [K P] "Ctrl+K or Ctrl+P" "Search for a command and do it";
     Window Open COMMAND [O] "Ctrl+O" "Open a scene file";
     Window Path COMMAND [L] "Ctrl+L" "Type a path or a generator's name";

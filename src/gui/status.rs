@@ -32,12 +32,15 @@ impl StatusLine {
             };
             // The rest of the line keeps its place whatever the pixel's text is.
             let (rect, _) = ui.allocate_exact_size(
-                egui::vec2(400.0, ui.available_height()),
+                egui::vec2(
+                    400.0_f32.min(0.44 * ui.available_width()),
+                    ui.available_height(),
+                ),
                 egui::Sense::hover(),
             );
             ui.put(rect, |ui: &mut egui::Ui| {
                 ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                    ui.label(pixel)
+                    ui.add(egui::Label::new(pixel).truncate())
                 })
                 .inner
             });

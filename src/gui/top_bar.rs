@@ -120,6 +120,7 @@ fn method(ui: &mut egui::Ui, state: &mut State) {
             }
         })
         .response
+        .accessible_name("Build method")
         .on_hover_text(tip(
             &format!("{}\n{}", method.title, method.about),
             Action::NextMethod,
@@ -147,13 +148,12 @@ fn d_max(ui: &mut egui::Ui, state: &mut State) {
         MaxDepth::Fixed(depth) => depth,
         MaxDepth::Automatic => resolved,
     };
-    let changed = ui.name_inputs("D_MAX", |ui| {
-        ui.spacing_mut().slider_width = 80.0;
-        let slider = egui::Slider::new(&mut depth, 0..=MaxDepth::LIMIT);
-        ui.add_enabled(!automatic, slider)
-            .on_hover_text(&about)
-            .changed()
-    });
+    ui.spacing_mut().slider_width = 80.0;
+    let slider = egui::Slider::new(&mut depth, 0..=MaxDepth::LIMIT);
+    let changed = ui
+        .name_inputs("D_MAX", |ui| ui.add_enabled(!automatic, slider))
+        .on_hover_text(&about)
+        .changed();
     if changed && !automatic {
         state.wanted.build.d_max = MaxDepth::Fixed(depth);
     }
@@ -184,7 +184,7 @@ fn n_oilf(ui: &mut egui::Ui, state: &mut State) {
     let edit = egui::DragValue::new(&mut state.wanted.build.n_oilf)
         .range(0..=10_000)
         .speed(0.1);
-    ui.name_inputs("N_OILF", |ui| ui.add(edit).on_hover_text(&about));
+    ui.add(edit).accessible_name("N_OILF").on_hover_text(&about);
 }
 
 fn d_arec(ui: &mut egui::Ui, state: &mut State) {
@@ -193,7 +193,7 @@ fn d_arec(ui: &mut egui::Ui, state: &mut State) {
     let edit = egui::DragValue::new(&mut state.wanted.render.d_arec)
         .range(0..=MOST_RECURSION)
         .speed(0.05);
-    ui.name_inputs("D_AREC", |ui| ui.add(edit).on_hover_text(&about));
+    ui.add(edit).accessible_name("D_AREC").on_hover_text(&about);
 }
 
 /// The tooltip of a setting that is one of the paper's parameters.

@@ -11,7 +11,7 @@ use std::time::Duration;
 const MOST_RECORDED: usize = 1_000_000;
 
 /// How long a frame waits for a record, rather than to show the pixel a frame later.
-const PATIENCE: Duration = Duration::from_millis(6);
+const PATIENCE: Duration = Duration::from_millis(2);
 
 /// The speeds that can be chosen, in steps a second.
 pub const RATES: std::ops::RangeInclusive<f64> = 0.5..=60.0;

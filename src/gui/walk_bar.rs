@@ -7,20 +7,19 @@ use super::walk::{Go, RATES, listed};
 
 /// Shows the bar; it is always there, so that nothing moves when a pixel is picked.
 pub fn show(ui: &mut egui::Ui, state: &mut State) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         moves(ui, state);
         scrubber(ui, state);
         ui.separator();
-        ui.name_inputs("Speed", |ui| {
-            ui.add(
-                egui::DragValue::new(&mut state.walking.rate)
-                    .range(RATES)
-                    .speed(0.1)
-                    .max_decimals(1)
-                    .suffix(" steps/s"),
-            )
-            .on_hover_text("How fast the walk plays, in steps a second.");
-        });
+        ui.add(
+            egui::DragValue::new(&mut state.walking.rate)
+                .range(RATES)
+                .speed(0.1)
+                .max_decimals(1)
+                .suffix(" steps/s"),
+        )
+        .accessible_name("Speed")
+        .on_hover_text("How fast the walk plays, in steps a second.");
         let mut only = state.walking.leaves_only;
         ui.checkbox(&mut only, "Leaves only")
             .on_hover_text(tip("Pass over inner nodes.", Action::LeavesOnly));
@@ -88,10 +87,9 @@ fn scrubber(ui: &mut egui::Ui, state: &mut State) {
     let mut place = at + 1;
     ui.spacing_mut().slider_width = WIDTH;
     let slider = egui::Slider::new(&mut place, 1..=listed.len().max(1)).show_value(false);
-    ui.name_inputs("Step of the walk", |ui| {
-        ui.add_enabled(listed.len() > 1, slider)
-            .on_hover_text("Drag through the steps of the walk.");
-    });
+    ui.add_enabled(listed.len() > 1, slider)
+        .accessible_name("Step of the walk")
+        .on_hover_text("Drag through the steps of the walk.");
     let text = match (all, state.walking.leaves_only) {
         (0, _) => "step – of –".to_owned(),
         (_, false) => format!("step {} of {all}", step + 1),

@@ -32,7 +32,8 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
                         .speed(speed)
                         .max_decimals(9)
                         .suffix(" units"),
-                );
+                )
+                .accessible_name("Root margin");
             },
         );
         row(
@@ -74,7 +75,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
                     .range(1..=1 << 20)
                     .speed(8.0)
                     .suffix(" MiB");
-                if ui.add(edit).changed() {
+                if ui.add(edit).accessible_name("Memory limit").changed() {
                     build.memory_limit = mib * MIB;
                 }
             },

@@ -28,7 +28,8 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
                         .range(1..=largest)
                         .suffix(" pixels")
                         .update_while_editing(false),
-                );
+                )
+                .accessible_name(name);
             });
         }
         row(
@@ -51,7 +52,8 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
                         .range(1..=4096)
                         .speed(0.1)
                         .suffix(" a pixel"),
-                );
+                )
+                .accessible_name("Samples");
             },
         );
         row(
@@ -97,7 +99,8 @@ fn cylinders(ui: &mut egui::Ui, cylinders: &mut Cylinders) {
                     .range(3..=1000)
                     .speed(0.1)
                     .suffix(" sides"),
-            );
+            )
+            .accessible_name("Sides of the polygons");
         }
         (true, Cylinders::Exact) => *cylinders = Cylinders::Polygons(8),
         (false, _) => *cylinders = Cylinders::Exact,

@@ -93,6 +93,7 @@ pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &mut State) {
                 }
             })
             .response
+            .accessible_name("Colour of leaves")
             .on_hover_text(tip("What leaves are coloured by.", Action::NextColoring));
         egui::ComboBox::from_id_salt("visited")
             .selected_text(settings.filter.visited.title())
@@ -147,12 +148,11 @@ fn depth_filter(filter: &mut Filter, depth_reached: u32, ui: &mut egui::Ui) {
         Action::AllDepths,
     );
     let mut edit = |value: &mut u32, range, name: &str, prefix: &str, suffix: &str| {
-        ui.name_inputs(name, |ui| {
-            let edit = egui::DragValue::new(value).range(range).speed(0.1);
-            ui.add(edit.prefix(prefix).suffix(suffix))
-                .on_hover_text(&about)
-                .changed()
-        })
+        let edit = egui::DragValue::new(value).range(range).speed(0.1);
+        ui.add(edit.prefix(prefix).suffix(suffix))
+            .accessible_name(name)
+            .on_hover_text(&about)
+            .changed()
     };
     if edit(&mut from, 0..=to, "Least depth shown", "Depth ", "") {
         filter.depth[0] = from;
