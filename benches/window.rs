@@ -1,0 +1,200 @@
+//! How long a person waits: from a change to the first coarse picture and to the full pass, how soon
+//! work that is not wanted any more stops, and what an idle window costs. `cargo bench --bench window`.
+
+use bspscope::progress::Progress;
+use bspscope::scene::{Cylinders, SceneRequest, load};
+use bspscope::trace::RenderSettings;
+use bspscope::tree::{BuildSettings, MaxDepth, Method};
+use bspscope::worker::{Request, Stage, Update, Worker};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+/// How often each thing is measured.
+const ROUNDS: usize = 9;
+
+fn main() {
+    println!("rings with 46,201 objects, 512 × 512 pixels, D_AREC 4; {ROUNDS} rounds each");
+    changes();
+    stops();
+    idle();
+}
+
+fn first_request() -> Request {
+    let scene = SceneRequest {
+        cylinders: Cylinders::Polygons(10),
+        ..SceneRequest::parse("rings")
+    };
+    let loaded = load(&scene, &Progress::new()).expect("the generator works");
+    Request {
+        scene,
+        build: BuildSettings::for_method(Method::of_the_paper()[0]),
+        render: RenderSettings::for_camera(*loaded.camera()),
+        own_camera: true,
+        reload: 0,
+    }
+}
+
+fn start() -> (Worker, Receiver<()>) {
+    let (wake, woken) = channel();
+    let worker = Worker::start(move || {
+        // The end of the benchmark may come first.
+        let _ = wake.send(());
+    });
+    (worker, woken)
+}
+
+/// Waits until an update of this request is `wanted`; gives the time when it came.
+fn until(
+    worker: &Worker,
+    woken: &Receiver<()>,
+    number: u64,
+    wanted: impl Fn(&Update) -> bool,
+) -> Instant {
+    loop {
+        let _ = woken.recv_timeout(Duration::from_millis(50));
+        let now = Instant::now();
+        let mut found = false;
+        for news in worker.updates() {
+            if let Update::Failed(reason) = &news.update {
+                panic!("{reason}");
+            }
+            found |= news.request == number && wanted(&news.update);
+        }
+        if found {
+            return now;
+        }
+    }
+}
+
+/// From each change to the first picture and to complete figures.
+fn changes() {
+    let (worker, woken) = start();
+    let mut wanted = first_request();
+    let number = worker.request(wanted.clone());
+    until(&worker, &woken, number, |u| matches!(u, Update::Done));
+    type Change = fn(&mut Request, usize);
+    let kinds: [(&str, Change); 4] = [
+        ("method", |request, round| {
+            let methods = Method::of_the_paper();
+            request.build = BuildSettings::for_method(methods[(round + 1) % 2]);
+            // Not a tree that is at hand.
+            request.build.root_margin = 0.001 + round as f64 * 1e-6;
+        }),
+        ("D_MAX", |request, round| {
+            request.build.d_max = MaxDepth::Fixed(12 + round as u32 % 8);
+        }),
+        ("N_OILF", |request, round| {
+            request.build.n_oilf = 2 + round as u32
+        }),
+        ("camera", |request, round| {
+            request.render.camera.from.x += 0.01 * (round + 1) as f64;
+        }),
+    ];
+    for (name, change) in kinds {
+        let (mut first, mut full) = (Vec::new(), Vec::new());
+        for round in 0..ROUNDS {
+            change(&mut wanted, round);
+            let begun = Instant::now();
+            let number = worker.request(wanted.clone());
+            let shown = until(&worker, &woken, number, |u| matches!(u, Update::Shown(_)));
+            first.push(shown - begun);
+            let done = until(&worker, &woken, number, |u| matches!(u, Update::Done));
+            full.push(done - begun);
+        }
+        println!("change of {name}");
+        report("to the first coarse picture", first);
+        report("to the full pass and all counts", full);
+    }
+}
+
+/// From a new request to the moment when the worker has put down what it was doing.
+fn stops() {
+    let (worker, woken) = start();
+    let first = first_request();
+    for (name, stage) in [
+        ("building", Stage::Building),
+        ("tracing", Stage::Tracing),
+        ("counting", Stage::Counting),
+    ] {
+        let mut times = Vec::new();
+        for _ in 0..ROUNDS {
+            let stale = first.clone();
+            let number = worker.request(stale);
+            let begun = |u: &Update| matches!(u, Update::Stage(s, _) if *s == stage);
+            until(&worker, &woken, number, begun);
+            std::thread::sleep(Duration::from_millis(5));
+            let asked = Instant::now();
+            let mut next = first.clone();
+            next.scene = SceneRequest::parse("teaching");
+            next.own_camera = false;
+            let number = worker.request(next);
+            let taken_up = until(&worker, &woken, number, |u| matches!(u, Update::Stage(..)));
+            times.push(taken_up - asked);
+            until(&worker, &woken, number, |u| matches!(u, Update::Done));
+        }
+        report(&format!("while {name}: to putting that down"), times);
+    }
+}
+
+/// Ends a process with the benchmark.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// CPU time of the real window while nothing happens, on a virtual display.
+fn idle() {
+    let Ok(server) = Command::new("Xvfb")
+        .args([":87", "-screen", "0", "1400x900x24", "-nolisten", "tcp"])
+        .stderr(Stdio::null())
+        .spawn()
+    else {
+        println!("idle window: not measured, there is no Xvfb");
+        return;
+    };
+    let _server = Running(server);
+    std::thread::sleep(Duration::from_secs(1));
+    let window = Command::new(env!("CARGO_BIN_EXE_bspscope"))
+        .env("DISPLAY", ":87")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let window = Running(window);
+    std::thread::sleep(Duration::from_secs(30));
+    let before = cpu_ticks(window.0.id());
+    std::thread::sleep(Duration::from_secs(5));
+    match (before, cpu_ticks(window.0.id())) {
+        // A tick is a hundredth of a second on Linux.
+        (Some(before), Some(after)) => println!(
+            "idle window: {:.1} % of one core over 5 s",
+            (after - before) as f64 / 5.0
+        ),
+        _ => println!("idle window: not measured, it did not run or there is no /proc"),
+    }
+}
+
+/// User and system time of a process.
+fn cpu_ticks(process: u32) -> Option<u64> {
+    let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    // The name, in brackets, may hold spaces.
+    let mut fields = stat[stat.rfind(')')? + 2..].split(' ');
+    let user: u64 = fields.nth(11)?.parse().ok()?;
+    let system: u64 = fields.next()?.parse().ok()?;
+    Some(user + system)
+}
+
+fn report(what: &str, mut times: Vec<Duration>) {
+    times.sort_unstable();
+    let ms = |time: Duration| time.as_secs_f64() * 1e3;
+    println!(
+        "  {what}: median {:.1} ms, worst {:.1} ms",
+        ms(times[times.len() / 2]),
+        ms(times[times.len() - 1])
+    );
+}
