@@ -2,7 +2,7 @@
 //!
 //! [`app`] puts the parts together; [`state`] keeps what is wanted apart from what is shown;
 //! [`panels`] are one file and one line each; the panes are [`picture_pane`], [`view3d`] and
-//! [`tree_panes`], which share what [`inspect`] knows of the tree.
+//! [`tree_panes`], which share what [`inspect`] knows of the tree. [`build_bar`] goes through its build.
 
 mod app;
 mod background;
