@@ -47,6 +47,12 @@ fn rest_of(ui: &egui::Ui) -> egui::Vec2 {
     size.max(egui::vec2(16.0, 16.0))
 }
 
+/// Gives a widget its accessible name; after its tooltip, which would be its name otherwise.
+fn name_widget(ui: &egui::Ui, response: &egui::Response, name: &str) {
+    let label = |node: &mut egui::accesskit::Node| node.set_label(name);
+    ui.ctx().accesskit_node_builder(response.id, label);
+}
+
 /// What the window opens with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StartOptions {
