@@ -5,7 +5,7 @@ use bspscope::gui::{App, StartOptions};
 use bspscope::scene::{Cylinders, SceneRequest};
 use cpu_time::ThreadTime;
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::time::{Duration, Instant};
 
 const FRAMES: usize = 300;
@@ -26,7 +26,14 @@ fn main() {
         .with_max_steps(40)
         .wgpu()
         .build_eframe(|cc| App::new(cc, start));
-    while window.query_by_label("finished").is_none() {
+    let is_counting = |window: &Harness<'_, App>| {
+        let mut notes = window.query_all_by_label_contains("visits");
+        notes.any(|note| {
+            let text = note.accesskit_node().label().unwrap_or_default();
+            text.starts_with("counting") || text.starts_with("visits:")
+        })
+    };
+    while window.query_by_label("finished").is_none() || is_counting(&window) {
         window.run_steps(2);
         std::thread::sleep(Duration::from_millis(5));
     }
@@ -67,6 +74,24 @@ fn main() {
             let at = view.center() + 80.0 * egui::vec2(angle.cos(), angle.sin());
             let events = &mut window.input_mut().events;
             events.push(egui::Event::PointerMoved(at));
+        }),
+    );
+    window.drop_at(view.center());
+    window.run_steps(2);
+
+    window.get_by_label("Build steps").click();
+    window.run_steps(6);
+    // Near the finished tree, where there is most to make.
+    let moments = window
+        .get_by_role_and_label(egui::accesskit::Role::Slider, "Moment of the build")
+        .rect();
+    window.drag_at(moments.right_center());
+    window.run_steps(2);
+    report(
+        "the build is scrubbed",
+        &frames(&mut window, |window, i| {
+            let back = (i % 50) as f32;
+            window.hover_at(moments.right_center() - egui::vec2(back, 0.0));
         }),
     );
 }

@@ -11,7 +11,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 /// How often each thing is measured.
-const ROUNDS: usize = 9;
+const ROUNDS: usize = 5;
 
 fn main() {
     println!("rings with 46,201 objects, 512 × 512 pixels, D_AREC 4; {ROUNDS} rounds each");

@@ -16,13 +16,13 @@
 //! | [`scene`] | objects, materials, lights, camera; what the scene requires | |
 //! | [`scene::format`] | readers and writers of files | a line in [`scene::format::FORMATS`] |
 //! | [`scene::builtin`] | generated scenes | a line in [`scene::builtin::BUILTINS`] |
-//! | [`tree`] | 8-byte nodes, the one build driver, validation | |
+//! | [`tree`] | 8-byte nodes, the one build driver, moments of the build, validation | |
 //! | [`tree::split`] | where a method splits a cell | a line in [`tree::split::SPLIT_RULES`] |
-//! | [`trace`] | traversal, timed and counting kernels, shading, passes over a picture | |
+//! | [`trace`] | traversal, timed and counting kernels, shading, passes over a picture, visits of nodes | |
 //! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ; trees against testing every object | an entry of [`measure::PARAMETERS`] |
 //! | [`measure::judge`] | exact arithmetic: why two answers about a ray differ | |
 //! | [`measure::heat`] | what every pixel cost | a line in [`measure::heat::HEATMAPS`] |
-//! | [`overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves | a line in [`overlay::COLORINGS`], [`overlay::COLORMAPS`] or [`overlay::HISTOGRAMS`] |
+//! | [`overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves and rays | a line in [`overlay::COLORINGS`], [`overlay::COLORMAPS`] or [`overlay::HISTOGRAMS`] |
 //! | [`report`] | text, JSON, CSV, Markdown, LaTeX | a line in [`report::WRITERS`] |
 //! | [`worker`] | the thread between a window and all of the above: latest request wins | |
 //! | [`cli`], `gui` | the two faces; they never import each other but to start the window | |

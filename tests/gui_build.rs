@@ -74,6 +74,12 @@ fn every_step_of_the_build_shows_the_node_that_is_decided() {
     }
     press(&mut window, Modifiers::ALT, Key::ArrowLeft);
     check_boxes(&mut window, &tree, Moment::Node(5));
+    // The slider is found by its name, and leads anywhere.
+    let slider = window.get_by_label("Moment of the build").rect();
+    window.drag_at(slider.left_center());
+    window.drop_at(slider.left_center());
+    window.run_steps(4);
+    check_boxes(&mut window, &tree, Moment::Node(0));
     click(&mut window, "Last moment");
     assert!(has(&window, "nodes are decided"));
     check_boxes(&mut window, &tree, Moment::Depth(u32::MAX));
@@ -147,6 +153,7 @@ fn a_cut_hides_one_side_of_the_view() {
     window.key_press(Key::Y);
     window.run_steps(3);
     assert!(has(&window, "cut at y = "));
+    assert!(window.query_by_label("Place of the cut").is_some());
     let before = cut_text(&window);
     window.key_press(Key::CloseBracket);
     window.run_steps(3);

@@ -220,7 +220,7 @@ fn leaves_are_coloured_and_filtered_by_visits() {
         let shown = format!("{count} of {} leaves shown", leaves.len());
         assert!(has(&window, &shown), "{shown}");
     }
-    for _ in 0..3 {
+    for _ in 0..4 {
         window.key_press(egui::Key::C);
         window.run_steps(2);
     }

@@ -1,6 +1,7 @@
 //! The bar that goes through the build of the tree, and says what the current step does.
 
 use super::build_view::RATES;
+use super::name_widget;
 use super::shortcuts::{Action, tip};
 use super::state::State;
 use super::symbol::grouped;
@@ -30,16 +31,15 @@ pub fn show(ui: &mut egui::Ui, state: &mut State) {
             ui.separator();
             moves(ui, state);
             slider(ui, state);
-            ui.name_inputs("Speed of the build", |ui| {
-                ui.add(
-                    egui::DragValue::new(&mut state.inspect.build.rate)
-                        .range(RATES)
-                        .speed(0.5)
-                        .max_decimals(1)
-                        .suffix(" steps/s"),
-                )
+            let speed = egui::DragValue::new(&mut state.inspect.build.rate)
+                .range(RATES)
+                .speed(0.5)
+                .max_decimals(1)
+                .suffix(" steps/s");
+            let speed = ui
+                .add(speed)
                 .on_hover_text("How fast the build plays, in steps a second.");
-            });
+            name_widget(ui, &speed, "Speed of the build");
             ui.separator();
             let text = sentence(state, ui.ctx());
             ui.add(egui::Label::new(&text).truncate())
@@ -152,10 +152,10 @@ fn slider(ui: &mut egui::Ui, state: &mut State) {
     let mut to = at;
     ui.spacing_mut().slider_width = 200.0;
     let slider = egui::Slider::new(&mut to, 0..=last.max(1)).show_value(false);
-    ui.name_inputs("Moment of the build", |ui| {
-        ui.add_enabled(last > 0, slider)
-            .on_hover_text("Drag through the build.");
-    });
+    let slider = ui
+        .add_enabled(last > 0, slider)
+        .on_hover_text("Drag through the build.");
+    name_widget(ui, &slider, "Moment of the build");
     if to != at {
         state.go_in_build(to);
     }

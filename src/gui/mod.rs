@@ -3,8 +3,9 @@
 //! [`app`] puts the parts together; [`state`] keeps what is wanted apart from what is shown;
 //! [`layout`] is where panes and bars lie, kept from run to run; [`shortcuts`] is the one table of
 //! actions, which keys, help and the command [`palette`] share. [`panels`] are one file and one line
-//! each; the panes are [`picture_pane`], [`view3d`] and
-//! [`tree_panes`], which share what [`inspect`] knows of the tree.
+//! each; the panes are [`picture_pane`], [`view3d`] and [`tree_panes`], which share what [`inspect`]
+//! knows of the tree. [`comparing`] is what two trees side by side need; [`build_bar`] goes through
+//! the build of a tree.
 
 mod app;
 mod background;
@@ -53,6 +54,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 fn rest_of(ui: &egui::Ui) -> egui::Vec2 {
     let size = egui::vec2(ui.max_rect().width(), ui.available_height());
     size.max(egui::vec2(16.0, 16.0))
+}
+
+/// Gives a widget its accessible name; after its tooltip, which would be its name otherwise.
+fn name_widget(ui: &egui::Ui, response: &egui::Response, name: &str) {
+    let label = |node: &mut egui::accesskit::Node| node.set_label(name);
+    ui.ctx().accesskit_node_builder(response.id, label);
 }
 
 /// What the window opens with.

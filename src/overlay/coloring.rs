@@ -82,6 +82,14 @@ pub static COLORINGS: &[Coloring] = &[
         gradient: colorous::PLASMA,
     },
     Coloring {
+        name: "emptiness",
+        title: "Emptiness",
+        unit: "",
+        value: |leaf| Some(f64::from(leaf.objects.min(1))),
+        scale: Scale::TwoValues(["empty", "full"]),
+        gradient: colorous::COOL,
+    },
+    Coloring {
         name: "volume",
         title: "Volume",
         unit: "cubed units of length",
@@ -96,14 +104,6 @@ pub static COLORINGS: &[Coloring] = &[
         value: |leaf| Some(leaf.visits? as f64),
         scale: Scale::Log,
         gradient: colorous::INFERNO,
-    },
-    Coloring {
-        name: "emptiness",
-        title: "Emptiness",
-        unit: "",
-        value: |leaf| Some(f64::from(leaf.objects.min(1))),
-        scale: Scale::TwoValues(["empty", "full"]),
-        gradient: colorous::COOL,
     },
 ];
 

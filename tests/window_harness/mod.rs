@@ -65,6 +65,8 @@ pub fn is_finished(window: &Window<'_>) -> bool {
     window.query_by_label("finished").is_some()
         && window.query_all_by_label("complete").count() == 2
         && !has(window, "previous settings")
+        && !has(window, "visits: counted when")
+        && !has(window, "counting visits")
 }
 
 pub fn finish(window: &mut Window<'_>) {

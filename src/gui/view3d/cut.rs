@@ -1,7 +1,8 @@
 //! The plane that cuts the 3D view open: what lies on one side of it is hidden.
 
 use crate::geometry::{Aabb, Axis, Vec3};
-use crate::gui::shortcuts::{Action, tip};
+use crate::gui::name_widget;
+use crate::gui::shortcuts::{Action, text, tip};
 
 /// How far a key moves the plane: a share of the root cell.
 const STEP: f64 = 0.02;
@@ -98,13 +99,12 @@ impl Cut {
         let slider = egui::Slider::new(&mut at, lo..=hi).max_decimals(4);
         let about = format!(
             "Where the plane cuts the axis, in units of length.\nShortcuts: {} and {}",
-            crate::gui::shortcuts::text(Action::CutLess),
-            crate::gui::shortcuts::text(Action::CutMore),
+            text(Action::CutLess),
+            text(Action::CutMore),
         );
-        let moved = ui.name_inputs("Place of the cut", |ui| {
-            ui.add(slider).on_hover_text(about).changed()
-        });
-        if moved && hi > lo {
+        let slider = ui.add(slider).on_hover_text(about);
+        name_widget(ui, &slider, "Place of the cut");
+        if slider.changed() && hi > lo {
             self.places[k] = ((at - lo) / (hi - lo)).clamp(0.0, 1.0);
         }
         ui.checkbox(&mut self.hides_less, "Other side")
