@@ -7,6 +7,7 @@ pub mod judge;
 mod measurement;
 mod parameter;
 mod parameters;
+pub mod stability;
 mod verify;
 
 pub use comparison::{Change, Unequal, change, unequal};
