@@ -12,9 +12,12 @@ fn main() {
     let count: u64 = count.unwrap_or(100_000_000);
     let start = Instant::now();
     let mut leaked = 0;
-    for (name, rays, leaks) in closed_meshes::leaks(count) {
-        println!("{name}: {rays} rays, {leaks} leaked");
-        leaked += leaks;
+    for mesh in closed_meshes::leaks(count) {
+        println!("{}: {} rays, {} leaked", mesh.name, mesh.rays, mesh.leaked);
+        if let Some(ray) = mesh.example {
+            println!("  such as {ray:?}");
+        }
+        leaked += mesh.leaked;
     }
     println!("{:.0} s", start.elapsed().as_secs_f64());
     assert_eq!(leaked, 0);

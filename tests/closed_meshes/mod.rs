@@ -15,10 +15,20 @@ struct Mesh {
     inside: Vec<Vec3>,
 }
 
-/// Traces about `count` rays, evenly over meshes and methods; gives for each its name, the rays
-/// traced and those that hit nothing.
-pub fn leaks(count: u64) -> Vec<(String, u64, u64)> {
-    let methods: Vec<_> = Method::all().filter(|m| m.name != "none").collect();
+/// What came of one mesh and method.
+pub struct Leaks {
+    pub name: String,
+    pub rays: u64,
+    /// Rays that hit nothing.
+    pub leaked: u64,
+    /// One of them.
+    pub example: Option<Ray>,
+}
+
+/// Traces about `count` rays, evenly over meshes and methods.
+pub fn leaks(count: u64) -> Vec<Leaks> {
+    const CHUNK: u64 = 4096;
+    let methods: Vec<_> = Method::all().collect();
     let meshes = meshes();
     let each = count.div_ceil((meshes.len() * methods.len()) as u64);
     let mut found = Vec::new();
@@ -28,24 +38,32 @@ pub fn leaks(count: u64) -> Vec<(String, u64, u64)> {
             let settings = BuildSettings::for_method(method);
             let tree = build(&scene, &settings, &Progress::new()).unwrap();
             let (shapes, progress) = (Shapes::of(&scene), Progress::new());
-            const CHUNK: u64 = 4096;
-            let leaks: u64 = (0..each.div_ceil(CHUNK))
-                .into_par_iter()
-                .map(|chunk| {
-                    let rays: Vec<Ray> = (chunk * CHUNK..each.min((chunk + 1) * CHUNK))
-                        .map(|i| ray(mesh, i))
-                        .collect();
-                    let mut hits: Vec<Hit> = Vec::new();
-                    let batch = Batch {
-                        kind: RayKind::Primary,
-                        rays: &rays,
-                        pixels: &[],
-                    };
-                    Timed::new(&tree, &shapes, &progress).closest_hits(batch, &mut hits);
-                    hits.iter().filter(|hit| !hit.is_hit()).count() as u64
+            let leaking = |chunk: u64| {
+                let range = chunk * CHUNK..each.min((chunk + 1) * CHUNK);
+                let rays: Vec<Ray> = range.map(|i| ray(mesh, i)).collect();
+                let mut hits: Vec<Hit> = Vec::new();
+                let batch = Batch {
+                    kind: RayKind::Primary,
+                    rays: &rays,
+                    pixels: &[],
+                };
+                Timed::new(&tree, &shapes, &progress).closest_hits(batch, &mut hits);
+                let all = rays.into_iter().zip(hits);
+                let leaking = all.filter(|(_, hit)| !hit.is_hit());
+                leaking.fold((0, None), |(n, first), (ray, _)| {
+                    (n + 1, first.or(Some(ray)))
                 })
-                .sum();
-            found.push((format!("{}, {}", mesh.name, method.name), each, leaks));
+            };
+            let (leaked, example) = (0..each.div_ceil(CHUNK))
+                .into_par_iter()
+                .map(leaking)
+                .reduce(|| (0, None), |a, b| (a.0 + b.0, a.1.or(b.1)));
+            found.push(Leaks {
+                name: format!("{}, {}", mesh.name, method.name),
+                rays: each,
+                leaked,
+                example,
+            });
         }
     }
     found
