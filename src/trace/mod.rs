@@ -28,6 +28,6 @@ pub use render::{
 };
 pub use settings::RenderSettings;
 pub use shapes::Shapes;
-pub use traverse::{LeafVisitor, Scratch, traverse};
+pub use traverse::{Conservative, Decisions, LeafVisitor, Scratch, traverse, traverse_by};
 pub use waiting::Waiting;
 pub use whitted::trace_samples;

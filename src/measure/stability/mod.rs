@@ -6,6 +6,8 @@
 //! ([`super::judge::Tolerance`]).
 
 mod geometry;
+#[cfg(test)]
+mod mutants;
 mod rays;
 mod scenes;
 mod settings;
