@@ -10,6 +10,7 @@ mod files;
 mod heat;
 mod help;
 mod inspect;
+mod judging;
 mod panels;
 mod picture_pane;
 mod recent;

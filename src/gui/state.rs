@@ -2,6 +2,7 @@
 
 use super::StartOptions;
 use super::inspect::Inspect;
+use super::judging::Judging;
 use super::selection::Selection;
 use super::walk::{Picked, Walking, Wish};
 use crate::measure::heat::PixelCounts;
@@ -33,6 +34,8 @@ pub struct State {
     pub walking: Walking,
     /// What the panes about the tree share.
     pub inspect: Inspect,
+    /// What the judge has found of what is shown.
+    pub judging: Judging,
 }
 
 /// A request that failed.
@@ -124,6 +127,7 @@ impl State {
             failure: None,
             walking: Walking::default(),
             inspect: Inspect::default(),
+            judging: Judging::default(),
         }
     }
 

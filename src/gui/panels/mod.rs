@@ -2,6 +2,7 @@
 
 mod build_settings;
 mod figures;
+mod judge;
 mod parameters;
 mod picture_settings;
 mod pixel;
@@ -32,6 +33,7 @@ pub static PANELS: &[Panel] = &[
     build_settings::PANEL,
     picture_settings::PANEL,
     scene_facts::PANEL,
+    judge::PANEL,
     figures::DELTA_PANEL,
     figures::LAMBDA_PANEL,
     pixel::PANEL,
