@@ -117,7 +117,7 @@ pub struct Trial<'a> {
 impl Trial<'_> {
     /// How many rays to try on a scene: fewer where testing every object takes long.
     pub fn rays(&self, scene: &Scene) -> usize {
-        let most = if self.quick { 150 } else { 4000 };
+        let most = if self.quick { 100 } else { 4000 };
         let affordable = 100_000_000 / scene.objects().len().max(1);
         affordable.clamp(50, most)
     }
