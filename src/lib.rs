@@ -21,6 +21,7 @@
 //! | [`trace`] | traversal, timed and counting kernels, shading, passes over a picture, visits of nodes | |
 //! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ; trees against testing every object | an entry of [`measure::PARAMETERS`] |
 //! | [`measure::judge`] | exact arithmetic: why two answers about a ray differ | |
+//! | [`measure::stability`] | trees at the extremes | an entry of [`measure::stability::CASES`] |
 //! | [`measure::heat`] | what every pixel cost | a line in [`measure::heat::HEATMAPS`] |
 //! | [`overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves and rays | a line in [`overlay::COLORINGS`], [`overlay::COLORMAPS`] or [`overlay::HISTOGRAMS`] |
 //! | [`report`] | text, JSON, CSV, Markdown, LaTeX | a line in [`report::WRITERS`] |

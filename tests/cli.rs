@@ -446,7 +446,7 @@ fn verify_checks_every_kind_of_ray() {
             let row = text
                 .lines()
                 .map(|l| l.split_whitespace().collect::<Vec<_>>());
-            let expected = ["teaching:1", method.name, "valid", kind, "1000", "0"];
+            let expected = ["teaching:1", method.name, "valid", kind, "1000", "0", "0"];
             assert!(
                 row.into_iter().any(|row| row == expected),
                 "{expected:?}\n{text}"

@@ -340,6 +340,9 @@ fn keys_of_the_3d_view_count_while_the_pointer_is_over_it() {
     }
     // Unlinked, the picture stays as it is.
     assert!(is_finished(&window));
+    wait(&mut window, "the judge", |w| {
+        has(w, "faults") && !has(w, "of the sample")
+    });
     let options = masked(&mut window);
     window.snapshot_options("from_above", &options);
 }
@@ -355,6 +358,9 @@ fn the_window_looks_as_it_did() {
     wait(&mut window, "the boxes", |w| has(w, "leaves shown"));
     window.remove_cursor();
     window.run_steps(5);
+    wait(&mut window, "the judge", |w| {
+        has(w, "faults") && !has(w, "of the sample")
+    });
     let options = masked(&mut window);
     window.snapshot_options("window", &options);
 }

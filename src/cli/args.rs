@@ -39,6 +39,7 @@ pub enum Command {
     Generate(GenerateArgs),
     Methods(MethodsArgs),
     Verify(VerifyArgs),
+    Stability(StabilityArgs),
 }
 
 #[derive(Debug, Args)]
@@ -262,6 +263,36 @@ pub struct VerifyArgs {
     pub build: BuildArgs,
     #[command(flatten)]
     pub trace: TraceArgs,
+}
+
+/// Try trees at the extremes: tough rays, geometry, transforms and settings
+///
+/// A matrix of cases by methods and precisions, each a pass, a failure with its reason, or not
+/// representable in that precision. Exit code 1 if anything fails.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope stability\n\
+    bspscope stability --quick --format json -o stability.json\n\
+    bspscope stability scenes/rings.nff --method sah-cut"))]
+pub struct StabilityArgs {
+    /// Scene to try the cases on that apply to any [default: the built-in torture set]
+    pub scene: Option<String>,
+    #[command(flatten)]
+    pub cylinders: CylinderArgs,
+    /// Fewer rays and smaller pictures: seconds in place of minutes
+    #[arg(long)]
+    pub quick: bool,
+    /// Build method; may be given more than once [default: all but none]
+    #[arg(long, value_name = "METHOD", value_parser = method_names(), help_heading = "Tree")]
+    pub method: Vec<Method>,
+    /// Threads; 0 takes as many as the machine has cores
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub threads: usize,
+    /// Form of the matrix
+    #[arg(long, value_enum, default_value_t = ListFormat::Text, help_heading = "Output")]
+    pub format: ListFormat,
+    /// Write to this file in place of standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

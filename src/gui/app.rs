@@ -261,6 +261,7 @@ impl eframe::App for App {
             self.act(action, &ctx);
         }
         self.state.follow_rays(&ctx);
+        self.state.judge_rays(&ctx);
         egui::Panel::top("top bar").show(ui, |ui| {
             top_bar::show(ui, &mut self.state, &mut self.files, &mut self.help_open);
         });

@@ -17,6 +17,7 @@ mod files;
 mod heat;
 mod help;
 mod inspect;
+mod judging;
 mod kept;
 mod layout;
 mod palette;

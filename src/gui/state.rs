@@ -6,6 +6,7 @@
 use super::StartOptions;
 use super::comparing::{Comparing, Verdict, Which};
 use super::inspect::Inspect;
+use super::judging::Judging;
 use super::selection::Selection;
 use super::walk::{Picked, Walking, Wish};
 use crate::measure::heat::PixelCounts;
@@ -46,6 +47,8 @@ pub struct State {
     pub walking: Walking,
     /// What the panes about the tree share.
     pub inspect: Inspect,
+    /// What the judge has found of what is shown.
+    pub judging: Judging,
 }
 
 /// The tree of a comparison that is not in front.
@@ -183,6 +186,7 @@ impl State {
             failure: None,
             walking: Walking::default(),
             inspect: Inspect::default(),
+            judging: Judging::default(),
         }
     }
 

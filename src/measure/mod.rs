@@ -7,6 +7,7 @@ pub mod judge;
 mod measurement;
 mod parameter;
 mod parameters;
+pub mod stability;
 mod verify;
 
 pub use comparison::{Change, Unequal, change, differing_pixels, unequal};
@@ -14,4 +15,6 @@ pub use facts::{SceneFacts, TreeFacts};
 pub use measurement::{MeasureError, Measured, Measurement, Times, measure};
 pub use parameter::{Class, Parameter, Table, Unit, grouped, significant};
 pub use parameters::{DELTA, LAMBDA, PARAMETERS, parameter};
-pub use verify::{Answers, RaySample, Verification, answer, ask, compare, sample_rays, unsplit};
+pub use verify::{
+    Answers, RaySample, Verification, answer, ask, compare, sample_rays, unsplit, verify_sample,
+};

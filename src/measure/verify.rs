@@ -62,6 +62,21 @@ impl Verification {
     }
 }
 
+impl std::ops::AddAssign for Verification {
+    /// Both together; of the faults the first few.
+    fn add_assign(&mut self, other: Verification) {
+        for k in 0..self.rays.len() {
+            self.rays[k] += other.rays[k];
+            self.others[k] += other.others[k];
+        }
+        self.faults.extend(other.faults);
+        self.faults.truncate(EXAMPLES);
+    }
+}
+
+/// How many faults are kept.
+const EXAMPLES: usize = 5;
+
 /// Keeps the rays that the renderer asks about.
 struct Recorder<'a> {
     tracer: Timed<'a>,
@@ -226,6 +241,42 @@ pub fn ask(scene: &Scene, tree: &Tree, kind: RayKind, ray: &Ray) -> Answer {
     }
 }
 
+/// Samples rays as [`sample_rays`] and compares the tree's answers with testing every object, a few
+/// rays at a time; `so_far` is told what was found each time.
+///
+/// # Errors
+/// As [`sample_rays`].
+pub fn verify_sample(
+    scene: &Scene,
+    tree: &Tree,
+    settings: &RenderSettings,
+    per_kind: usize,
+    pool: &rayon::ThreadPool,
+    progress: &Progress,
+    mut so_far: impl FnMut(&Verification),
+) -> Result<Verification, RenderError> {
+    const AT_ONCE: usize = 64;
+    let sample = sample_rays(scene, tree, settings, per_kind, pool, progress)?;
+    // A scene that has a tree has this one, too, unless there is no time for it.
+    let everything = unsplit(scene, progress).map_err(|_| Cancelled)?;
+    let mut result = Verification::default();
+    let most = sample.rays.iter().map(Vec::len).max().unwrap_or(0);
+    for from in (0..most).step_by(AT_ONCE) {
+        let part = RaySample {
+            rays: sample.rays.each_ref().map(|rays| {
+                let to = rays.len().min(from + AT_ONCE);
+                rays[from.min(to)..to].to_vec()
+            }),
+        };
+        let expected = answer(scene, &everything, &part, pool, progress)?;
+        let found = answer(scene, tree, &part, pool, progress)?;
+        result += compare(scene, &part, &expected, &found, None);
+        progress.set((from + AT_ONCE) as f64 / most as f64);
+        so_far(&result);
+    }
+    Ok(result)
+}
+
 /// Holds answers against those of testing every object, bit by bit: distance and object of every hit.
 /// Where they differ, the judge says why; `rounding` as in [`settle`], for all coordinates of the
 /// scene's size.
@@ -236,7 +287,6 @@ pub fn compare(
     found: &Answers,
     rounding: Option<Precision>,
 ) -> Verification {
-    const EXAMPLES: usize = 5;
     let mut result = Verification::default();
     for kind in RayKind::ALL {
         let k = kind as usize;

@@ -289,8 +289,14 @@ fn is_inside(outline: &[[f64; 2]], point: [f64; 2], slack: f64) -> Option<bool> 
             {
                 return None;
             }
-            if (ay > 0.0) != (by > 0.0) && (cross > 0.0) == (by > ay) {
-                inside = !inside;
+            if (ay > 0.0) != (by > 0.0) {
+                // Where the products vanish, the edge lies wholly to one side.
+                let is_right = if cross == 0.0 {
+                    ax > 0.0
+                } else {
+                    (cross > 0.0) == (by > ay)
+                };
+                inside ^= is_right;
             }
         }
         (ax, ay) = (bx, by);

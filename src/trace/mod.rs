@@ -29,7 +29,7 @@ pub use render::{
 };
 pub use settings::RenderSettings;
 pub use shapes::Shapes;
-pub use traverse::{LeafVisitor, Scratch, traverse};
+pub use traverse::{Conservative, Decisions, LeafVisitor, Scratch, traverse, traverse_by};
 pub use visits::{Visits, visits_pass};
 pub use waiting::Waiting;
 pub use whitted::trace_samples;

@@ -38,14 +38,54 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// this near to the next leaf does not end the walk, for what that leaf holds may be nearer still.
 const HIT_ROUNDING: f64 = 1e-10;
 
-#[inline(always)]
-fn later(t: f64) -> f64 {
-    t + t.abs() * ROUNDING
+/// The decisions that rounding, infinities and NaN could get wrong. As they stand they are
+/// conservative; tests break one at a time to see that it is noticed.
+pub trait Decisions {
+    /// A parameter moved on by more than it was rounded.
+    #[inline(always)]
+    fn later(t: f64) -> f64 {
+        t + t.abs() * ROUNDING
+    }
+
+    /// A parameter moved back by more than it was rounded.
+    #[inline(always)]
+    fn earlier(t: f64) -> f64 {
+        t - t.abs() * ROUNDING
+    }
+
+    /// Whether the ray certainly leaves the cell before it meets the plane at `t`.
+    #[inline(always)]
+    fn is_near_only(t: f64, t_exit: f64) -> bool {
+        t > t_exit
+    }
+
+    /// Whether the ray certainly enters the cell behind the plane that it meets at `t`.
+    #[inline(always)]
+    fn is_far_only(t: f64, t_enter: f64) -> bool {
+        t < t_enter
+    }
+
+    /// Whether a child entered at `t_enter` may hold something before `limit`. A limit of −∞ gives
+    /// NaN, which ends the walk.
+    #[inline(always)]
+    fn goes_on(t_enter: f64, limit: f64) -> bool {
+        t_enter <= limit + limit.abs() * HIT_ROUNDING
+    }
+
+    /// Whether the child above a plane is the nearer one.
+    #[inline(always)]
+    fn comes_from_above(direction: f64) -> bool {
+        direction.is_sign_negative()
+    }
 }
 
-#[inline(always)]
+/// The decisions as they are.
+pub struct Conservative;
+
+impl Decisions for Conservative {}
+
 pub(super) fn earlier(t: f64) -> f64 {
-    t - t.abs() * ROUNDING
+    Conservative::earlier(t)
 }
 
 /// Walks a ray through the leaves of a tree, front to back, between `ray.t_min` and `ray.t_max`.
@@ -53,6 +93,18 @@ pub(super) fn earlier(t: f64) -> f64 {
 /// A ray that misses the root cell visits nothing.
 #[inline]
 pub fn traverse<V: LeafVisitor, P: Probe>(
+    tree: &Tree,
+    ray: &Ray,
+    scratch: &mut Scratch,
+    visitor: &mut V,
+    probe: &mut P,
+) {
+    traverse_by::<Conservative, V, P>(tree, ray, scratch, visitor, probe);
+}
+
+/// As [`traverse`], by these decisions.
+#[inline(always)]
+pub fn traverse_by<D: Decisions, V: LeafVisitor, P: Probe>(
     tree: &Tree,
     ray: &Ray,
     scratch: &mut Scratch,
@@ -70,8 +122,8 @@ pub fn traverse<V: LeafVisitor, P: Probe>(
                 (-SIDE - origin[k]) * inverse[k],
                 (SIDE - origin[k]) * inverse[k],
             );
-            t_enter = t_enter.max(earlier(a.min(b)));
-            t_exit = t_exit.min(later(a.max(b)));
+            t_enter = t_enter.max(D::earlier(a.min(b)));
+            t_exit = t_exit.min(D::later(a.max(b)));
         } else if origin[k].abs() > SIDE {
             return;
         }
@@ -89,25 +141,25 @@ pub fn traverse<V: LeafVisitor, P: Probe>(
         while !node.is_leaf() {
             let (axis, plane, above) = node.as_inner();
             let t = (f64::from(plane) - origin[axis]) * inverse[axis];
-            let (near, far) = if direction[axis].is_sign_negative() {
+            let (near, far) = if D::comes_from_above(direction[axis]) {
                 (above, at + 1)
             } else {
                 (at + 1, above)
             };
-            if t > t_exit {
+            if D::is_near_only(t, t_exit) {
                 probe.inner(at, t_enter, t_exit, t, Way::Near);
                 at = near;
-            } else if t < t_enter {
+            } else if D::is_far_only(t, t_enter) {
                 probe.inner(at, t_enter, t_exit, t, Way::Far);
                 at = far;
             } else {
                 probe.inner(at, t_enter, t_exit, t, Way::Both);
                 stack.push(Waiting {
                     node: far,
-                    t_enter: t_enter.max(earlier(t)),
+                    t_enter: t_enter.max(D::earlier(t)),
                     t_exit,
                 });
-                t_exit = t_exit.min(later(t));
+                t_exit = t_exit.min(D::later(t));
                 at = near;
             }
             node = nodes[at as usize];
@@ -117,8 +169,8 @@ pub fn traverse<V: LeafVisitor, P: Probe>(
         probe.leaf(at, objects, t_enter, t_exit);
         let limit = visitor.visit(ray, objects, probe);
         match stack.pop() {
-            // What waits below lies farther still. A limit of −∞ gives NaN, which ends the walk.
-            Some(next) if next.t_enter <= limit + limit.abs() * HIT_ROUNDING => {
+            // What waits below lies farther still.
+            Some(next) if D::goes_on(next.t_enter, limit) => {
                 (at, t_enter, t_exit) = (next.node, next.t_enter, next.t_exit);
             }
             _ => return,

@@ -3,6 +3,7 @@
 mod build_settings;
 mod comparison;
 mod figures;
+mod judge;
 mod parameters;
 mod picture_settings;
 mod pixel;
@@ -35,6 +36,7 @@ pub static PANELS: &[Panel] = &[
     picture_settings::PANEL,
     scene_facts::PANEL,
     comparison::PANEL,
+    judge::PANEL,
     figures::DELTA_PANEL,
     figures::LAMBDA_PANEL,
     pixel::PANEL,

@@ -22,13 +22,10 @@ impl Crossing {
     /// The crossing within the ray's own stretch; `None` if it certainly lies outside.
     fn within(mut self, ray: &Ray) -> Option<Crossing> {
         let start = Root::from(rational(ray.t_min));
-        let mut inside = self.latest.cmp(&start);
-        let mut surely = self.earliest > start;
-        if ray.t_max.is_finite() {
-            let end = Root::from(rational(ray.t_max));
-            inside = inside.min(end.cmp(&self.earliest));
-            surely &= self.latest < end;
-        }
+        // What no number is large enough for is not met.
+        let end = Root::from(rational(ray.t_max.min(f64::MAX)));
+        let inside = self.latest.cmp(&start).min(end.cmp(&self.earliest));
+        let surely = self.earliest > start && self.latest < end;
         self.certain &= surely;
         (inside != Ordering::Less).then_some(self)
     }

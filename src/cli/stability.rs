@@ -1,0 +1,82 @@
+//! `bspscope stability`: trees at the extremes.
+
+use super::args::{ListFormat, StabilityArgs};
+use super::{Outcome, bar, output, resolve};
+use crate::measure::stability::{self, Cell};
+use crate::report::plain_table;
+use crate::trace::thread_pool;
+use crate::tree::Method;
+use anyhow::Result;
+use std::io::{self, Write};
+
+pub fn run(args: &StabilityArgs) -> Result<Outcome> {
+    output::check_place(args.output.as_deref())?;
+    let scene = match &args.scene {
+        Some(text) => Some(resolve::scene(text, &args.cylinders)?.1),
+        None => None,
+    };
+    let methods: Vec<Method> = if args.method.is_empty() {
+        Method::all().filter(|m| m.name != "none").collect()
+    } else {
+        args.method.clone()
+    };
+    let pool = thread_pool(args.threads)?;
+    let cells = bar::with_bar("trying the extremes", |progress| {
+        stability::run(scene.as_ref(), &methods, args.quick, &pool, progress)
+    })?;
+    output::write_to(args.output.as_deref(), |out| match args.format {
+        ListFormat::Text => text(&cells, out),
+        ListFormat::Json => {
+            serde_json::to_writer_pretty(&mut *out, &cells)?;
+            writeln!(out)
+        }
+    })?;
+    Ok(if failures(&cells) == 0 {
+        Outcome::Done
+    } else {
+        Outcome::CheckFailed
+    })
+}
+
+fn failures(cells: &[Cell]) -> usize {
+    let failed = |cell: &&Cell| matches!(cell.outcome, stability::Outcome::Fail { .. });
+    cells.iter().filter(failed).count()
+}
+
+/// A row a case, a column a method and precision; below, why cells did not pass.
+fn text(cells: &[Cell], out: &mut dyn Write) -> io::Result<()> {
+    let column = |cell: &Cell| format!("{} {}", cell.method, cell.precision.name());
+    let mut columns: Vec<String> = Vec::new();
+    for cell in cells {
+        let name = column(cell);
+        if !columns.contains(&name) {
+            columns.push(name);
+        }
+    }
+    let titles = ["theme", "case"].map(String::from).into_iter();
+    let mut table = plain_table(titles.chain(columns.iter().cloned()).collect(), 2);
+    for row in cells.chunk_by(|a, b| (a.theme, a.case) == (b.theme, b.case)) {
+        let mut texts = vec![row[0].theme.to_owned(), row[0].case.to_owned()];
+        texts.extend(row.iter().map(|cell| match &cell.outcome {
+            stability::Outcome::Pass { rays: 0 } => "pass".to_owned(),
+            stability::Outcome::Pass { rays } => format!("pass, {rays} rays"),
+            stability::Outcome::Fail { .. } => "FAIL".to_owned(),
+            stability::Outcome::NotRepresentable { .. } => "not representable".to_owned(),
+        }));
+        table.add_row(texts);
+    }
+    writeln!(out, "{}", table.trim_fmt())?;
+    for cell in cells {
+        let (stability::Outcome::Fail { reason } | stability::Outcome::NotRepresentable { reason }) =
+            &cell.outcome
+        else {
+            continue;
+        };
+        writeln!(out, "{}, {}: {reason}", cell.case, column(cell))?;
+        writeln!(out, "    the rule: {}", cell.rule)?;
+    }
+    match failures(cells) {
+        0 => writeln!(out, "All {} cells are right.", cells.len()),
+        n => writeln!(out, "{n} of {} cells fail.", cells.len()),
+    }
+}

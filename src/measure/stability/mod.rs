@@ -1,0 +1,108 @@
+//! Right at the extremes: every case of [`CASES`] by every method and precision gives the right hits
+//! or a clear error. A case is one entry of a theme's file.
+//!
+//! Right means: the tree is valid; it gives the same answers as testing every object, or the judge
+//! says tie; and a sample of the answers is what exact arithmetic says, but for rounding
+//! ([`super::judge::Tolerance`]).
+
+mod geometry;
+#[cfg(test)]
+mod mutants;
+mod rays;
+mod scenes;
+mod settings;
+mod transforms;
+mod trial;
+
+pub use trial::{KERNELS, Kernel, Outcome, Trial};
+
+use super::judge::Precision;
+use crate::progress::{Cancelled, Progress};
+use crate::scene::Scene;
+use crate::tree::Method;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// A case of the torture set.
+pub struct Case {
+    /// A few words.
+    pub name: &'static str,
+    /// What is tried, and what counts as right.
+    pub rule: &'static str,
+    /// Whether it can be tried on a user's own scene.
+    pub any_scene: bool,
+    pub run: fn(&Trial<'_>) -> Outcome,
+}
+
+/// All cases by theme.
+pub static CASES: &[(&str, &[Case])] = &[
+    ("transforms", transforms::CASES),
+    ("rays", rays::CASES),
+    ("geometry", geometry::CASES),
+    ("settings", settings::CASES),
+];
+
+/// What came of one case by one method in one precision.
+#[derive(Clone, Debug, Serialize)]
+pub struct Cell {
+    pub theme: &'static str,
+    pub case: &'static str,
+    pub rule: &'static str,
+    pub method: &'static str,
+    pub precision: Precision,
+    #[serde(flatten)]
+    pub outcome: Outcome,
+}
+
+/// Runs all cases that apply by every method in every precision, in the order of the registries:
+/// without a scene the built-in torture set, with one those that can be tried on any.
+///
+/// # Errors
+/// Cancellation.
+pub fn run(
+    scene: Option<&Scene>,
+    methods: &[Method],
+    quick: bool,
+    pool: &rayon::ThreadPool,
+    progress: &Progress,
+) -> Result<Vec<Cell>, Cancelled> {
+    let mut work = Vec::new();
+    for &(theme, cases) in CASES {
+        for case in cases.iter().filter(|c| scene.is_none() || c.any_scene) {
+            for &method in methods {
+                work.extend(KERNELS.iter().map(|kernel| (theme, case, method, kernel)));
+            }
+        }
+    }
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let cell = |&(theme, case, method, kernel): &(
+        &'static str,
+        &'static Case,
+        Method,
+        &'static Kernel,
+    )| {
+        let trial = Trial {
+            scene,
+            method,
+            kernel,
+            quick,
+            progress,
+        };
+        let run = std::panic::AssertUnwindSafe(|| (case.run)(&trial));
+        let outcome = std::panic::catch_unwind(run)
+            .unwrap_or_else(|_| Outcome::fail("the program panics, as reported above"));
+        let done = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        progress.set(done as f64 / work.len() as f64);
+        Cell {
+            theme,
+            case: case.name,
+            rule: case.rule,
+            method: method.name,
+            precision: kernel.precision,
+            outcome,
+        }
+    };
+    let cells = pool.install(|| work.par_iter().with_max_len(1).map(cell).collect());
+    progress.check()?;
+    Ok(cells)
+}
