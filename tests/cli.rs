@@ -446,13 +446,15 @@ fn verify_checks_every_kind_of_ray() {
             let row = text
                 .lines()
                 .map(|l| l.split_whitespace().collect::<Vec<_>>());
-            let expected = ["teaching:1", method.name, "valid", kind, "1000", "0"];
+            let expected = ["teaching:1", method.name, "f64", "valid", kind, "1000", "0"];
             assert!(
                 row.into_iter().any(|row| row == expected),
                 "{expected:?}\n{text}"
             );
         }
     }
+    let text = program.done("verify teaching --rays 1000 --method midpoint --precision f32");
+    assert_eq!(text.matches("  f32  ").count(), 4, "{text}");
     let text = program.done("verify balls:1 tetra:2 --rays 100 --method sah-cut");
     assert!(text.contains("All 2 trees"), "{text}");
 }

@@ -3,7 +3,7 @@
 
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::measure::{RaySample, answer, compare, judge};
-use bspscope::primitive::{Cone, Polygon, Primitive, Sphere, Triangle};
+use bspscope::primitive::{Cone, Polygon, Precision, Primitive, Sphere, Triangle};
 use bspscope::progress::Progress;
 use bspscope::scene::{Camera, Material, Scene, SceneParts};
 use bspscope::trace::{RayKind, thread_pool};
@@ -144,9 +144,11 @@ proptest! {
             .zip([0.5, 1.0, 2.0, 1e3].into_iter().cycle())
             .map(|(ray, end)| Ray { t_max: end, ..*ray })
             .collect();
-        let expected = answer(&scene, &naive, &sample, pool(), &progress).unwrap();
-        let found = answer(&scene, &tree, &sample, pool(), &progress).unwrap();
-        let result = compare(&sample, &expected, &found);
-        prop_assert!(result.passed(), "{:?}: {:?}", settings, result);
+        for precision in Precision::ALL {
+            let expected = answer(&scene, &naive, precision, &sample, pool(), &progress).unwrap();
+            let found = answer(&scene, &tree, precision, &sample, pool(), &progress).unwrap();
+            let result = compare(&sample, &expected, &found);
+            prop_assert!(result.passed(), "{:?}, {:?}: {:?}", settings, precision, result);
+        }
     }
 }

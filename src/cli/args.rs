@@ -6,6 +6,7 @@ use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
 use crate::scene::builtin::BUILTINS;
 use crate::scene::{Cylinders, Sampling};
+use crate::trace::PrecisionChoice;
 use crate::tree::{BuildSettings, MaxDepth, Method, OverlapRule};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -331,6 +332,12 @@ pub struct TraceArgs {
     /// How deep secondary rays go, D_AREC; 0 traces none
     #[arg(long, value_name = "N", default_value_t = 4)]
     pub d_arec: u32,
+    /// A secondary ray that counts for less than this in every colour of its pixel is not traced
+    #[arg(long, value_name = "WEIGHT", value_parser = share, default_value = "0")]
+    pub cut_off: f64,
+    /// Numbers that rays are traced in: f32, f64, or auto for f32 where it can hold the scene
+    #[arg(long, value_name = "NUMBERS", value_parser = precision_names(), default_value = "f64")]
+    pub precision: PrecisionChoice,
     /// Where the first sample lies: in the pixel's centre, or on a lattice that spans the angle
     #[arg(long, value_name = "WHERE", value_parser = sampling_names(), default_value = "center")]
     pub sampling: Sampling,
@@ -427,6 +434,11 @@ fn pixel(text: &str) -> Result<[i64; 2], String> {
     text.split_once(',')
         .and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]))
         .ok_or_else(|| "expected a column and a row, such as 256,256".into())
+}
+
+fn precision_names() -> impl TypedValueParser<Value = PrecisionChoice> {
+    PossibleValuesParser::new(PrecisionChoice::ALL.map(PrecisionChoice::name))
+        .try_map(|name| PrecisionChoice::named(&name).ok_or("no such precision"))
 }
 
 fn sampling_names() -> impl TypedValueParser<Value = Sampling> {

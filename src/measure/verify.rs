@@ -1,10 +1,11 @@
 //! Whether a tree gives the same hits as testing every object, on rays of every kind.
 
 use crate::geometry::Ray;
+use crate::primitive::Precision;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
 use crate::trace::{
-    Batch, Hit, RayKind, RayTracer, RenderError, RenderSettings, Shapes, Timed, tiles,
+    Batch, Hit, RayKind, RayTracer, RenderError, RenderSettings, Shading, Timed, tiles,
     trace_samples,
 };
 use crate::tree::{BuildError, BuildSettings, Method, Tree, build};
@@ -79,8 +80,7 @@ pub fn sample_rays(
         height: side,
         ..*settings
     };
-    let view = settings.view()?;
-    let shapes = Shapes::of(scene);
+    let shading = Shading::new(scene, &settings)?;
     let mut found = RaySample::default();
     for sample in 0..64 {
         let parts: Vec<RaySample> = pool.install(|| {
@@ -89,18 +89,10 @@ pub fn sample_rays(
                 .map(|tile| {
                     let pixels: Vec<_> = (0..tile.len() as u32).map(|i| tile.pixel(i)).collect();
                     let mut recorder = Recorder {
-                        tracer: Timed::new(tree, &shapes, progress),
+                        tracer: Timed::new(tree, shading.shapes, progress),
                         sample: RaySample::default(),
                     };
-                    trace_samples(
-                        scene,
-                        &view,
-                        settings.d_arec,
-                        &pixels,
-                        sample,
-                        &mut recorder,
-                        &mut Vec::new(),
-                    );
+                    trace_samples(&shading, &pixels, sample, &mut recorder, &mut Vec::new());
                     recorder.sample
                 })
                 .collect()
@@ -130,26 +122,27 @@ pub fn sample_rays(
     Ok(found)
 }
 
-/// Asks a tree about every ray of a sample.
+/// Asks a tree about every ray of a sample, in a precision.
 ///
 /// # Errors
 /// Cancellation.
 pub fn answer(
     scene: &Scene,
     tree: &Tree,
+    precision: Precision,
     sample: &RaySample,
     pool: &rayon::ThreadPool,
     progress: &Progress,
 ) -> Result<Answers, Cancelled> {
     const CHUNK: usize = 256;
-    let shapes = Shapes::of(scene);
+    let shapes = scene.shapes(precision);
     let mut answers = Answers::default();
     let total: usize = sample.rays.iter().map(Vec::len).sum();
     let done = std::sync::atomic::AtomicUsize::new(0);
     pool.install(|| {
         for kind in RayKind::ALL {
             let chunks = sample.rays[kind as usize].par_chunks(CHUNK).map(|rays| {
-                let mut tracer = Timed::new(tree, &shapes, progress);
+                let mut tracer = Timed::new(tree, shapes, progress);
                 let batch = Batch {
                     kind,
                     rays,

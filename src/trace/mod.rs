@@ -1,22 +1,31 @@
 //! Rays through trees: traversal, kernels that time and kernels that count, shading, pictures.
 //!
+//! Rays are traced in `f64`, or in `f32` on the same tree ([`PrecisionChoice`]); either way the tree's
+//! answers are, bit by bit, those of testing every object in that precision.
+//!
 //! Counting is a type parameter ([`Probe`]): with `()` nothing is counted and nothing is paid.
 
 mod any_order;
 mod kernel;
+mod line;
 mod picture;
+mod precision;
 mod probe;
 mod record;
 mod render;
 mod settings;
-mod shapes;
+mod space;
 mod traverse;
 mod waiting;
 mod whitted;
 
 pub use any_order::objects_along;
-pub use kernel::{Batch, Counting, Hit, RayKind, RayTracer, Timed};
+pub use kernel::{
+    Batch, Counting, Hit, RayKind, RayTracer, Timed, any_hit, any_of_all, closest_hit,
+    closest_of_all,
+};
 pub use picture::{Picture, TILE, Tile, srgb8, tiles};
+pub use precision::{ChosenPrecision, NotInF32, PrecisionChoice, fits_f32};
 pub use probe::{PixelTallies, Probe, RayCounts, Tally, Way};
 pub use record::{
     After, InnerStep, LeafStep, PixelRecord, RayPath, RecordedRay, Step, TestStep, record_pixel,
@@ -27,7 +36,6 @@ pub use render::{
     thread_pool, timed_pass,
 };
 pub use settings::RenderSettings;
-pub use shapes::Shapes;
-pub use traverse::{LeafVisitor, Scratch, traverse};
+pub use traverse::{LeafVisitor, Scratch};
 pub use waiting::Waiting;
-pub use whitted::trace_samples;
+pub use whitted::{Shading, trace_samples};

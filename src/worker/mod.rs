@@ -369,7 +369,7 @@ fn serve(
     };
 
     reporter.stage(Stage::Previewing, progress);
-    let mut measurement = Measurement { render, ..known };
+    let mut measurement = known.with_render(&scene, &render);
     let picture = Mutex::new(Picture::new(render.width, render.height));
     preview(
         &scene,
