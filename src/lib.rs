@@ -20,6 +20,7 @@
 //! | [`tree::split`] | where a method splits a cell | a line in [`tree::split::SPLIT_RULES`] |
 //! | [`trace`] | traversal in two precisions, timed and counting kernels, shading, passes over a picture | |
 //! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ; the judge of all trees | an entry of [`measure::PARAMETERS`] |
+//! | [`measure::trade`] | what accuracy costs: time and error of every choice | a line in [`measure::trade::KNOBS`] |
 //! | [`measure::heat`] | what every pixel cost | a line in [`measure::heat::HEATMAPS`] |
 //! | [`overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves | a line in [`overlay::COLORINGS`], [`overlay::COLORMAPS`] or [`overlay::HISTOGRAMS`] |
 //! | [`report`] | text, JSON, CSV, Markdown, LaTeX | a line in [`report::WRITERS`] |

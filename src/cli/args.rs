@@ -2,6 +2,7 @@
 
 use crate::geometry::Axis;
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, heatmap};
+use crate::measure::trade::KNOBS;
 use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
 use crate::scene::builtin::BUILTINS;
@@ -40,6 +41,7 @@ pub enum Command {
     Generate(GenerateArgs),
     Methods(MethodsArgs),
     Verify(VerifyArgs),
+    Trade(TradeArgs),
 }
 
 #[derive(Debug, Args)]
@@ -257,6 +259,51 @@ pub struct VerifyArgs {
     pub build: BuildArgs,
     #[command(flatten)]
     pub trace: TraceArgs,
+}
+
+/// Tell what accuracy costs: choices that buy speed with it, by time and error
+///
+/// Every choice alone, and all together: precision, samples, D_AREC, cut-off, polygons a cylinder,
+/// resolution. The reference is f64 with exact shapes and secondary rays at least 8 deep. Choices that
+/// move only the time (method, D_MAX, N_OILF) stand apart.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope trade rings\n\
+    bspscope trade balls --only precision --rounds 9\n\
+    bspscope trade balls:3 --resolution 256x256 --samples 4 --format csv -o trade.csv"))]
+pub struct TradeArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
+    /// Build method of the reference
+    #[arg(long, value_name = "METHOD", value_parser = method_names(), default_value = "sah-cut", help_heading = "Tree")]
+    pub method: Method,
+    #[command(flatten)]
+    pub build: BuildArgs,
+    #[command(flatten)]
+    pub trace: TraceArgs,
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// Samples a pixel of the reference
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..), help_heading = "Picture")]
+    pub samples: u32,
+    /// Only this choice, alone; may be given more than once [default: all, alone and together]
+    #[arg(long, value_name = "CHOICE", value_parser = PossibleValuesParser::new(KNOBS.iter().map(|k| PossibleValue::new(k.name).help(k.about))))]
+    pub only: Vec<String>,
+    /// Rounds in which every choice is timed once
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
+    pub rounds: u32,
+    /// Form of the report
+    #[arg(long, value_enum, default_value_t = TradeFormat::Text, help_heading = "Output")]
+    pub format: TradeFormat,
+    /// Write to this file in place of standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TradeFormat {
+    Text,
+    Json,
+    Csv,
 }
 
 #[derive(Debug, Args)]

@@ -13,6 +13,7 @@ mod output;
 mod probe;
 mod render;
 mod resolve;
+mod trade;
 mod verify;
 mod window;
 
@@ -40,6 +41,7 @@ pub fn main() -> ExitCode {
         Some(Command::Generate(args)) => generate::run(args),
         Some(Command::Methods(args)) => methods::run(args),
         Some(Command::Verify(args)) => verify::run(args),
+        Some(Command::Trade(args)) => trade::run(args),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

@@ -6,6 +6,7 @@ pub mod heat;
 mod measurement;
 mod parameter;
 mod parameters;
+pub mod trade;
 mod verify;
 
 pub use comparison::{Change, Unequal, change, unequal};
