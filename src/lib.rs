@@ -12,16 +12,17 @@
 //! |---|---|---|
 //! | [`geometry`] | vectors, boxes, axes, rays | |
 //! | [`progress`] | how long tasks tell how far they are and are told to stop | |
-//! | [`primitive`] | sphere, triangle, polygon, cylinder and cone: bounds, overlap with a cell, intersection | a variant of [`primitive::Primitive`] |
+//! | [`primitive`] | sphere, triangle, polygon, cylinder and cone: bounds, overlap with a cell, intersection in `f64` or on objects packed in `f32` | a variant of [`primitive::Primitive`] |
 //! | [`scene`] | objects, materials, lights, camera; what the scene requires | |
 //! | [`scene::format`] | readers and writers of files | a line in [`scene::format::FORMATS`] |
 //! | [`scene::builtin`] | generated scenes | a line in [`scene::builtin::BUILTINS`] |
 //! | [`tree`] | 8-byte nodes, the one build driver, moments of the build, validation | |
 //! | [`tree::split`] | where a method splits a cell | a line in [`tree::split::SPLIT_RULES`] |
-//! | [`trace`] | traversal, timed and counting kernels, shading, passes over a picture, visits of nodes | |
+//! | [`trace`] | traversal in two precisions, timed and counting kernels, shading, passes over a picture, visits of nodes | |
 //! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ; trees against testing every object | an entry of [`measure::PARAMETERS`] |
 //! | [`measure::judge`] | exact arithmetic: why two answers about a ray differ | |
 //! | [`measure::stability`] | trees at the extremes | an entry of [`measure::stability::CASES`] |
+//! | [`measure::trade`] | what accuracy costs: time and error of every choice | a line in [`measure::trade::KNOBS`] |
 //! | [`measure::heat`] | what every pixel cost | a line in [`measure::heat::HEATMAPS`] |
 //! | [`overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves and rays | a line in [`overlay::COLORINGS`], [`overlay::COLORMAPS`] or [`overlay::HISTOGRAMS`] |
 //! | [`report`] | text, JSON, CSV, Markdown, LaTeX | a line in [`report::WRITERS`] |

@@ -4,8 +4,21 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// Shared between the one that waits for a task and the threads that do it. Cloning shares it.
-#[derive(Clone, Debug, Default)]
-pub struct Progress(Arc<State>);
+#[derive(Clone, Debug)]
+pub struct Progress {
+    state: Arc<State>,
+    /// The stretch of the whole that [`Progress::set`] fills.
+    span: [f64; 2],
+}
+
+impl Default for Progress {
+    fn default() -> Self {
+        Progress {
+            state: Arc::default(),
+            span: [0.0, 1.0],
+        }
+    }
+}
 
 #[derive(Debug, Default)]
 struct State {
@@ -23,13 +36,23 @@ impl Progress {
         Self::default()
     }
 
+    /// The same progress for a part of the task, which fills the fractions `from` to `to` of this one.
+    pub fn part(&self, from: f64, to: f64) -> Progress {
+        let [start, end] = self.span;
+        let place = |fraction: f64| start + fraction * (end - start);
+        Progress {
+            state: Arc::clone(&self.state),
+            span: [place(from), place(to)],
+        }
+    }
+
     /// Asks the task to stop at its next look.
     pub fn cancel(&self) {
-        self.0.cancelled.store(true, Ordering::Relaxed);
+        self.state.cancelled.store(true, Ordering::Relaxed);
     }
 
     pub fn is_cancelled(&self) -> bool {
-        self.0.cancelled.load(Ordering::Relaxed)
+        self.state.cancelled.load(Ordering::Relaxed)
     }
 
     /// `Err` once the task was asked to stop: for use with `?` inside loops.
@@ -41,15 +64,17 @@ impl Progress {
         }
     }
 
-    /// Says how much is done, 0 to 1.
+    /// Says how much is done of it, or of its part, 0 to 1.
     pub fn set(&self, fraction: f64) {
-        self.0
+        let [start, end] = self.span;
+        let whole = start + fraction.clamp(0.0, 1.0) * (end - start);
+        self.state
             .fraction_bits
-            .store(fraction.clamp(0.0, 1.0).to_bits(), Ordering::Relaxed);
+            .store(whole.to_bits(), Ordering::Relaxed);
     }
 
-    /// How much is done, 0 to 1.
+    /// How much of the whole is done, 0 to 1.
     pub fn fraction(&self) -> f64 {
-        f64::from_bits(self.0.fraction_bits.load(Ordering::Relaxed))
+        f64::from_bits(self.state.fraction_bits.load(Ordering::Relaxed))
     }
 }

@@ -446,13 +446,24 @@ fn verify_checks_every_kind_of_ray() {
             let row = text
                 .lines()
                 .map(|l| l.split_whitespace().collect::<Vec<_>>());
-            let expected = ["teaching:1", method.name, "valid", kind, "1000", "0", "0"];
+            let expected = [
+                "teaching:1",
+                method.name,
+                "f64",
+                "valid",
+                kind,
+                "1000",
+                "0",
+                "0",
+            ];
             assert!(
                 row.into_iter().any(|row| row == expected),
                 "{expected:?}\n{text}"
             );
         }
     }
+    let text = program.done("verify teaching --rays 1000 --method midpoint --precision f32");
+    assert_eq!(text.matches("  f32  ").count(), 4, "{text}");
     let text = program.done("verify balls:1 tetra:2 --rays 100 --method sah-cut");
     assert!(text.contains("All 2 trees"), "{text}");
 }
@@ -507,7 +518,9 @@ fn a_reader_that_leaves_early_is_no_error() {
 #[test]
 fn help_is_there_for_every_command() {
     let program = Program::new();
-    for command in ["", "measure", "render", "generate", "methods", "verify"] {
+    for command in [
+        "", "measure", "render", "generate", "methods", "verify", "trade",
+    ] {
         let help = program.done(&format!("{command} --help"));
         assert!(help.contains("Usage: bspscope"), "{help}");
         assert!(help.contains("Examples:\n  bspscope"), "{help}");
@@ -541,4 +554,37 @@ fn a_comparison_is_made_under_equal_conditions_or_refused() {
     let wrong = program.run("compare tetra:3 --a method=midpoint --b method=sah-cut,gap=1");
     assert_eq!(wrong.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&wrong.stderr).contains("no setting 'gap'"));
+}
+
+#[test]
+fn trade_writes_every_form_and_takes_only_what_is_asked_for() {
+    let program = Program::new();
+    let options = "trade rings:1 --resolution 24x16 --samples 4 --rounds 1";
+    let only = format!("{options} --only precision --only cylinders");
+    let text = program.done(&only);
+    for words in [
+        "reference",
+        "precision f32",
+        "cylinders 10 polygons",
+        "SSIM",
+    ] {
+        assert!(text.contains(words), "{words}\n{text}");
+    }
+    assert!(!text.contains("N_OILF"), "{text}");
+    let json: serde_json::Value =
+        serde_json::from_str(&program.done(&format!("{only} --format json"))).unwrap();
+    let outcomes = json["outcomes"].as_array().unwrap();
+    assert_eq!(outcomes.len(), 6);
+    assert_eq!(outcomes[0]["time_ratio"]["median"], 1.0);
+    assert_eq!(outcomes[0]["error"]["rmse"], 0.0);
+    assert_eq!(outcomes[1]["turned"]["precision"], "f32");
+    let all = program.done(&format!("{options} --format csv"));
+    let widths: Vec<_> = csv::Reader::from_reader(all.as_bytes())
+        .records()
+        .map(|record| record.unwrap().len())
+        .collect();
+    assert!(
+        widths.len() > 20 && widths.iter().all(|&w| w == 13),
+        "{widths:?}"
+    );
 }

@@ -2,6 +2,7 @@
 //! same picture, and the same counts for any number of threads.
 
 use bspscope::measure::{answer, compare, sample_rays, unsplit};
+use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
 use bspscope::scene::{Sampling, Scene, SceneRequest, load};
 use bspscope::trace::{
@@ -98,21 +99,28 @@ fn every_method_gives_the_hits_of_testing_every_object() {
             let expected = if needed { RAYS_PER_KIND } else { 0 };
             assert_eq!(found, expected, "{kind:?} rays of {}", path.display());
         }
-        let expected = answer(&scene, &naive, &rays, &pool, &progress).unwrap();
+        let expected =
+            Precision::ALL.map(|p| answer(&scene, &naive, p, &rays, &pool, &progress).unwrap());
+        assert_ne!(
+            expected[0], expected[1],
+            "the precisions differ in the last places"
+        );
         for method in Method::all().filter(|m| m.name != "none") {
             for overlap in OverlapRule::ALL {
                 let tree = tree_of(&scene, method, overlap);
-                let found = answer(&scene, &tree, &rays, &pool, &progress).unwrap();
-                let result = compare(&scene, &rays, &expected, &found, None);
-                assert!(
-                    result.is_identical(),
-                    "{} by {method:?}, overlap {}: {:?} of {:?}, such as {:?}",
-                    path.display(),
-                    overlap.name(),
-                    result.others,
-                    result.rays,
-                    result.faults
-                );
+                for (precision, expected) in Precision::ALL.into_iter().zip(&expected) {
+                    let found = answer(&scene, &tree, precision, &rays, &pool, &progress).unwrap();
+                    let result = compare(&scene, &rays, expected, &found, None);
+                    assert!(
+                        result.is_identical(),
+                        "{} by {method:?}, overlap {}, {precision:?}: wrong {:?} of {:?}, such as {:?}",
+                        path.display(),
+                        overlap.name(),
+                        result.others,
+                        result.rays,
+                        result.faults
+                    );
+                }
             }
         }
     }

@@ -29,8 +29,7 @@ fn expected() -> PixelRecord {
         camera: *scene.camera(),
         ..start.render
     };
-    let view = render.view().unwrap();
-    record_pixel(&scene, &tree, &view, render.d_arec, MIDDLE, MIDDLE)
+    record_pixel(&scene, &tree, &render, [MIDDLE, MIDDLE]).unwrap()
 }
 
 /// A window in which the pixel in the middle is picked.

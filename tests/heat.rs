@@ -164,9 +164,8 @@ fn a_pixels_values_are_those_of_its_record() {
     let tree = tree_of(&scene, "midpoint");
     let (counts, _) = counted(&scene, &tree);
     let settings = small(&scene);
-    let view = settings.view().unwrap();
     for (x, y) in [(0, 0), (37, 25), (74, 49), (33, 40), (40, 33)] {
-        let record = record_pixel(&scene, &tree, &view, settings.d_arec, x, y);
+        let record = record_pixel(&scene, &tree, &settings, [x, y]).unwrap();
         let tests: u32 = record.rays.iter().map(|ray| ray.path.counts().tests).sum();
         let image = one("N_IT").image(&counts, RayFilter::All);
         assert_eq!(image.get(x, y), Some(tests as f32), "{x}, {y}");

@@ -4,9 +4,10 @@ mod tough;
 
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::measure::judge::{
-    Answer, Case, Precision, Standing, Tolerance, Verdict, examine, scale_of, settle,
+    Answer, Case, Standing, Tolerance, Verdict, examine, scale_of, settle,
 };
 use bspscope::measure::{ask, unsplit};
+use bspscope::primitive::Precision;
 use bspscope::primitive::{Cone, Polygon, Primitive, Sphere, Triangle};
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;

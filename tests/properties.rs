@@ -5,6 +5,7 @@ mod tough;
 
 use bspscope::geometry::Ray;
 use bspscope::measure::{RaySample, answer, compare, unsplit};
+use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
 use bspscope::trace::{RayKind, thread_pool};
 use bspscope::tree::{BuildSettings, MaxDepth, Method, OverlapRule, build, validate};
@@ -63,9 +64,11 @@ proptest! {
             .zip([0.5, 1.0, 2.0, 1e3].into_iter().cycle())
             .map(|(ray, end)| Ray { t_max: end, ..*ray })
             .collect();
-        let expected = answer(&scene, &naive, &sample, pool(), &progress).unwrap();
-        let found = answer(&scene, &tree, &sample, pool(), &progress).unwrap();
-        let result = compare(&scene, &sample, &expected, &found, None);
-        prop_assert!(result.is_identical(), "{:?}: {:?}", settings, result);
+        for precision in Precision::ALL {
+            let expected = answer(&scene, &naive, precision, &sample, pool(), &progress).unwrap();
+            let found = answer(&scene, &tree, precision, &sample, pool(), &progress).unwrap();
+            let result = compare(&scene, &sample, &expected, &found, None);
+            prop_assert!(result.is_identical(), "{:?}, {:?}: {:?}", settings, precision, result);
+        }
     }
 }

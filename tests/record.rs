@@ -42,7 +42,6 @@ fn a_pixels_record_sums_to_what_the_counting_kernel_counted() {
     for name in ["balls", "rings", "tetra", "teaching"] {
         let scene = scene_file(name);
         let settings = small(&scene);
-        let view = settings.view().unwrap();
         for method in ["midpoint", "sah-cut"] {
             let tree = tree_of(&scene, method);
             let counted: Mutex<HashMap<(u32, u32), PixelTallies>> = Mutex::default();
@@ -76,7 +75,7 @@ fn a_pixels_record_sums_to_what_the_counting_kernel_counted() {
             for i in 0..100 {
                 // A hundred pixels from all over the picture.
                 let (x, y) = (i * 37 % SIZE, i * 41 % SIZE);
-                let record = record_pixel(&scene, &tree, &view, settings.d_arec, x, y);
+                let record = record_pixel(&scene, &tree, &settings, [x, y]).unwrap();
                 assert_eq!(record.tallies(), counted[&(x, y)], "{name}, pixel {x}, {y}");
                 let off = (record.color - colors[&(x, y)]).abs().max_element();
                 assert!(off < 1e-12, "{name}: colours differ by rounding at most");
@@ -96,12 +95,11 @@ fn a_walk_is_a_path_through_the_tree() {
     let scene = scene_file("teaching");
     let tree = tree_of(&scene, "sah-cut");
     let settings = small(&scene);
-    let view = settings.view().unwrap();
     let mut ways = [0; 3];
     let mut popped = 0;
     for i in 0..300 {
         let (x, y) = (i * 37 % SIZE, i * 11 % SIZE);
-        let record = record_pixel(&scene, &tree, &view, settings.d_arec, x, y);
+        let record = record_pixel(&scene, &tree, &settings, [x, y]).unwrap();
         for (place, ray) in record.rays.iter().enumerate() {
             assert!(ray.parent.is_none_or(|parent| parent < place));
             let steps = &ray.path.steps;
@@ -162,9 +160,8 @@ fn a_record_stays_within_its_limit() {
     let scene = scene_file("balls");
     let tree = tree_of(&scene, "sah-cut");
     let settings = small(&scene);
-    let view = settings.view().unwrap();
     let middle = [SIZE / 2, SIZE / 2];
-    let record = |most| record_pixel_within(&scene, &tree, &view, 4, middle, most);
+    let record = |most| record_pixel_within(&scene, &tree, &settings, middle, most).unwrap();
     let (whole, cut) = (record(usize::MAX), record(1));
     assert!(!whole.cut && whole.rays.len() > 2);
     assert!(cut.cut);

@@ -2,10 +2,12 @@
 
 use crate::geometry::Axis;
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, heatmap};
+use crate::measure::trade::KNOBS;
 use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
 use crate::scene::builtin::BUILTINS;
 use crate::scene::{Cylinders, Sampling};
+use crate::trace::PrecisionChoice;
 use crate::tree::{BuildSettings, MaxDepth, Method, OverlapRule};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -40,6 +42,7 @@ pub enum Command {
     Methods(MethodsArgs),
     Verify(VerifyArgs),
     Stability(StabilityArgs),
+    Trade(TradeArgs),
 }
 
 #[derive(Debug, Args)]
@@ -295,6 +298,51 @@ pub struct StabilityArgs {
     pub output: Option<PathBuf>,
 }
 
+/// Tell what accuracy costs: choices that buy speed with it, by time and error
+///
+/// Every choice alone, and all together: precision, samples, D_AREC, cut-off, polygons a cylinder,
+/// resolution. The reference is f64 with exact shapes and secondary rays at least 8 deep. Choices that
+/// move only the time (method, D_MAX, N_OILF) stand apart.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope trade rings\n\
+    bspscope trade balls --only precision --rounds 9\n\
+    bspscope trade balls:3 --resolution 256x256 --samples 4 --format csv -o trade.csv"))]
+pub struct TradeArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
+    /// Build method of the reference
+    #[arg(long, value_name = "METHOD", value_parser = method_names(), default_value = "sah-cut", help_heading = "Tree")]
+    pub method: Method,
+    #[command(flatten)]
+    pub build: BuildArgs,
+    #[command(flatten)]
+    pub trace: TraceArgs,
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// Samples a pixel of the reference
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..), help_heading = "Picture")]
+    pub samples: u32,
+    /// Only this choice, alone; may be given more than once [default: all, alone and together]
+    #[arg(long, value_name = "CHOICE", value_parser = PossibleValuesParser::new(KNOBS.iter().map(|k| PossibleValue::new(k.name).help(k.about))))]
+    pub only: Vec<String>,
+    /// Rounds in which every choice is timed once
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
+    pub rounds: u32,
+    /// Form of the report
+    #[arg(long, value_enum, default_value_t = TradeFormat::Text, help_heading = "Output")]
+    pub format: TradeFormat,
+    /// Write to this file in place of standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TradeFormat {
+    Text,
+    Json,
+    Csv,
+}
+
 #[derive(Debug, Args)]
 pub struct SceneArgs {
     /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
@@ -368,6 +416,12 @@ pub struct TraceArgs {
     /// How deep secondary rays go, D_AREC; 0 traces none
     #[arg(long, value_name = "N", default_value_t = 4)]
     pub d_arec: u32,
+    /// A secondary ray that counts for less than this in every colour of its pixel is not traced
+    #[arg(long, value_name = "WEIGHT", value_parser = share, default_value = "0")]
+    pub cut_off: f64,
+    /// Numbers that rays are traced in: f32, f64, or auto for f32 where it can hold the scene
+    #[arg(long, value_name = "NUMBERS", value_parser = precision_names(), default_value = "f64")]
+    pub precision: PrecisionChoice,
     /// Where the first sample lies: in the pixel's centre, or on a lattice that spans the angle
     #[arg(long, value_name = "WHERE", value_parser = sampling_names(), default_value = "center")]
     pub sampling: Sampling,
@@ -464,6 +518,11 @@ fn pixel(text: &str) -> Result<[i64; 2], String> {
     text.split_once(',')
         .and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]))
         .ok_or_else(|| "expected a column and a row, such as 256,256".into())
+}
+
+fn precision_names() -> impl TypedValueParser<Value = PrecisionChoice> {
+    PossibleValuesParser::new(PrecisionChoice::ALL.map(PrecisionChoice::name))
+        .try_map(|name| PrecisionChoice::named(&name).ok_or("no such precision"))
 }
 
 fn sampling_names() -> impl TypedValueParser<Value = Sampling> {

@@ -14,6 +14,7 @@ mod probe;
 mod render;
 mod resolve;
 mod stability;
+mod trade;
 mod verify;
 mod window;
 
@@ -42,6 +43,7 @@ pub fn main() -> ExitCode {
         Some(Command::Methods(args)) => methods::run(args),
         Some(Command::Verify(args)) => verify::run(args),
         Some(Command::Stability(args)) => stability::run(args),
+        Some(Command::Trade(args)) => trade::run(args),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

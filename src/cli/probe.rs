@@ -12,13 +12,14 @@ pub fn run(args: &ProbeArgs) -> Result<Outcome> {
     let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
     let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
     let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
-    let view = render.view()?;
-    let [x, y] = pixel_of(args.pixel, args.picture.resolution)?;
+    // A wrong size is told before a tree is built for it.
+    render.view()?;
+    let pixel = pixel_of(args.pixel, args.picture.resolution)?;
     let mut records = Vec::new();
     for settings in &builds {
         let stage = format!("{}, {}: building", scene.name(), settings.method.name);
         let tree = bar::with_bar(&stage, |progress| build(&scene, settings, progress))?;
-        let record = record_pixel(&scene, &tree, &view, render.d_arec, x, y);
+        let record = record_pixel(&scene, &tree, &render, pixel)?;
         records.push((settings.method, record));
     }
     let report = PixelReport {

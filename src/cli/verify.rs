@@ -4,6 +4,7 @@ use super::args::{PictureArgs, VerifyArgs};
 use super::{Outcome, bar, output, resolve};
 use crate::measure::judge::{Answer, Case, Verdict};
 use crate::measure::{Answers, RaySample, Verification, answer, compare, sample_rays, unsplit};
+use crate::primitive::Precision;
 use crate::report::plain_table;
 use crate::scene::Scene;
 use crate::scene::builtin::BUILTINS;
@@ -17,6 +18,7 @@ use std::path::{Path, PathBuf};
 struct Finding {
     scene: String,
     method: Method,
+    precision: Precision,
     tree: Result<(), Invalid>,
     rays: Verification,
     /// Files with the first faults.
@@ -67,6 +69,7 @@ fn findings_of(text: &str, builds: &[BuildSettings], args: &VerifyArgs) -> Resul
     let any_size = PictureArgs { resolution: [1, 1] };
     let render = resolve::render(*scene.camera(), &args.trace, &any_size);
     let pool = thread_pool(render.threads)?;
+    let precision = render.precision_for(&scene).precision;
     let mut expected: Option<(RaySample, Answers)> = None;
     let mut findings = Vec::new();
     for settings in builds {
@@ -81,16 +84,17 @@ fn findings_of(text: &str, builds: &[BuildSettings], args: &VerifyArgs) -> Resul
                 let sample = bar::with_bar(&stage("taking rays"), |progress| {
                     sample_rays(&scene, &tree, &render, args.rays as usize, &pool, progress)
                 })?;
-                let answers = judged(&scene, &sample, &pool)?;
+                let answers = judged(&scene, precision, &sample, &pool)?;
                 none.insert((sample, answers))
             }
         };
         let found = bar::with_bar(&stage("asking the tree"), |progress| {
-            answer(&scene, &tree, sample, &pool, progress)
+            answer(&scene, &tree, precision, sample, &pool, progress)
         })?;
         findings.push(Finding {
             scene: scene.name().to_owned(),
             method,
+            precision,
             tree: validate(&scene, &tree),
             rays: compare(&scene, sample, answers, &found, None),
             files: Vec::new(),
@@ -196,12 +200,24 @@ fn in_words(verdict: Verdict) -> &'static str {
 }
 
 /// What testing every object says.
-fn judged(scene: &Scene, sample: &RaySample, pool: &rayon::ThreadPool) -> Result<Answers> {
+fn judged(
+    scene: &Scene,
+    precision: Precision,
+    sample: &RaySample,
+    pool: &rayon::ThreadPool,
+) -> Result<Answers> {
     bar::with_bar(
         &format!("{}: testing every object", scene.name()),
         |progress| {
             let everything: Tree = unsplit(scene, progress)?;
-            Ok(answer(scene, &everything, sample, pool, progress)?)
+            Ok(answer(
+                scene,
+                &everything,
+                precision,
+                sample,
+                pool,
+                progress,
+            )?)
         },
     )
 }
@@ -210,19 +226,21 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
     let titles = [
         "scene",
         "method",
+        "precision",
         "tree",
         "kind of rays",
         "rays",
         "ties",
         "faults",
     ];
-    let mut table = plain_table(titles.map(String::from).to_vec(), 4);
+    let mut table = plain_table(titles.map(String::from).to_vec(), 5);
     for finding in findings {
         for kind in RayKind::ALL {
             let k = kind as usize;
             table.add_row([
                 finding.scene.clone(),
                 finding.method.name.into(),
+                finding.precision.name().into(),
                 if finding.tree.is_ok() {
                     "valid".into()
                 } else {
@@ -277,6 +295,7 @@ mod tests {
         let right = || Finding {
             scene: "teaching:1".into(),
             method: Method::of_the_paper()[0],
+            precision: Precision::F64,
             tree: Ok(()),
             rays: Verification {
                 rays: [10; 4],

@@ -231,15 +231,17 @@ impl Current {
         let Some(wish) = self.wish else {
             return;
         };
-        let Ok(view) = self.shown.render.view() else {
+        if self.shown.render.view().is_err() {
             self.unpick();
             return;
-        };
+        }
         let (scene, tree) = (Arc::clone(&self.shown.scene), Arc::clone(&self.shown.tree));
-        let d_arec = self.shown.render.d_arec;
+        let render = self.shown.render;
         let key = (self.number, wish.pixel);
-        let make =
-            move || record_pixel_within(&scene, &tree, &view, d_arec, wish.pixel, MOST_RECORDED);
+        let make = move || {
+            record_pixel_within(&scene, &tree, &render, wish.pixel, MOST_RECORDED)
+                .expect("the camera has a view")
+        };
         if let Some(record) = records.get_soon(&key, ctx, PATIENCE, make) {
             self.wish = None;
             let hit = record.rays[0].path.hit;

@@ -4,8 +4,8 @@ use super::{SceneFacts, TreeFacts};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
 use crate::trace::{
-    CountedPass, Picture, RayKind, RenderError, RenderSettings, Tally, TimedPass, counted_pass,
-    thread_pool, timed_pass,
+    ChosenPrecision, CountedPass, Picture, RayKind, RenderError, RenderSettings, Tally, TimedPass,
+    counted_pass, thread_pool, timed_pass,
 };
 use crate::tree::{BuildError, BuildSettings, MaxDepth, Tree, build};
 use cpu_time::ThreadTime;
@@ -57,6 +57,10 @@ impl Times {
 pub struct Measurement {
     pub build: BuildSettings,
     pub render: RenderSettings,
+    /// The precision that rays are traced in, and why.
+    pub precision: ChosenPrecision,
+    /// Bytes of the objects as intersection wants them in this precision.
+    pub object_bytes: u64,
     /// The greatest depth allowed, resolved.
     pub depth_limit: u32,
     pub scene: SceneFacts,
@@ -77,15 +81,31 @@ impl Measurement {
         building: Times,
         render: &RenderSettings,
     ) -> Measurement {
+        let precision = render.precision_for(scene);
         Measurement {
             build: tree.settings().clone(),
             render: *render,
+            object_bytes: scene.shapes(precision.precision).bytes() as u64,
+            precision,
             depth_limit: tree.depth_limit(),
             scene: SceneFacts::of(scene),
             tree: TreeFacts::of(tree),
             building,
             rendering: None,
             counted: None,
+        }
+    }
+
+    /// The same scene and tree with other render settings, not traced yet.
+    pub fn with_render(&self, scene: &Scene, render: &RenderSettings) -> Measurement {
+        let precision = render.precision_for(scene);
+        Measurement {
+            render: *render,
+            object_bytes: scene.shapes(precision.precision).bytes() as u64,
+            precision,
+            rendering: None,
+            counted: None,
+            ..self.clone()
         }
     }
 

@@ -8,6 +8,7 @@ mod measurement;
 mod parameter;
 mod parameters;
 pub mod stability;
+pub mod trade;
 mod verify;
 
 pub use comparison::{Change, Unequal, change, differing_pixels, unequal};

@@ -180,6 +180,15 @@ parameters! {
     "T_TR_WALL", "render time on the wall", Ours T Seconds,
         "Time on the wall clock of rendering the picture with all threads.", "",
         |m| m.rendering.map(|r| r.wall.as_secs_f64());
+    "N_BITS", "bits of a number", Ours S Count,
+        "Bits of the numbers in which rays are traced, 32 or 64.", "",
+        |m| Some(f64::from(m.precision.precision.bits()));
+    "W_CUT", "cut-off", Ours S Ratio,
+        "A secondary ray that counts for less than this in every colour of its pixel is not traced.",
+        "", |m| Some(m.render.cut_off);
+    "M_OBJ", "object memory", Ours C Bytes,
+        "Memory of the objects as intersection tests take them, in the precision used.", "",
+        |m| Some(m.object_bytes as f64);
     "M_TREE", "tree memory", Ours C Bytes, "Memory that nodes and references hold.", "",
         |m| Some(m.tree.bytes as f64);
 }

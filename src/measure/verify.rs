@@ -1,12 +1,13 @@
 //! Whether a tree gives the same hits as testing every object, on rays of every kind; where not, the
 //! judge says why.
 
-use super::judge::{Answer, Precision, Tally, Tolerance, Verdict, scale_of, settle};
+use super::judge::{Answer, Tally, Tolerance, Verdict, scale_of, settle};
 use crate::geometry::Ray;
+use crate::primitive::Precision;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
 use crate::trace::{
-    Batch, Hit, RayKind, RayTracer, RenderError, RenderSettings, Shapes, Timed, tiles,
+    Batch, Hit, RayKind, RayTracer, RenderError, RenderSettings, Shading, Timed, tiles,
     trace_samples,
 };
 use crate::tree::{BuildError, BuildSettings, Method, Tree, build};
@@ -115,8 +116,7 @@ pub fn sample_rays(
         height: side,
         ..*settings
     };
-    let view = settings.view()?;
-    let shapes = Shapes::of(scene);
+    let shading = Shading::new(scene, &settings)?;
     let mut found = RaySample::default();
     for sample in 0..64 {
         let parts: Vec<RaySample> = pool.install(|| {
@@ -125,18 +125,10 @@ pub fn sample_rays(
                 .map(|tile| {
                     let pixels: Vec<_> = (0..tile.len() as u32).map(|i| tile.pixel(i)).collect();
                     let mut recorder = Recorder {
-                        tracer: Timed::new(tree, &shapes, progress),
+                        tracer: Timed::new(tree, shading.shapes, progress),
                         sample: RaySample::default(),
                     };
-                    trace_samples(
-                        scene,
-                        &view,
-                        settings.d_arec,
-                        &pixels,
-                        sample,
-                        &mut recorder,
-                        &mut Vec::new(),
-                    );
+                    trace_samples(&shading, &pixels, sample, &mut recorder, &mut Vec::new());
                     recorder.sample
                 })
                 .collect()
@@ -166,26 +158,27 @@ pub fn sample_rays(
     Ok(found)
 }
 
-/// Asks a tree about every ray of a sample.
+/// Asks a tree about every ray of a sample, in a precision.
 ///
 /// # Errors
 /// Cancellation.
 pub fn answer(
     scene: &Scene,
     tree: &Tree,
+    precision: Precision,
     sample: &RaySample,
     pool: &rayon::ThreadPool,
     progress: &Progress,
 ) -> Result<Answers, Cancelled> {
     const CHUNK: usize = 256;
-    let shapes = Shapes::of(scene);
+    let shapes = scene.shapes(precision);
     let mut answers = Answers::default();
     let total: usize = sample.rays.iter().map(Vec::len).sum();
     let done = std::sync::atomic::AtomicUsize::new(0);
     pool.install(|| {
         for kind in RayKind::ALL {
             let chunks = sample.rays[kind as usize].par_chunks(CHUNK).map(|rays| {
-                let mut tracer = Timed::new(tree, &shapes, progress);
+                let mut tracer = Timed::new(tree, shapes, progress);
                 let batch = Batch {
                     kind,
                     rays,
@@ -221,10 +214,10 @@ pub fn unsplit(scene: &Scene, progress: &Progress) -> Result<Tree, BuildError> {
     build(scene, &settings, progress)
 }
 
-/// What a tree says of one ray.
+/// What a tree says of one ray, in `f64`.
 pub fn ask(scene: &Scene, tree: &Tree, kind: RayKind, ray: &Ray) -> Answer {
-    let (shapes, progress) = (Shapes::of(scene), Progress::new());
-    let mut tracer = Timed::new(tree, &shapes, &progress);
+    let (shapes, progress) = (scene.shapes(Precision::F64), Progress::new());
+    let mut tracer = Timed::new(tree, shapes, &progress);
     let batch = Batch {
         kind,
         rays: std::slice::from_ref(ray),
@@ -257,6 +250,7 @@ pub fn verify_sample(
 ) -> Result<Verification, RenderError> {
     const AT_ONCE: usize = 64;
     let sample = sample_rays(scene, tree, settings, per_kind, pool, progress)?;
+    let precision = settings.precision_for(scene).precision;
     // A scene that has a tree has this one, too, unless there is no time for it.
     let everything = unsplit(scene, progress).map_err(|_| Cancelled)?;
     let mut result = Verification::default();
@@ -268,8 +262,8 @@ pub fn verify_sample(
                 rays[from.min(to)..to].to_vec()
             }),
         };
-        let expected = answer(scene, &everything, &part, pool, progress)?;
-        let found = answer(scene, tree, &part, pool, progress)?;
+        let expected = answer(scene, &everything, precision, &part, pool, progress)?;
+        let found = answer(scene, tree, precision, &part, pool, progress)?;
         result += compare(scene, &part, &expected, &found, None);
         progress.set((from + AT_ONCE) as f64 / most as f64);
         so_far(&result);

@@ -11,16 +11,22 @@ pub struct Cone {
     base_radius: f64,
     apex: Vec3,
     apex_radius: f64,
+    side: Side,
+}
+
+/// The surface as its intersection wants it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Side {
     /// From base to apex, of unit length.
-    axis: Vec3,
+    pub(super) axis: Vec3,
     /// The middle of the axis, from which heights count.
-    middle: Vec3,
-    half_length: f64,
+    pub(super) middle: Vec3,
+    pub(super) half_length: f64,
     /// The radius at the middle, and by how much it grows per height.
-    middle_radius: f64,
-    slope: f64,
+    pub(super) middle_radius: f64,
+    pub(super) slope: f64,
     /// Square of the largest distance from the middle, rounding included.
-    squared_reach: f64,
+    pub(super) squared_reach: f64,
 }
 
 impl Cone {
@@ -56,12 +62,14 @@ impl Cone {
             base_radius,
             apex,
             apex_radius,
-            axis: along / length,
-            middle: base + 0.5 * along,
-            half_length,
-            middle_radius: 0.5 * base_radius + 0.5 * apex_radius,
-            slope: (apex_radius - base_radius) / length,
-            squared_reach: (half_length * half_length + radius * radius) * (1.0 + 1e-12),
+            side: Side {
+                axis: along / length,
+                middle: base + 0.5 * along,
+                half_length,
+                middle_radius: 0.5 * base_radius + 0.5 * apex_radius,
+                slope: (apex_radius - base_radius) / length,
+                squared_reach: (half_length * half_length + radius * radius) * (1.0 + 1e-12),
+            },
         })
     }
 
@@ -85,7 +93,11 @@ impl Cone {
 
     /// The length of the axis.
     pub fn length(&self) -> f64 {
-        2.0 * self.half_length
+        2.0 * self.side.half_length
+    }
+
+    pub(super) fn side(&self) -> &Side {
+        &self.side
     }
 
     /// Whether both radii are equal.
@@ -100,12 +112,12 @@ impl Cone {
     /// axis × y where that vanishes. The same on every platform. A side too narrow for its
     /// coordinates is left out.
     pub fn prism(&self, sides: u32) -> Vec<Polygon> {
-        let u = self
-            .axis
+        let axis = self.side.axis;
+        let u = axis
             .cross(Vec3::X)
             .try_normalize()
-            .unwrap_or_else(|| self.axis.cross(Vec3::Y).normalize());
-        let v = self.axis.cross(u);
+            .unwrap_or_else(|| axis.cross(Vec3::Y).normalize());
+        let v = axis.cross(u);
         let vertex = |center: Vec3, radius: f64, i: u32| {
             let angle = std::f64::consts::TAU * f64::from(i % sides) / f64::from(sides);
             center + radius * (libm::cos(angle) * u + libm::sin(angle) * v)
@@ -150,36 +162,7 @@ impl Cone {
     }
 }
 
-impl Shape for Cone {
-    /// The tight box of the two discs: one of radius r and unit normal n reaches r √(1 − nᵢ²) along
-    /// axis i, here by the other two components of n, which leave nothing to cancel.
-    fn bounds(&self) -> Aabb {
-        let n = self.axis;
-        let squares = n * n;
-        let extent = Vec3::new(
-            (squares.y + squares.z).sqrt(),
-            (squares.z + squares.x).sqrt(),
-            (squares.x + squares.y).sqrt(),
-        );
-        let disc = |center: Vec3, radius: f64| {
-            Aabb::new(center - radius * extent, center + radius * extent)
-        };
-        let base = disc(self.base, self.base_radius);
-        numeric::grown(base.union(&disc(self.apex, self.apex_radius)))
-    }
-
-    /// The solid between the two discs, its inside included.
-    fn overlaps(&self, cell: &Aabb) -> bool {
-        let bounds = self.bounds();
-        let across = self.axis.any_orthonormal_pair();
-        let difference = |direction: Vec3| {
-            let nearest = Vec3::select(direction.cmpgt(Vec3::ZERO), cell.lo, cell.hi);
-            self.support(direction, across) - nearest
-        };
-        let scale = bounds.magnitude().max(cell.magnitude());
-        bounds.touches(cell) && !gjk::excludes_origin(difference, scale)
-    }
-
+impl Side {
     /// The quadratic of the infinite cone or cylinder, its roots kept where their height is that of
     /// the surface; there the radius is not negative, so the cone's other half never counts.
     ///
@@ -187,7 +170,7 @@ impl Shape for Cone {
     /// equal numbers, for the reasons that Haines, Günther and Akenine-Möller give for spheres
     /// (Ray Tracing Gems, 2019, ch. 7). A line that runs in the surface has no hit.
     #[inline]
-    fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+    pub(super) fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let direction = ray.direction;
         let squared_length = direction.length_squared();
         if !numeric::is_workable(squared_length) {
@@ -223,31 +206,74 @@ impl Shape for Cone {
         };
         hit(near).or_else(|| hit(far))
     }
+}
+
+impl Shape for Cone {
+    /// The tight box of the two discs: one of radius r and unit normal n reaches r √(1 − nᵢ²) along
+    /// axis i, here by the other two components of n, which leave nothing to cancel.
+    fn bounds(&self) -> Aabb {
+        let n = self.side.axis;
+        let squares = n * n;
+        let extent = Vec3::new(
+            (squares.y + squares.z).sqrt(),
+            (squares.z + squares.x).sqrt(),
+            (squares.x + squares.y).sqrt(),
+        );
+        let disc = |center: Vec3, radius: f64| {
+            Aabb::new(center - radius * extent, center + radius * extent)
+        };
+        let base = disc(self.base, self.base_radius);
+        numeric::grown(base.union(&disc(self.apex, self.apex_radius)))
+    }
+
+    /// The solid between the two discs, its inside included.
+    fn overlaps(&self, cell: &Aabb) -> bool {
+        let bounds = self.bounds();
+        let across = self.side.axis.any_orthonormal_pair();
+        let difference = |direction: Vec3| {
+            let nearest = Vec3::select(direction.cmpgt(Vec3::ZERO), cell.lo, cell.hi);
+            self.support(direction, across) - nearest
+        };
+        let scale = bounds.magnitude().max(cell.magnitude());
+        bounds.touches(cell) && !gjk::excludes_origin(difference, scale)
+    }
+
+    #[inline]
+    fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+        self.side.intersect(ray, t_max)
+    }
+
+    /// The larger diameter or the length of the side, whichever is less.
+    fn breadth(&self) -> f64 {
+        let slant = self.length().hypot(self.apex_radius - self.base_radius);
+        slant.min(2.0 * self.base_radius.max(self.apex_radius))
+    }
 
     fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
-        let met = ray.at(t) - self.middle;
-        let height = met.dot(self.axis);
-        let across = met - height * self.axis;
+        let side = &self.side;
+        let met = ray.at(t) - side.middle;
+        let height = met.dot(side.axis);
+        let across = met - height * side.axis;
         let distance = across.length();
         let outward = across
             .try_normalize()
-            .unwrap_or_else(|| self.axis.any_orthonormal_vector());
+            .unwrap_or_else(|| side.axis.any_orthonormal_vector());
 
         // In the half-plane through the axis and the point, the surface is a straight segment.
-        let slant = (1.0 + self.slope * self.slope).sqrt();
-        let (along_radius, along_axis) = (self.slope / slant, 1.0 / slant);
-        let along = (distance - self.middle_radius) * along_radius + height * along_axis;
-        let half = self.half_length * slant;
+        let slant = (1.0 + side.slope * side.slope).sqrt();
+        let (along_radius, along_axis) = (side.slope / slant, 1.0 / slant);
+        let along = (distance - side.middle_radius) * along_radius + height * along_axis;
+        let half = side.half_length * slant;
         let along = along.clamp(-half, half);
-        let radius = (self.middle_radius + along * along_radius).max(0.0);
+        let radius = (side.middle_radius + along * along_radius).max(0.0);
         let bounds = self.bounds();
-        let point = self.middle + along * along_axis * self.axis + radius * outward;
-        let normal = (along_axis * outward - along_radius * self.axis).normalize();
+        let point = side.middle + along * along_axis * side.axis + radius * outward;
+        let normal = (along_axis * outward - along_radius * side.axis).normalize();
         SurfacePoint {
             point: point.clamp(bounds.lo, bounds.hi),
             normal,
             shading_normal: normal,
-            error: 16.0 * f64::EPSILON * bounds.magnitude().max(self.half_length),
+            error: 16.0 * f64::EPSILON * bounds.magnitude().max(side.half_length),
         }
     }
 }

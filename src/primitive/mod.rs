@@ -6,14 +6,25 @@
 mod cone;
 mod gjk;
 mod numeric;
+mod packed;
+mod packed_ray;
 mod polygon;
+mod precision;
+mod shapes;
 mod sphere;
 mod triangle;
+mod unit_frame;
 
 pub use cone::Cone;
+pub use packed::Form;
+pub use packed_ray::PackedRay;
 pub use polygon::Polygon;
+pub use precision::Precision;
+pub(crate) use shapes::with_array;
+pub use shapes::{Arrays, Frailest, Shapes};
 pub use sphere::Sphere;
 pub use triangle::Triangle;
+pub use unit_frame::UnitFrame;
 
 use crate::geometry::{Aabb, Ray, Vec3};
 
@@ -31,6 +42,18 @@ pub trait Shape: Send + Sync {
 
     /// The surface where the ray meets it at `t`, which [`Shape::intersect`] returned.
     fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint;
+
+    /// The surface's least width, a length: numbers must tell it from 0 to tell the object from a
+    /// line or a point. 0 for a point.
+    fn breadth(&self) -> f64;
+
+    /// Bytes that the object takes, with what it points to.
+    fn bytes(&self) -> usize
+    where
+        Self: Sized,
+    {
+        size_of::<Self>()
+    }
 }
 
 /// A point of a surface, as shading needs it.
@@ -145,10 +168,19 @@ impl Shape for Primitive {
 
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        each_kind!(self, shape => shape.intersect(ray, t_max))
+        each_kind!(self, shape => Shape::intersect(shape, ray, t_max))
     }
 
     fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
         each_kind!(self, shape => shape.surface(ray, t))
+    }
+
+    fn breadth(&self) -> f64 {
+        each_kind!(self, shape => shape.breadth())
+    }
+
+    fn bytes(&self) -> usize {
+        let inside = each_kind!(self, shape => Shape::bytes(shape) - size_of_val(shape));
+        size_of::<Self>() + inside
     }
 }

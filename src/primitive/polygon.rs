@@ -154,7 +154,7 @@ impl Polygon {
 
     /// The vertices of the outline in space: each moved into the plane along the dropped axis, but
     /// left as it is where only rounding keeps it off; neighbours in a mesh then have it in common.
-    fn vertices_in_plane(&self) -> impl Iterator<Item = Vec3> {
+    pub(super) fn vertices_in_plane(&self) -> impl Iterator<Item = Vec3> {
         let normal = numeric::turned(self.normal, self.axis);
         let anchor = numeric::turned(self.anchor, self.axis);
         let axis = self.axis.index();
@@ -305,6 +305,13 @@ fn is_inside(outline: &[[f64; 2]], point: [f64; 2], slack: f64) -> Option<bool> 
 }
 
 impl Shape for Polygon {
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+            + size_of_val(&*self.vertices)
+            + size_of_val(&*self.outline)
+            + self.normals.as_deref().map_or(0, size_of_val)
+    }
+
     fn bounds(&self) -> Aabb {
         self.bounds
     }
@@ -362,6 +369,17 @@ impl Shape for Polygon {
         } else {
             numeric::with_direction_rescaled(ray, t_max, |r, t| self.intersect_workable(r, t))
         }
+    }
+
+    /// The area over the bounds' longest edge, which is at most the width.
+    fn breadth(&self) -> f64 {
+        let first = self.vertices[0];
+        let size = self.bounds.size().max_element();
+        let fan = self.vertices.windows(2).map(|edge| {
+            let [a, b] = [edge[0], edge[1]].map(|v| (v - first) / size);
+            a.cross(b)
+        });
+        0.5 * fan.sum::<Vec3>().length() * size
     }
 
     fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {

@@ -68,6 +68,11 @@ impl Shape for Sphere {
             .or_else(|| Some(far).filter(in_reach))
     }
 
+    /// The diameter.
+    fn breadth(&self) -> f64 {
+        2.0 * self.radius
+    }
+
     fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
         let normal = (ray.at(t) - self.center).normalize_or(Vec3::Z);
         SurfacePoint {

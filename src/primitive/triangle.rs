@@ -99,6 +99,10 @@ impl Triangle {
 }
 
 impl Shape for Triangle {
+    fn bytes(&self) -> usize {
+        size_of::<Self>() + self.normals.as_deref().map_or(0, size_of_val)
+    }
+
     fn bounds(&self) -> Aabb {
         numeric::grown(Aabb::around(self.vertices))
     }
@@ -135,6 +139,13 @@ impl Shape for Triangle {
         let t = (u * a.z + v * b.z + w * c.z) / determinant;
         let in_reach = ray.t_min <= t && t <= t_max && t.is_finite();
         (in_reach && !self.is_edge_on(ray, determinant, [a, b, c])).then_some(t)
+    }
+
+    /// The height over the longest edge.
+    fn breadth(&self) -> f64 {
+        let [a, b, c] = self.vertices;
+        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+        self.normal_and_flatness().1 * longest
     }
 
     fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {

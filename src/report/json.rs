@@ -90,6 +90,12 @@ fn settings(run: &Measurement) -> Result<Value> {
         "memory_limit": build.memory_limit >> 20,
         "resolution": [render.width, render.height],
         "d_arec": render.d_arec,
+        "cut_off": render.cut_off,
+        "precision": {
+            "asked": name(&render.precision)?,
+            "used": run.precision.precision.name(),
+            "why": run.precision.why,
+        },
         "sampling": name(&render.sampling)?,
         "threads": render.threads,
         "camera": render.camera,

@@ -7,6 +7,7 @@ mod markdown;
 pub mod pixel;
 mod sections;
 mod text;
+pub mod trade;
 mod words;
 
 pub use text::{plain_table, write_summary};

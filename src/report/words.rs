@@ -64,6 +64,7 @@ pub fn settings(report: &Report) -> Vec<String> {
             point(camera.at),
             camera.angle
         ));
+        lines.push(format!("Precision: {}", run.precision));
     }
     lines.extend(report.runs.iter().map(tree));
     lines

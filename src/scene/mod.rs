@@ -4,6 +4,7 @@ pub mod builtin;
 mod camera;
 pub mod format;
 mod material;
+mod prepared;
 mod requirements;
 mod source;
 mod tessellate;
@@ -15,7 +16,8 @@ pub use source::{LoadError, SceneRequest, SceneSource, load};
 pub use tessellate::Cylinders;
 
 use crate::geometry::{Aabb, Vec3};
-use crate::primitive::{Primitive, Shape};
+use crate::primitive::{Precision, Primitive, Shape, Shapes};
+use prepared::Prepared;
 
 /// What a reader or a generator gathers; [`Scene::new`] makes a scene of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +43,7 @@ pub struct Scene {
     parts: SceneParts,
     bounds: Aabb,
     requirements: Requirements,
+    prepared: Prepared,
 }
 
 impl Scene {
@@ -63,6 +66,7 @@ impl Scene {
             parts,
             bounds,
             requirements,
+            prepared: Prepared::default(),
         }
     }
 
@@ -100,6 +104,12 @@ impl Scene {
     /// What rendering this scene takes, and what it does not.
     pub fn requirements(&self) -> &Requirements {
         &self.requirements
+    }
+
+    /// The objects made ready for tracing in a precision: when first asked for, then kept.
+    pub fn shapes(&self, precision: Precision) -> &Shapes {
+        self.prepared
+            .get(precision, &self.parts.objects, &self.bounds)
     }
 
     /// What the reader had to say about the file.

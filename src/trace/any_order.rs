@@ -1,37 +1,46 @@
 //! Every object along a ray, for the depth complexity `D_COMPX`.
 
-use super::shapes::{Objects, with_objects};
-use super::{LeafVisitor, Probe, Scratch, Shapes, traverse};
+use super::kernel::with_shapes;
+use super::space::{Inside, Space};
+use super::{LeafVisitor, Probe, Scratch};
 use crate::geometry::Ray;
+use crate::primitive::{Form, Shapes};
 use crate::tree::Tree;
 
-struct All<'a, O: ?Sized> {
-    objects: &'a O,
+struct All<'a, F: Form> {
+    ray: &'a F::Ray,
+    t_max: f64,
+    objects: &'a [F],
     found: &'a mut Vec<u32>,
 }
 
-impl<O: Objects + ?Sized> LeafVisitor for All<'_, O> {
-    fn visit<P: Probe>(&mut self, ray: &Ray, objects: &[u32], _: &mut P) -> f64 {
+impl<F: Form> LeafVisitor for All<'_, F> {
+    fn visit<P: Probe>(&mut self, objects: &[u32], _: &mut P) -> f64 {
         for &object in objects {
-            if self.objects.intersect(object, ray, ray.t_max).is_some() {
+            let shape = &self.objects[object as usize];
+            if shape.intersect(self.ray, self.t_max).is_some() {
                 self.found.push(object);
             }
         }
-        ray.t_max
+        self.t_max
     }
 }
 
 /// The objects that a ray meets, each once and in ascending order; `found` is overwritten.
 pub fn objects_along(
     tree: &Tree,
-    shapes: &Shapes<'_>,
+    shapes: &Shapes,
     ray: &Ray,
     scratch: &mut Scratch,
     found: &mut Vec<u32>,
 ) {
     found.clear();
-    with_objects!(shapes, objects => {
-        traverse(tree, ray, scratch, &mut All { objects, found }, &mut ());
+    with_shapes!(shapes, space, objects => {
+        if let Some(inside) = space.enter(ray) {
+            let [_, t_max] = inside.interval();
+            let mut all = All { objects, ray: &inside, t_max, found };
+            inside.walk(tree, scratch, &mut all, &mut ());
+        }
     });
     found.sort_unstable();
     found.dedup();

@@ -1,8 +1,9 @@
 //! Kernels over batches of rays: closest hit and any hit, timed or counted.
 
-use super::shapes::{Objects, with_objects};
-use super::{LeafVisitor, PixelTallies, Probe, RayCounts, Scratch, Shapes, Tally, traverse};
+use super::space::{Inside, Space, World};
+use super::{LeafVisitor, PixelTallies, Probe, RayCounts, Scratch, Tally};
 use crate::geometry::Ray;
+use crate::primitive::{Form, Shapes};
 use crate::progress::Progress;
 use crate::tree::Tree;
 use cpu_time::ThreadTime;
@@ -26,6 +27,17 @@ impl Hit {
 
     pub fn is_hit(&self) -> bool {
         self.object != u32::MAX
+    }
+
+    /// A hit on a ray where it was traced, as one on the ray of the world.
+    #[inline(always)]
+    fn in_world<I: Inside>(self, inside: &I) -> Hit {
+        if self.is_hit() {
+            let t = inside.to_world(self.t);
+            Hit { t, ..self }
+        } else {
+            Hit::MISS
+        }
     }
 }
 
@@ -65,6 +77,24 @@ pub struct Batch<'a> {
 /// 50,000 objects each, they take a few milliseconds.
 const RAYS_PER_LOOK: usize = 16;
 
+/// Runs `$body` with `$objects` bound to the one array of objects there is and `$space` to where they
+/// are, compiled once for every kind and precision.
+macro_rules! with_shapes {
+    ($shapes:expr, $space:ident, $objects:ident => $body:expr) => {
+        match $shapes {
+            $crate::primitive::Shapes::F64(arrays) => {
+                let $space = &$crate::trace::space::World;
+                $crate::primitive::with_array!(arrays, $objects => $body)
+            }
+            $crate::primitive::Shapes::F32 { frame, arrays, .. } => {
+                let $space = frame;
+                $crate::primitive::with_array!(arrays, $objects => $body)
+            }
+        }
+    };
+}
+pub(super) use with_shapes;
+
 /// What the renderer asks for, a batch at a time. A cancelled task leaves the rest of a batch
 /// untraced, as misses.
 pub trait RayTracer {
@@ -76,16 +106,17 @@ pub trait RayTracer {
     fn any_hits(&mut self, batch: Batch<'_>, blocked: &mut Vec<bool>);
 }
 
-struct Closest<'a, O: ?Sized> {
-    objects: &'a O,
+struct Closest<'a, F: Form> {
+    objects: &'a [F],
+    ray: &'a F::Ray,
     best: Hit,
 }
 
-impl<O: Objects + ?Sized> LeafVisitor for Closest<'_, O> {
+impl<F: Form> LeafVisitor for Closest<'_, F> {
     #[inline(always)]
-    fn visit<P: Probe>(&mut self, ray: &Ray, objects: &[u32], probe: &mut P) -> f64 {
+    fn visit<P: Probe>(&mut self, objects: &[u32], probe: &mut P) -> f64 {
         for &object in objects {
-            let hit = self.objects.intersect(object, ray, self.best.t);
+            let hit = self.objects[object as usize].intersect(self.ray, self.best.t);
             probe.test(object, hit);
             if let Some(t) = hit
                 && (t < self.best.t || object < self.best.object)
@@ -97,23 +128,25 @@ impl<O: Objects + ?Sized> LeafVisitor for Closest<'_, O> {
     }
 }
 
-struct Any<'a, O: ?Sized> {
-    objects: &'a O,
+struct Any<'a, F: Form> {
+    objects: &'a [F],
+    ray: &'a F::Ray,
+    t_max: f64,
     blocked: bool,
 }
 
-impl<O: Objects + ?Sized> LeafVisitor for Any<'_, O> {
+impl<F: Form> LeafVisitor for Any<'_, F> {
     #[inline(always)]
-    fn visit<P: Probe>(&mut self, ray: &Ray, objects: &[u32], probe: &mut P) -> f64 {
+    fn visit<P: Probe>(&mut self, objects: &[u32], probe: &mut P) -> f64 {
         for &object in objects {
-            let hit = self.objects.intersect(object, ray, ray.t_max);
+            let hit = self.objects[object as usize].intersect(self.ray, self.t_max);
             probe.test(object, hit);
             if hit.is_some() {
                 self.blocked = true;
                 return f64::NEG_INFINITY;
             }
         }
-        ray.t_max
+        self.t_max
     }
 }
 
@@ -124,7 +157,7 @@ struct Walk {
 
 impl LeafVisitor for Walk {
     #[inline(always)]
-    fn visit<P: Probe>(&mut self, _: &Ray, _: &[u32], _: &mut P) -> f64 {
+    fn visit<P: Probe>(&mut self, _: &[u32], _: &mut P) -> f64 {
         self.leaves -= 1;
         if self.leaves == 0 {
             f64::NEG_INFINITY
@@ -140,10 +173,10 @@ trait Question {
     /// The answer for a ray that hits nothing.
     const MISS: Self::Answer;
 
-    fn ask<O: Objects + ?Sized, P: Probe>(
+    fn ask<I: Inside, F: Form<Ray = I>, P: Probe>(
         tree: &Tree,
-        objects: &O,
-        ray: &Ray,
+        objects: &[F],
+        ray: &I,
         scratch: &mut Scratch,
         probe: &mut P,
     ) -> Self::Answer;
@@ -159,24 +192,20 @@ impl Question for WhatIsNearest {
     const MISS: Hit = Hit::MISS;
 
     #[inline(always)]
-    fn ask<O: Objects + ?Sized, P: Probe>(
+    fn ask<I: Inside, F: Form<Ray = I>, P: Probe>(
         tree: &Tree,
-        objects: &O,
-        ray: &Ray,
+        objects: &[F],
+        ray: &I,
         scratch: &mut Scratch,
         probe: &mut P,
     ) -> Hit {
         let best = Hit {
-            t: ray.t_max,
+            t: ray.interval()[1],
             object: u32::MAX,
         };
-        let mut visitor = Closest { objects, best };
-        traverse(tree, ray, scratch, &mut visitor, probe);
-        if visitor.best.is_hit() {
-            visitor.best
-        } else {
-            Hit::MISS
-        }
+        let mut visitor = Closest { objects, ray, best };
+        ray.walk(tree, scratch, &mut visitor, probe);
+        visitor.best.in_world(ray)
     }
 
     fn is_hit(answer: Hit) -> bool {
@@ -192,18 +221,20 @@ impl Question for IsAnythingHit {
     const MISS: bool = false;
 
     #[inline(always)]
-    fn ask<O: Objects + ?Sized, P: Probe>(
+    fn ask<I: Inside, F: Form<Ray = I>, P: Probe>(
         tree: &Tree,
-        objects: &O,
-        ray: &Ray,
+        objects: &[F],
+        ray: &I,
         scratch: &mut Scratch,
         probe: &mut P,
     ) -> bool {
         let mut visitor = Any {
             objects,
+            ray,
+            t_max: ray.interval()[1],
             blocked: false,
         };
-        traverse(tree, ray, scratch, &mut visitor, probe);
+        ray.walk(tree, scratch, &mut visitor, probe);
         visitor.blocked
     }
 
@@ -212,38 +243,85 @@ impl Question for IsAnythingHit {
     }
 }
 
-/// The nearest hit of one ray, watched by a probe.
-pub(super) fn closest_hit<P: Probe>(
+/// Asks about a ray of the world.
+#[inline(always)]
+fn ask<Q: Question, S: Space, F: Form<Ray = S::Inside>, P: Probe>(
     tree: &Tree,
-    shapes: &Shapes<'_>,
+    (space, objects): (&S, &[F]),
+    ray: &Ray,
+    scratch: &mut Scratch,
+    probe: &mut P,
+) -> Q::Answer {
+    match space.enter(ray) {
+        Some(inside) => Q::ask(tree, objects, &inside, scratch, probe),
+        None => Q::MISS,
+    }
+}
+
+/// The nearest hit of one ray, watched by a probe (`()` watches nothing); of equal distances the
+/// lower object number.
+pub fn closest_hit<P: Probe>(
+    tree: &Tree,
+    shapes: &Shapes,
     ray: &Ray,
     scratch: &mut Scratch,
     probe: &mut P,
 ) -> Hit {
-    with_objects!(shapes, objects => WhatIsNearest::ask(tree, objects, ray, scratch, probe))
+    with_shapes!(shapes, space, objects => {
+        ask::<WhatIsNearest, _, _, P>(tree, (space, objects), ray, scratch, probe)
+    })
 }
 
 /// Whether anything lies on a ray before its end, watched by a probe.
-pub(super) fn any_hit<P: Probe>(
+pub fn any_hit<P: Probe>(
     tree: &Tree,
-    shapes: &Shapes<'_>,
+    shapes: &Shapes,
     ray: &Ray,
     scratch: &mut Scratch,
     probe: &mut P,
 ) -> bool {
-    with_objects!(shapes, objects => IsAnythingHit::ask(tree, objects, ray, scratch, probe))
+    with_shapes!(shapes, space, objects => {
+        ask::<IsAnythingHit, _, _, P>(tree, (space, objects), ray, scratch, probe)
+    })
+}
+
+/// [`closest_hit`] by testing every object, without a tree.
+pub fn closest_of_all(shapes: &Shapes, ray: &Ray) -> Hit {
+    with_shapes!(shapes, space, objects => {
+        let Some(ray) = space.enter(ray) else {
+            return Hit::MISS;
+        };
+        let [_, t_max] = ray.interval();
+        let hits = objects.iter().zip(0..).filter_map(|(shape, object)| {
+            let t = shape.intersect(&ray, t_max)?;
+            Some(Hit { t, object })
+        });
+        // Of equal distances the first stays.
+        let nearest = hits.reduce(|a, b| if b.t < a.t { b } else { a });
+        nearest.map_or(Hit::MISS, |hit| hit.in_world(&ray))
+    })
+}
+
+/// [`any_hit`] by testing every object, without a tree.
+pub fn any_of_all(shapes: &Shapes, ray: &Ray) -> bool {
+    with_shapes!(shapes, space, objects => {
+        space.enter(ray).is_some_and(|ray| {
+            let [_, t_max] = ray.interval();
+            objects.iter().any(|shape| shape.intersect(&ray, t_max).is_some())
+        })
+    })
 }
 
 /// The kernel whose time counts: it counts nothing.
 pub struct Timed<'a> {
     tree: &'a Tree,
-    shapes: &'a Shapes<'a>,
+    shapes: &'a Shapes,
     progress: &'a Progress,
     scratch: Scratch,
 }
 
 impl<'a> Timed<'a> {
-    pub fn new(tree: &'a Tree, shapes: &'a Shapes<'a>, progress: &'a Progress) -> Self {
+    pub fn new(tree: &'a Tree, shapes: &'a Shapes, progress: &'a Progress) -> Self {
         Timed {
             tree,
             shapes,
@@ -254,13 +332,14 @@ impl<'a> Timed<'a> {
 
     fn ask_all<Q: Question>(&mut self, batch: Batch<'_>, answers: &mut Vec<Q::Answer>) {
         answers.clear();
-        with_objects!(self.shapes, objects => {
+        with_shapes!(self.shapes, space, objects => {
             for rays in batch.rays.chunks(RAYS_PER_LOOK) {
                 if self.progress.is_cancelled() {
                     break;
                 }
                 answers.extend(rays.iter().map(|ray| {
-                    Q::ask(self.tree, objects, ray, &mut self.scratch, &mut ())
+                    let scratch = &mut self.scratch;
+                    ask::<Q, _, _, _>(self.tree, (space, objects), ray, scratch, &mut ())
                 }));
             }
         });
@@ -282,7 +361,7 @@ impl RayTracer for Timed<'_> {
 /// rays through the tree once more, by the timed traversal without tests, and takes that time.
 pub struct Counting<'a> {
     tree: &'a Tree,
-    shapes: &'a Shapes<'a>,
+    shapes: &'a Shapes,
     progress: &'a Progress,
     scratch: Scratch,
     counts: Vec<RayCounts>,
@@ -296,12 +375,7 @@ pub struct Counting<'a> {
 
 impl<'a> Counting<'a> {
     /// A kernel for batches of rays that belong to `pixels` pixels.
-    pub fn new(
-        tree: &'a Tree,
-        shapes: &'a Shapes<'a>,
-        progress: &'a Progress,
-        pixels: usize,
-    ) -> Self {
+    pub fn new(tree: &'a Tree, shapes: &'a Shapes, progress: &'a Progress, pixels: usize) -> Self {
         Counting {
             tree,
             shapes,
@@ -317,7 +391,7 @@ impl<'a> Counting<'a> {
     fn ask_all<Q: Question>(&mut self, batch: Batch<'_>, answers: &mut Vec<Q::Answer>) {
         answers.clear();
         self.counts.clear();
-        with_objects!(self.shapes, objects => {
+        with_shapes!(self.shapes, space, objects => {
             for rays in batch.rays.chunks(RAYS_PER_LOOK) {
                 if self.progress.is_cancelled() {
                     break;
@@ -325,7 +399,8 @@ impl<'a> Counting<'a> {
                 for ray in rays {
                     let mut counts = RayCounts::default();
                     let scratch = &mut self.scratch;
-                    answers.push(Q::ask(self.tree, objects, ray, scratch, &mut counts));
+                    let objects = (space, objects);
+                    answers.push(ask::<Q, _, _, _>(self.tree, objects, ray, scratch, &mut counts));
                     self.counts.push(counts);
                 }
             }
@@ -342,12 +417,21 @@ impl<'a> Counting<'a> {
 
     /// Walks rays to the ends that were just counted, and takes the time.
     fn walk(&mut self, rays: &[Ray]) {
+        match self.shapes {
+            Shapes::F64(_) => self.walk_in(&World, rays),
+            Shapes::F32 { frame, .. } => self.walk_in(frame, rays),
+        }
+    }
+
+    fn walk_in<S: Space>(&mut self, space: &S, rays: &[Ray]) {
         let start = ThreadTime::now();
         for (ray, counts) in rays.iter().zip(&self.counts) {
             // A ray that misses the root cell visits no leaf; walking it ends there, too.
             let leaves = counts.leaves.max(1);
             let mut walk = Walk { leaves };
-            traverse(self.tree, ray, &mut self.scratch, &mut walk, &mut ());
+            if let Some(inside) = space.enter(ray) {
+                inside.walk(self.tree, &mut self.scratch, &mut walk, &mut ());
+            }
             std::hint::black_box(&walk.leaves);
         }
         self.walking += start.elapsed();

@@ -1,23 +1,34 @@
 //! Rays through trees: traversal, kernels that time and kernels that count, shading, pictures.
 //!
+//! Rays are traced in `f64`, or in `f32` on the same tree ([`PrecisionChoice`]); either way the tree's
+//! answers are, bit by bit, those of testing every object in that precision.
+//!
 //! Counting is a type parameter ([`Probe`]): with `()` nothing is counted and nothing is paid.
 
 mod any_order;
 mod kernel;
+mod line;
 mod picture;
+mod precision;
 mod probe;
 mod record;
 mod render;
 mod settings;
-mod shapes;
+mod space;
 mod traverse;
 mod visits;
 mod waiting;
 mod whitted;
 
 pub use any_order::objects_along;
-pub use kernel::{Batch, Counting, Hit, RayKind, RayTracer, Timed};
+pub use kernel::{
+    Batch, Counting, Hit, RayKind, RayTracer, Timed, any_hit, any_of_all, closest_hit,
+    closest_of_all,
+};
+#[cfg(test)]
+pub(crate) use line::{Line, Meeting, WideLine};
 pub use picture::{Picture, TILE, Tile, srgb8, tiles};
+pub use precision::{ChosenPrecision, NotInF32, PrecisionChoice, fits_f32, objects_fit_f32};
 pub use probe::{PixelTallies, Probe, RayCounts, Tally, Way};
 pub use record::{
     After, InnerStep, LeafStep, PixelRecord, RayPath, RecordedRay, Step, TestStep, record_pixel,
@@ -28,8 +39,9 @@ pub use render::{
     thread_pool, timed_pass,
 };
 pub use settings::RenderSettings;
-pub use shapes::Shapes;
-pub use traverse::{Conservative, Decisions, LeafVisitor, Scratch, traverse, traverse_by};
+#[cfg(test)]
+pub(crate) use traverse::traverse;
+pub use traverse::{LeafVisitor, Scratch};
 pub use visits::{Visits, visits_pass};
 pub use waiting::Waiting;
-pub use whitted::trace_samples;
+pub use whitted::{Shading, trace_samples};

@@ -18,11 +18,12 @@ pub enum Way {
 
 /// Is told of everything a traversal does.
 pub trait Probe {
-    /// An inner node is traversed while the ray is between `t_enter` and `t_exit`; it meets the
-    /// plane at `t` (infinite or NaN where it runs along it).
-    fn inner(&mut self, node: u32, t_enter: f64, t_exit: f64, t: f64, way: Way);
-    /// A leaf is visited, while the ray is between `t_enter` and `t_exit`.
-    fn leaf(&mut self, node: u32, objects: &[u32], t_enter: f64, t_exit: f64);
+    /// An inner node is traversed while the ray is between the two distances `within`; it meets the
+    /// plane at `t` (infinite or NaN where it runs along it), and the far child, if it goes on to
+    /// both, at `t_far`.
+    fn inner(&mut self, node: u32, within: [f64; 2], t: f64, t_far: f64, way: Way);
+    /// A leaf is visited, while the ray is between the two distances.
+    fn leaf(&mut self, node: u32, objects: &[u32], within: [f64; 2]);
     /// An object is tested; `hit` is where the ray meets it before the nearest hit so far.
     fn test(&mut self, object: u32, hit: Option<f64>);
 }
@@ -30,9 +31,9 @@ pub trait Probe {
 /// Watches nothing: the probe of timed kernels.
 impl Probe for () {
     #[inline(always)]
-    fn inner(&mut self, _: u32, _: f64, _: f64, _: f64, _: Way) {}
+    fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Way) {}
     #[inline(always)]
-    fn leaf(&mut self, _: u32, _: &[u32], _: f64, _: f64) {}
+    fn leaf(&mut self, _: u32, _: &[u32], _: [f64; 2]) {}
     #[inline(always)]
     fn test(&mut self, _: u32, _: Option<f64>) {}
 }
@@ -52,12 +53,12 @@ pub struct RayCounts {
 
 impl Probe for RayCounts {
     #[inline(always)]
-    fn inner(&mut self, _: u32, _: f64, _: f64, _: f64, _: Way) {
+    fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Way) {
         self.inner_nodes += 1;
     }
 
     #[inline(always)]
-    fn leaf(&mut self, _: u32, objects: &[u32], _: f64, _: f64) {
+    fn leaf(&mut self, _: u32, objects: &[u32], _: [f64; 2]) {
         self.leaves += 1;
         self.empty_leaves += u32::from(objects.is_empty());
     }

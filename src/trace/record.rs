@@ -2,9 +2,13 @@
 
 use super::kernel::{any_hit, closest_hit};
 use super::whitted::spawn;
-use super::{Hit, PixelTallies, Probe, RayCounts, RayKind, Scratch, Shapes, Way};
+use super::{
+    Hit, PixelTallies, Probe, RayCounts, RayKind, RenderError, RenderSettings, Scratch, Shading,
+    Way,
+};
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
-use crate::scene::{Scene, View};
+use crate::primitive::Shapes;
+use crate::scene::Scene;
 use crate::tree::{NodeKind, StopReason, Tree};
 use serde::Serialize;
 
@@ -22,6 +26,8 @@ pub struct InnerStep {
     pub t_exit: f64,
     /// Where the ray meets the plane; `None` where it runs along it.
     pub t_plane: Option<f64>,
+    /// Where the far child begins, widened by rounding, if the ray goes on to both.
+    pub t_far: f64,
     pub way: Way,
     /// The child that the ray meets first, and the other.
     pub near: u32,
@@ -187,32 +193,35 @@ impl PixelRecord {
     }
 }
 
-/// Traces sample 0 of a pixel and keeps everything its rays did. Secondary rays go `d_arec` deep.
+/// Traces sample 0 of a pixel and keeps everything its rays did.
+///
+/// # Errors
+/// A camera without a view or a resolution out of range.
 pub fn record_pixel(
     scene: &Scene,
     tree: &Tree,
-    view: &View,
-    d_arec: u32,
-    x: u32,
-    y: u32,
-) -> PixelRecord {
-    record_pixel_within(scene, tree, view, d_arec, [x, y], usize::MAX)
+    settings: &RenderSettings,
+    pixel: [u32; 2],
+) -> Result<PixelRecord, RenderError> {
+    record_pixel_within(scene, tree, settings, pixel, usize::MAX)
 }
 
 /// As [`record_pixel`], but starts no further ray once the record holds `most` steps and tests: the
 /// tree of rays of a glass scene doubles with every level of `d_arec`.
+///
+/// # Errors
+/// As [`record_pixel`].
 pub fn record_pixel_within(
     scene: &Scene,
     tree: &Tree,
-    view: &View,
-    d_arec: u32,
+    settings: &RenderSettings,
     [x, y]: [u32; 2],
     most: usize,
-) -> PixelRecord {
+) -> Result<PixelRecord, RenderError> {
+    let shading = Shading::new(scene, settings)?;
     let mut recording = Recording {
-        scene,
+        shading: &shading,
         tree,
-        depth: scene.requirements().secondary_depth(d_arec),
         record: PixelRecord {
             pixel: [x, y],
             color: Vec3::ZERO,
@@ -221,25 +230,23 @@ pub fn record_pixel_within(
         },
         left: most,
     };
-    let ray = view.primary_ray(x, y, 0);
+    let ray = shading.view.primary_ray(x, y, 0);
     recording.follow(RayKind::Primary, ray, Vec3::ONE, None, 0);
-    recording.record
+    Ok(recording.record)
 }
 
-/// Traces one ray and keeps everything it did.
-pub fn record_ray(scene: &Scene, tree: &Tree, kind: RayKind, ray: &Ray) -> RayPath {
+/// Traces one ray through objects prepared for a precision, and keeps everything it did.
+pub fn record_ray(tree: &Tree, shapes: &Shapes, kind: RayKind, ray: &Ray) -> RayPath {
     let mut recorder = Recorder {
         tree,
         steps: Vec::new(),
     };
-    // No array of one kind is made for a single ray: that would cost more than the ray.
-    let shapes = Shapes::Mixed(scene.objects());
     let mut scratch = Scratch::default();
     let hit = if kind == RayKind::Shadow {
-        any_hit(tree, &shapes, ray, &mut scratch, &mut recorder);
+        any_hit(tree, shapes, ray, &mut scratch, &mut recorder);
         recorder.last_hit()
     } else {
-        closest_hit(tree, &shapes, ray, &mut scratch, &mut recorder)
+        closest_hit(tree, shapes, ray, &mut scratch, &mut recorder)
     };
     let mut steps = recorder.steps;
     explain(&mut steps, kind);
@@ -252,9 +259,8 @@ pub fn record_ray(scene: &Scene, tree: &Tree, kind: RayKind, ray: &Ray) -> RayPa
 }
 
 struct Recording<'a> {
-    scene: &'a Scene,
+    shading: &'a Shading<'a>,
     tree: &'a Tree,
-    depth: u32,
     record: PixelRecord,
     /// Steps and tests that may still be recorded.
     left: usize,
@@ -266,7 +272,7 @@ impl Recording<'_> {
             self.record.cut = true;
             return;
         }
-        let path = record_ray(self.scene, self.tree, kind, &ray);
+        let path = record_ray(self.tree, self.shading.shapes, kind, &ray);
         let size = 1 + path.steps.len() + path.counts().tests as usize;
         self.left = self.left.saturating_sub(size);
         let hit = path.hit;
@@ -283,16 +289,22 @@ impl Recording<'_> {
             }
         } else if hit.is_hit() {
             let mut children = Vec::new();
-            let next = depth < self.depth;
-            spawn(self.scene, &ray, &hit, weight, next, |kind, ray, weight| {
-                children.push((kind, ray, weight));
-            });
+            spawn(
+                self.shading,
+                &ray,
+                &hit,
+                weight,
+                depth,
+                |kind, ray, weight| {
+                    children.push((kind, ray, weight));
+                },
+            );
             for (kind, ray, weight) in children {
                 let deeper = depth + u32::from(kind != RayKind::Shadow);
                 self.follow(kind, ray, weight, Some(place), deeper);
             }
         } else {
-            self.record.color += weight * self.scene.background();
+            self.record.color += weight * self.shading.scene.background();
         }
     }
 }
@@ -319,7 +331,7 @@ impl Recorder<'_> {
 }
 
 impl Probe for Recorder<'_> {
-    fn inner(&mut self, node: u32, t_enter: f64, t_exit: f64, t: f64, way: Way) {
+    fn inner(&mut self, node: u32, [t_enter, t_exit]: [f64; 2], t: f64, t_far: f64, way: Way) {
         let cell = self.tree.cell_of(node);
         let NodeKind::Inner {
             axis, below, above, ..
@@ -336,6 +348,7 @@ impl Probe for Recorder<'_> {
             t_enter,
             t_exit,
             t_plane: t.is_finite().then_some(t),
+            t_far,
             way,
             // Set by `explain`, once the next step is known.
             near: below,
@@ -343,7 +356,7 @@ impl Probe for Recorder<'_> {
         }));
     }
 
-    fn leaf(&mut self, node: u32, objects: &[u32], t_enter: f64, t_exit: f64) {
+    fn leaf(&mut self, node: u32, objects: &[u32], [t_enter, t_exit]: [f64; 2]) {
         let cell = self.tree.cell_of(node);
         let NodeKind::Leaf { stop, .. } = self.tree.kind(node) else {
             return;

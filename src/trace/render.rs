@@ -1,7 +1,7 @@
 //! Whole passes over a picture: a coarse preview, the timed pass, the counted pass.
 
 use super::{
-    Counting, PixelTallies, RayKind, RenderSettings, Scratch, Shapes, Tally, Tile, Timed,
+    Counting, PixelTallies, RayKind, RenderSettings, Scratch, Shading, Tally, Tile, Timed,
     objects_along, tiles, trace_samples,
 };
 use crate::geometry::Vec3;
@@ -145,8 +145,7 @@ pub fn timed_pass(
     progress: &Progress,
     on_tile: impl Fn(&Tile, &[Vec3]) + Sync,
 ) -> Result<TimedPass, RenderError> {
-    let view = settings.view()?;
-    let shapes = Shapes::of(scene);
+    let shading = Shading::new(scene, settings)?;
     let start = Instant::now();
     let cpu = over_tiles(
         settings,
@@ -154,17 +153,9 @@ pub fn timed_pass(
         progress,
         |tile, pixels| {
             let start = ThreadTime::now();
-            let mut tracer = Timed::new(tree, &shapes, progress);
+            let mut tracer = Timed::new(tree, shading.shapes, progress);
             let mut colors = Vec::new();
-            trace_samples(
-                scene,
-                &view,
-                settings.d_arec,
-                pixels,
-                sample,
-                &mut tracer,
-                &mut colors,
-            );
+            trace_samples(&shading, pixels, sample, &mut tracer, &mut colors);
             let time = start.elapsed();
             if !progress.is_cancelled() {
                 on_tile(tile, &colors);
@@ -193,30 +184,21 @@ pub fn counted_pass(
     progress: &Progress,
     on_tile: impl Fn(CountedTile) + Sync,
 ) -> Result<CountedPass, RenderError> {
-    let view = settings.view()?;
-    let shapes = Shapes::of(scene);
+    let shading = Shading::new(scene, settings)?;
     let pass = over_tiles(
         settings,
         pool,
         progress,
         |&tile, pixels| {
-            let mut tracer = Counting::new(tree, &shapes, progress, pixels.len());
-            trace_samples(
-                scene,
-                &view,
-                settings.d_arec,
-                pixels,
-                0,
-                &mut tracer,
-                &mut Vec::new(),
-            );
+            let mut tracer = Counting::new(tree, shading.shapes, progress, pixels.len());
+            trace_samples(&shading, pixels, 0, &mut tracer, &mut Vec::new());
             let (mut scratch, mut found) = (Scratch::default(), Vec::new());
             let depth_complexity: Vec<u32> = pixels
                 .iter()
                 .take_while(|_| !progress.is_cancelled())
                 .map(|&(x, y)| {
-                    let ray = view.primary_ray(x, y, 0);
-                    objects_along(tree, &shapes, &ray, &mut scratch, &mut found);
+                    let ray = shading.view.primary_ray(x, y, 0);
+                    objects_along(tree, shading.shapes, &ray, &mut scratch, &mut found);
                     found.len() as u32
                 })
                 .collect();
@@ -261,8 +243,7 @@ pub fn pixel_times(
     pool: &rayon::ThreadPool,
     progress: &Progress,
 ) -> Result<Vec<f32>, RenderError> {
-    let view = settings.view()?;
-    let shapes = Shapes::of(scene);
+    let shading = Shading::new(scene, settings)?;
     let times = Mutex::new(vec![
         0.0;
         settings.width as usize * settings.height as usize
@@ -272,16 +253,14 @@ pub fn pixel_times(
         pool,
         progress,
         |_, pixels| {
-            let mut tracer = Timed::new(tree, &shapes, progress);
+            let mut tracer = Timed::new(tree, shading.shapes, progress);
             let mut colors = Vec::new();
             let mut least = vec![f32::INFINITY; pixels.len()];
             for _ in 0..ROUNDS {
                 for (least, pixel) in least.iter_mut().zip(pixels) {
                     let start = Instant::now();
                     trace_samples(
-                        scene,
-                        &view,
-                        settings.d_arec,
+                        &shading,
                         std::slice::from_ref(pixel),
                         0,
                         &mut tracer,
@@ -318,8 +297,7 @@ pub fn preview(
     progress: &Progress,
     on_tile: impl Fn(&Tile, &[Vec3]) + Sync,
 ) -> Result<(), RenderError> {
-    let view = settings.view()?;
-    let shapes = Shapes::of(scene);
+    let shading = Shading::new(scene, settings)?;
     over_tiles(
         settings,
         pool,
@@ -335,17 +313,9 @@ pub fn preview(
                     (x, y)
                 })
                 .collect();
-            let mut tracer = Timed::new(tree, &shapes, progress);
+            let mut tracer = Timed::new(tree, shading.shapes, progress);
             let mut coarse = Vec::new();
-            trace_samples(
-                scene,
-                &view,
-                settings.d_arec,
-                &centers,
-                0,
-                &mut tracer,
-                &mut coarse,
-            );
+            trace_samples(&shading, &centers, 0, &mut tracer, &mut coarse);
             if !progress.is_cancelled() {
                 let fine: Vec<_> = (0..tile.len() as u32)
                     .map(|i| {

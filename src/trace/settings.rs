@@ -1,5 +1,6 @@
 //! How a picture is traced.
 
+use super::PrecisionChoice;
 use crate::scene::{Camera, Sampling};
 use serde::{Deserialize, Serialize};
 
@@ -13,6 +14,13 @@ pub struct RenderSettings {
     pub height: u32,
     /// How deep secondary rays go, `D_AREC`; 0 traces none.
     pub d_arec: u32,
+    /// A secondary ray is not traced if its radiance counts for less than this in every colour of the
+    /// pixel, 0 to 1; 0 traces all that count for anything.
+    #[serde(default)]
+    pub cut_off: f64,
+    /// The numbers that rays are traced in.
+    #[serde(default)]
+    pub precision: PrecisionChoice,
     /// Where in a pixel the first sample lies.
     pub sampling: Sampling,
     /// Samples a pixel in the finished picture, at least 1. Measurements always take one.
@@ -29,6 +37,8 @@ impl RenderSettings {
             width: 512,
             height: 512,
             d_arec: 4,
+            cut_off: 0.0,
+            precision: PrecisionChoice::F64,
             sampling: Sampling::Center,
             samples: 1,
             threads: 0,

@@ -3,9 +3,10 @@
 use super::kernel::{any_hit, closest_hit};
 use super::render::over_tiles;
 use super::{
-    Batch, Hit, Probe, RayTracer, RenderError, RenderSettings, Scratch, Shapes, Way, trace_samples,
+    Batch, Hit, Probe, RayTracer, RenderError, RenderSettings, Scratch, Shading, Way, trace_samples,
 };
 use crate::geometry::Ray;
+use crate::primitive::Shapes;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::tree::{NodeKind, Tree};
@@ -81,12 +82,12 @@ impl Visitor<'_> {
 
 impl Probe for Visitor<'_> {
     #[inline(always)]
-    fn inner(&mut self, node: u32, _: f64, _: f64, _: f64, _: Way) {
+    fn inner(&mut self, node: u32, _: [f64; 2], _: f64, _: f64, _: Way) {
         self.visit(node);
     }
 
     #[inline(always)]
-    fn leaf(&mut self, node: u32, _: &[u32], _: f64, _: f64) {
+    fn leaf(&mut self, node: u32, _: &[u32], _: [f64; 2]) {
         self.visit(node);
     }
 
@@ -97,7 +98,7 @@ impl Probe for Visitor<'_> {
 /// The kernel that counts visits, over one tile.
 struct Visiting<'a> {
     tree: &'a Tree,
-    shapes: &'a Shapes<'a>,
+    shapes: &'a Shapes,
     progress: &'a Progress,
     scratch: Scratch,
     visits: &'a mut Visits,
@@ -164,8 +165,7 @@ pub fn visits_pass(
     pool: &rayon::ThreadPool,
     progress: &Progress,
 ) -> Result<Visits, RenderError> {
-    let view = settings.view()?;
-    let shapes = Shapes::of(scene);
+    let shading = Shading::new(scene, settings)?;
     let nothing = || Visits {
         by_node: vec![0; tree.nodes().len()],
         ..Visits::default()
@@ -187,21 +187,13 @@ pub fn visits_pass(
             let before = visits.pixels_by_nodes.len();
             let mut tracer = Visiting {
                 tree,
-                shapes: &shapes,
+                shapes: shading.shapes,
                 progress,
                 scratch: Scratch::default(),
                 visits: &mut visits,
                 pixels: &numbers,
             };
-            trace_samples(
-                scene,
-                &view,
-                settings.d_arec,
-                pixels,
-                0,
-                &mut tracer,
-                &mut Vec::new(),
-            );
+            trace_samples(&shading, pixels, 0, &mut tracer, &mut Vec::new());
             // Many rays of a pixel visit as many nodes: each number is kept once.
             let mut of_tile = visits.pixels_by_nodes.split_off(before);
             of_tile.sort_unstable();

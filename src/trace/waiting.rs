@@ -1,6 +1,5 @@
 //! The stack of a walk, told from its steps.
 
-use super::traverse::earlier;
 use super::{RayPath, Step, Way};
 
 /// A far child that waits for its turn.
@@ -22,9 +21,7 @@ impl RayPath {
             match taken {
                 Step::Inner(inner) if inner.way == Way::Both => stack.push(Waiting {
                     node: inner.far,
-                    t_enter: inner
-                        .t_plane
-                        .map_or(inner.t_enter, |t| inner.t_enter.max(earlier(t))),
+                    t_enter: inner.t_far,
                     t_exit: inner.t_exit,
                 }),
                 // After a leaf, the walk goes on with the last that waits.

@@ -7,9 +7,9 @@
 //! approximation (1994) reflects of `T`, and passes the rest on by Snell's law. On total internal
 //! reflection all of `T` is reflected.
 
-use super::{Batch, Hit, RayKind, RayTracer};
+use super::{Batch, Hit, RayKind, RayTracer, RenderError, RenderSettings};
 use crate::geometry::{Ray, Vec3};
-use crate::primitive::{Shape, SurfacePoint};
+use crate::primitive::{Shape, Shapes, SurfacePoint};
 use crate::scene::{Material, Scene, View};
 
 /// Rays of one kind on their way, with what their radiance counts for in which pixel.
@@ -42,12 +42,36 @@ impl Wave {
     }
 }
 
+/// Everything that decides the colour of a pixel's sample, made ready.
+#[derive(Clone, Copy)]
+pub struct Shading<'a> {
+    pub scene: &'a Scene,
+    pub shapes: &'a Shapes,
+    pub view: View,
+    /// How deep secondary rays go.
+    secondary_depth: u32,
+    cut_off: f64,
+}
+
+impl<'a> Shading<'a> {
+    /// # Errors
+    /// A camera without a view or a resolution out of range.
+    pub fn new(scene: &'a Scene, settings: &RenderSettings) -> Result<Self, RenderError> {
+        let view = settings.view()?;
+        Ok(Shading {
+            scene,
+            shapes: scene.shapes(settings.precision_for(scene).precision),
+            view,
+            secondary_depth: scene.requirements().secondary_depth(settings.d_arec),
+            cut_off: settings.cut_off,
+        })
+    }
+}
+
 /// Traces sample number `sample` of pixels given by their place in the picture; `colors` is
-/// overwritten with their linear colours. Secondary rays go `d_arec` deep.
+/// overwritten with their linear colours.
 pub fn trace_samples<T: RayTracer>(
-    scene: &Scene,
-    view: &View,
-    d_arec: u32,
+    shading: &Shading<'_>,
     pixels: &[(u32, u32)],
     sample: u32,
     tracer: &mut T,
@@ -55,7 +79,6 @@ pub fn trace_samples<T: RayTracer>(
 ) {
     colors.clear();
     colors.resize(pixels.len(), Vec3::ZERO);
-    let secondary_depth = scene.requirements().secondary_depth(d_arec);
     let mut now = [RayKind::Primary, RayKind::Reflected, RayKind::Refracted]
         .map(|kind| (kind, Wave::default()));
     let mut next_reflected = Wave::default();
@@ -66,9 +89,9 @@ pub fn trace_samples<T: RayTracer>(
     for (i, &(x, y)) in pixels.iter().enumerate() {
         now[0]
             .1
-            .push(view.primary_ray(x, y, sample), i as u32, Vec3::ONE);
+            .push(shading.view.primary_ray(x, y, sample), i as u32, Vec3::ONE);
     }
-    for depth in 0..=secondary_depth {
+    for depth in 0..=shading.secondary_depth {
         for (kind, wave) in &mut now {
             if wave.rays.is_empty() {
                 continue;
@@ -77,11 +100,10 @@ pub fn trace_samples<T: RayTracer>(
             for (i, hit) in hits.iter().enumerate() {
                 let (ray, pixel, weight) = (&wave.rays[i], wave.pixels[i], wave.weights[i]);
                 if !hit.is_hit() {
-                    colors[pixel as usize] += weight * scene.background();
+                    colors[pixel as usize] += weight * shading.scene.background();
                     continue;
                 }
-                let next = depth < secondary_depth;
-                spawn(scene, ray, hit, weight, next, |kind, ray, weight| {
+                spawn(shading, ray, hit, weight, depth, |kind, ray, weight| {
                     let wave = match kind {
                         RayKind::Shadow => &mut shadow,
                         RayKind::Reflected => &mut next_reflected,
@@ -104,25 +126,34 @@ pub fn trace_samples<T: RayTracer>(
     }
 }
 
-/// Tells `child` of every ray that a hit gives rise to: its kind, the ray, and what its radiance
-/// (for a shadow ray: the light, if it is not blocked) counts for in the pixel. Rays that count for
-/// nothing are not formed, nor are secondary ones unless asked for.
+/// Tells `child` of every ray that a hit `depth` bounces after the eye gives rise to: its kind, the
+/// ray, and what its radiance (for a shadow ray: the light, if it is not blocked) counts for in the
+/// pixel. Rays that count for nothing are not formed, nor are secondary ones that are too deep or
+/// count for too little.
 pub(super) fn spawn(
-    scene: &Scene,
+    shading: &Shading<'_>,
     ray: &Ray,
     hit: &Hit,
     weight: Vec3,
-    secondary: bool,
+    depth: u32,
     mut child: impl FnMut(RayKind, Ray, Vec3),
 ) {
+    let scene = shading.scene;
     let mut counts = |kind, ray, weight: Vec3| {
-        if weight.max_element() > 0.0 {
+        let least = if kind == RayKind::Shadow {
+            0.0
+        } else {
+            shading.cut_off
+        };
+        let most = weight.max_element();
+        if most > 0.0 && most >= least {
             child(kind, ray, weight);
         }
     };
     let material = scene.material(hit.object);
     let surface = scene.objects()[hit.object as usize].surface(ray, hit.t);
-    let surface = Facing::new(surface, ray.direction);
+    let rounding = shading.shapes.rounding(hit.object);
+    let surface = Facing::new(surface, rounding, ray.direction);
     if scene.requirements().casts_shadows {
         let white = Vec3::splat(1.0 / (scene.lights().len() as f64).sqrt());
         for light in scene.lights() {
@@ -133,7 +164,7 @@ pub(super) fn spawn(
             }
         }
     }
-    if secondary {
+    if depth < shading.secondary_depth {
         let [mirrored, passed] = surface.secondary(material, ray.direction);
         if let Some((ray, share)) = mirrored {
             counts(RayKind::Reflected, ray, weight * share);
@@ -158,14 +189,17 @@ struct Facing {
 }
 
 impl Facing {
-    fn new(surface: SurfacePoint, direction: Vec3) -> Self {
+    /// `rounding` is what [`Shapes::rounding`] says of the object.
+    fn new(surface: SurfacePoint, rounding: f64, direction: Vec3) -> Self {
         let entering = surface.normal.dot(direction) < 0.0;
         let turn = if entering { 1.0 } else { -1.0 };
         let side = surface.normal * turn;
         let normal = surface.shading_normal * turn;
-        // Bounds on the values at hand, not on the scene: twice the error of the point, and what
-        // adding the offset itself can lose.
-        let clear = 2.0 * surface.error + 8.0 * f64::EPSILON * surface.point.abs().max_element();
+        // Bounds on the values at hand, not on the scene: twice the error of the point, what adding
+        // the offset itself can lose, and twice what packing the object and the point rounds.
+        let clear = 2.0 * surface.error
+            + 8.0 * f64::EPSILON * surface.point.abs().max_element()
+            + 2.0 * rounding;
         Facing {
             point: surface.point,
             side,

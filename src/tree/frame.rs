@@ -39,6 +39,12 @@ impl Frame {
         Aabb::new(self.center - self.half, self.center + self.half)
     }
 
+    /// The centre of the root cell and half its edges, in the world.
+    #[inline]
+    pub fn center_and_half(&self) -> (Vec3, Vec3) {
+        (self.center, self.half)
+    }
+
     /// How far apart (a length) rounding can put equal coordinates inside the root cell. An object
     /// this near to a plane belongs to both sides.
     pub fn slack(&self) -> f64 {

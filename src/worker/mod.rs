@@ -448,10 +448,7 @@ fn serve(
     let Built { tree, known, .. } = kept.tree(&scene, request, &render, progress, reporter)?;
 
     reporter.stage(Stage::Previewing, progress);
-    let mut measurement = Measurement {
-        render,
-        ..known.clone()
-    };
+    let mut measurement = known.with_render(&scene, &render);
     let picture = Mutex::new(Picture::new(render.width, render.height));
     preview(
         &scene,

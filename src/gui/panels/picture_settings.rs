@@ -4,6 +4,7 @@ use super::{Panel, Side, row};
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::State;
 use crate::scene::{Cylinders, Sampling};
+use crate::trace::PrecisionChoice;
 
 pub(super) const PANEL: Panel = Panel {
     title: "Picture",
@@ -54,6 +55,26 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
                         .suffix(" a pixel"),
                 )
                 .accessible_name("Samples");
+            },
+        );
+        row(
+            ui,
+            "Precision",
+            "The numbers that rays are traced in. auto takes f32 where it can hold the scene as the \
+             camera sees it, else f64.",
+            |ui| {
+                let asked = &mut render.precision;
+                let list = egui::ComboBox::from_id_salt("precision")
+                    .selected_text(asked.name())
+                    .show_ui(ui, |ui| {
+                        for choice in PrecisionChoice::ALL {
+                            ui.selectable_value(asked, choice, choice.name());
+                        }
+                    });
+                if let Some(current) = &state.current {
+                    let used = current.shown.measurement.precision.to_string();
+                    list.response.on_hover_text(format!("Used: {used}."));
+                }
             },
         );
         row(

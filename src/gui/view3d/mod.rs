@@ -17,8 +17,9 @@ use super::state::{Current, State};
 use super::visits::PictureVisits;
 use crate::geometry::{Aabb, Vec3};
 use crate::overlay::{self, Line};
+use crate::primitive::Precision;
 use crate::scene::{Camera, Scene};
-use crate::trace::{RayKind, record_ray};
+use crate::trace::{Scratch, closest_hit};
 use camera::ViewCamera;
 use controls::Settings;
 use eframe::egui_wgpu::{self, wgpu};
@@ -254,7 +255,8 @@ impl View3d {
         let ray = self.camera.ray(f64::from(at.x), f64::from(-at.y));
         if let Some(current) = &state.current {
             let (scene, tree) = (&current.shown.scene, &current.shown.tree);
-            let hit = record_ray(scene, tree, RayKind::Primary, &ray).hit;
+            let shapes = scene.shapes(Precision::F64);
+            let hit = closest_hit(tree, shapes, &ray, &mut Scratch::default(), &mut ());
             if hit.is_hit() {
                 return ray.at(hit.t);
             }

@@ -17,37 +17,12 @@ mod span;
 pub use case::{Case, CaseError};
 
 use crate::geometry::{Aabb, Ray};
-use crate::primitive::Shape;
+use crate::primitive::{Precision, Shape};
 use crate::scene::Scene;
 use crate::trace::Hit;
 use crossing::{Crossing, Line, crossings};
 use root::Root;
-use serde::{Deserialize, Serialize};
-
-/// The numbers that a kernel computes with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Precision {
-    F64,
-    F32,
-}
-
-impl Precision {
-    /// Distance from 1 to the next number.
-    pub const fn epsilon(self) -> f64 {
-        match self {
-            Precision::F64 => f64::EPSILON,
-            Precision::F32 => f32::EPSILON as f64,
-        }
-    }
-
-    pub const fn name(self) -> &'static str {
-        match self {
-            Precision::F64 => "f64",
-            Precision::F32 => "f32",
-        }
-    }
-}
+use serde::Serialize;
 
 /// How far the numbers that an answer came from may be off those of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -16,7 +16,7 @@ mod trial;
 
 pub use trial::{KERNELS, Kernel, Outcome, Trial};
 
-use super::judge::Precision;
+use crate::primitive::Precision;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
 use crate::tree::Method;

@@ -3,8 +3,9 @@
 use super::scenes::{aims, ball, base, features, polygon, scene_of, sphere, triangle};
 use super::{Case, Outcome, Trial};
 use crate::geometry::{Ray, Vec3};
-use crate::measure::judge::{Answer, Precision, Tolerance, Verdict, scale_of, settle};
+use crate::measure::judge::{Answer, Tolerance, Verdict, scale_of, settle};
 use crate::measure::unsplit;
+use crate::primitive::Precision;
 use crate::primitive::{Cone, Polygon, Primitive, ShapeError, Sphere, Triangle};
 use crate::scene::{Scene, SceneParts};
 use crate::trace::{Hit, RayKind};

@@ -1,13 +1,12 @@
 //! One case by one method with one kernel, and what cases have in common.
 
 use crate::geometry::Ray;
-use crate::measure::judge::{
-    Answer, Precision, Standing, Tolerance, Verdict, examine, scale_of, settle,
-};
+use crate::measure::judge::{Answer, Standing, Tolerance, Verdict, examine, scale_of, settle};
 use crate::measure::unsplit;
+use crate::primitive::Precision;
 use crate::progress::Progress;
 use crate::scene::Scene;
-use crate::trace::{Batch, RayKind, RayTracer, Shapes, Timed};
+use crate::trace::{Batch, RayKind, RayTracer, Timed, objects_fit_f32};
 use crate::tree::{BuildError, BuildSettings, MaxDepth, Method, Tree, build, validate};
 use serde::Serialize;
 
@@ -71,21 +70,31 @@ pub struct Kernel {
 }
 
 /// All kernels, one a precision.
-pub static KERNELS: &[Kernel] = &[Kernel {
-    precision: Precision::F64,
-    ask: timed,
-}];
+pub static KERNELS: &[Kernel] = &[
+    Kernel {
+        precision: Precision::F64,
+        ask: |scene, tree, kind, rays, progress| {
+            timed(Precision::F64, scene, tree, kind, rays, progress)
+        },
+    },
+    Kernel {
+        precision: Precision::F32,
+        ask: |scene, tree, kind, rays, progress| {
+            timed(Precision::F32, scene, tree, kind, rays, progress)
+        },
+    },
+];
 
 /// The kernel that pictures are traced with.
 fn timed(
+    precision: Precision,
     scene: &Scene,
     tree: &Tree,
     kind: RayKind,
     rays: &[Ray],
     progress: &Progress,
 ) -> Vec<Answer> {
-    let shapes = Shapes::of(scene);
-    let mut tracer = Timed::new(tree, &shapes, progress);
+    let mut tracer = Timed::new(tree, scene.shapes(precision), progress);
     let batch = Batch {
         kind,
         rays,
@@ -172,6 +181,13 @@ impl Trial<'_> {
 
     /// The same for a tree that is there.
     pub fn check_tree(&self, scene: &Scene, tree: &Tree, rays: &[Ray]) -> Outcome {
+        if self.kernel.precision == Precision::F32
+            && let Err(reason) = objects_fit_f32(scene)
+        {
+            return Outcome::NotRepresentable {
+                reason: reason.to_string(),
+            };
+        }
         let everything = match unsplit(scene, self.progress) {
             Ok(tree) => tree,
             Err(error) => return Outcome::fail(error.to_string()),

@@ -19,11 +19,12 @@ pub fn write(report: &PixelReport<'_>, out: &mut dyn Write) -> Result<()> {
         let [x, y] = record.pixel;
         writeln!(
             out,
-            "Pixel {x},{y} of {} × {}, scene {}, D_AREC {}",
+            "Pixel {x},{y} of {} × {}, scene {}, D_AREC {}, precision {}",
             render.width,
             render.height,
             report.scene.name(),
-            render.d_arec
+            render.d_arec,
+            render.precision_for(report.scene)
         )?;
     }
     writeln!(

@@ -1,0 +1,133 @@
+//! How far a picture is from another: on linear light, clipped to what a display shows, 0 to 1.
+
+use serde::Serialize;
+
+/// The error of a picture p against a reference r of the same size.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ImageError {
+    /// Square root of the mean of (p − r)² over all pixels and colours; 0 if equal.
+    pub rmse: f64,
+    /// Largest |p − r| of any pixel and colour.
+    pub max: f64,
+    /// Peak signal-to-noise ratio, −20 log₁₀ RMSE, in decibels; `None` (infinite) if equal.
+    pub psnr: Option<f64>,
+    /// Mean structural similarity of the luminance, at most 1, which it is if equal.
+    pub ssim: f64,
+}
+
+impl ImageError {
+    /// # Panics
+    /// If there are not as many pixels in both, or not `width` × some height of them.
+    pub fn between(picture: &[[f32; 3]], reference: &[[f32; 3]], width: usize) -> Self {
+        assert_eq!(picture.len(), reference.len());
+        assert!(width > 0 && picture.len().is_multiple_of(width));
+        let (mut squares, mut max) = (0.0, 0.0_f64);
+        for (p, r) in picture.iter().zip(reference) {
+            for (p, r) in p.iter().zip(r) {
+                let off = f64::from(p.clamp(0.0, 1.0)) - f64::from(r.clamp(0.0, 1.0));
+                squares += off * off;
+                max = max.max(off.abs());
+            }
+        }
+        let rmse = (squares / (3 * picture.len()).max(1) as f64).sqrt();
+        ImageError {
+            rmse,
+            max,
+            psnr: (rmse > 0.0).then(|| -20.0 * rmse.log10()),
+            ssim: ssim(&luminance(picture), &luminance(reference), width),
+        }
+    }
+}
+
+/// Relative luminance (Rec. ITU-R BT.709).
+fn luminance(pixels: &[[f32; 3]]) -> Vec<f64> {
+    pixels
+        .iter()
+        .map(|p| {
+            let [r, g, b] = p.map(|v| f64::from(v.clamp(0.0, 1.0)));
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        })
+        .collect()
+}
+
+/// The mean over all pixels of
+/// (2 μp μr + C₁)(2 σpr + C₂) / ((μp² + μr² + C₁)(σp² + σr² + C₂)), C₁ = 0.01², C₂ = 0.03²,
+/// with means and variances weighted by a Gaussian of 1.5 pixels over 11 × 11 (Wang, Bovik, Sheikh
+/// and Simoncelli, "Image quality assessment", IEEE Transactions on Image Processing 13(4), 2004).
+/// Beyond the border the outermost pixels go on.
+fn ssim(picture: &[f64], reference: &[f64], width: usize) -> f64 {
+    const C1: f64 = 0.01 * 0.01;
+    const C2: f64 = 0.03 * 0.03;
+    let product =
+        |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
+    let [p, r] = [picture, reference].map(|v| blurred(v, width));
+    let pp = blurred(&product(picture, picture), width);
+    let rr = blurred(&product(reference, reference), width);
+    let pr = blurred(&product(picture, reference), width);
+    let sum: f64 = (0..picture.len())
+        .map(|i| {
+            let (p, r) = (p[i], r[i]);
+            let (vp, vr, c) = (pp[i] - p * p, rr[i] - r * r, pr[i] - p * r);
+            (2.0 * p * r + C1) * (2.0 * c + C2) / ((p * p + r * r + C1) * (vp + vr + C2))
+        })
+        .sum();
+    sum / picture.len().max(1) as f64
+}
+
+/// A Gaussian blur, first along rows, then along columns.
+fn blurred(values: &[f64], width: usize) -> Vec<f64> {
+    const RADIUS: i64 = 5;
+    let weight = |offset: i64| (-(offset * offset) as f64 / (2.0 * 1.5 * 1.5)).exp();
+    let total: f64 = (-RADIUS..=RADIUS).map(weight).sum();
+    let weights: Vec<f64> = (-RADIUS..=RADIUS).map(|o| weight(o) / total).collect();
+    let height = values.len() / width;
+    let along = |values: &[f64], count: usize, step: usize, other: usize, stride: usize| {
+        let mut out = vec![0.0; values.len()];
+        for line in 0..other {
+            for i in 0..count {
+                let sum = weights.iter().zip(-RADIUS..).map(|(weight, offset)| {
+                    let at = (i as i64 + offset).clamp(0, count as i64 - 1) as usize;
+                    weight * values[line * stride + at * step]
+                });
+                out[line * stride + i * step] = sum.sum();
+            }
+        }
+        out
+    };
+    let rows = along(values, width, 1, height, width);
+    along(&rows, height, width, width, 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_pictures_have_no_error() {
+        let picture: Vec<_> = (0..200).map(|i| [i as f32 / 200.0, 0.5, 3.0]).collect();
+        let error = ImageError::between(&picture, &picture, 20);
+        assert_eq!((error.rmse, error.max, error.psnr), (0.0, 0.0, None));
+        assert!((error.ssim - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn known_errors_come_out() {
+        // Evenly 0.1 brighter: PSNR 20 dB; SSIM has its luminance term alone.
+        let picture = |v: f32| vec![[v; 3]; 400];
+        let error = ImageError::between(&picture(0.5), &picture(0.4), 20);
+        assert!((error.rmse - 0.1).abs() < 1e-7 && (error.max - 0.1).abs() < 1e-7);
+        assert!((error.psnr.unwrap() - 20.0).abs() < 1e-5);
+        let expected = (2.0 * 0.5 * 0.4 + 1e-4) / (0.25 + 0.16 + 1e-4);
+        assert!((error.ssim - expected).abs() < 1e-6, "{}", error.ssim);
+    }
+
+    #[test]
+    fn lost_structure_lowers_ssim_more_than_an_even_shift() {
+        let stripes: Vec<_> = (0..400).map(|i| [(i % 2) as f32 * 0.4 + 0.3; 3]).collect();
+        let shifted: Vec<_> = stripes.iter().map(|p| p.map(|v| v + 0.2)).collect();
+        let flat = vec![[0.5; 3]; 400];
+        let [shifted, flat] = [shifted, flat].map(|p| ImageError::between(&p, &stripes, 20));
+        assert!((shifted.rmse - flat.rmse).abs() < 1e-6);
+        assert!(flat.ssim < 0.2 && shifted.ssim > 0.8);
+    }
+}

@@ -1,0 +1,426 @@
+//! Objects as `f32` in the coordinates of a [`UnitFrame`].
+//!
+//! What is rounded to `f32` is the object, the ray and the distance. A test is an arithmetic filter
+//! (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates",
+//! Discrete & Computational Geometry 18, 1997): it is decided in `f32` where the bound on the rounding
+//! allows, as nearly all misses are, and else in `f64`, in which the product of two `f32` is exact.
+//!
+//! So a hit is the right one of an object that is off by no more than the rounding of its numbers. It
+//! lies within 4 ε (1 + o) of the true surface, with ε = 2⁻²³ and o the largest coordinate of the
+//! ray's origin, in lengths of the frame: √3 ε/2 of each coordinate of object and origin; √3 ε of the
+//! distance, at most √3 (o + ½), for the direction and for the distance itself; and 2 ε for the
+//! derived numbers of a cone. The bound holds at every angle, as no sum is a difference of nearly
+//! equal rounded numbers; the walk through a tree relies on it.
+
+use super::numeric::Shear;
+use super::{Cone, PackedRay, Polygon, Primitive, Shape, Sphere, Triangle, UnitFrame, cone};
+use crate::geometry::{Ray, Vec3};
+use glam::Vec3 as Point;
+
+/// An object in the form that intersection wants it in: itself, or packed.
+pub trait Form: Sized + Send + Sync {
+    type Of;
+    /// What it is tested with.
+    type Ray;
+
+    /// The form of an object.
+    fn of(shape: &Self::Of, frame: &UnitFrame) -> Self;
+
+    /// As [`Shape::intersect`]; `t_max` and the result of packed objects are those of an `f32`.
+    fn intersect(&self, ray: &Self::Ray, t_max: f64) -> Option<f64>;
+
+    /// The largest distance (a length of the frame) between the form and the object, and between a
+    /// point of it and the same point as `f32`; 0 where nothing is rounded.
+    fn rounding(&self) -> f64;
+
+    /// Bytes that it takes, with what it points to.
+    fn bytes(&self) -> usize;
+}
+
+impl<S: Shape + Clone> Form for S {
+    type Of = S;
+    type Ray = Ray;
+
+    fn of(shape: &S, _: &UnitFrame) -> S {
+        shape.clone()
+    }
+
+    #[inline(always)]
+    fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+        Shape::intersect(self, ray, t_max)
+    }
+
+    fn rounding(&self) -> f64 {
+        0.0
+    }
+
+    fn bytes(&self) -> usize {
+        Shape::bytes(self)
+    }
+}
+
+/// Rounds the distance that `intersect` finds. Distances that round to `t_max` count as `t_max`, so
+/// that what wins a tie does not depend on the order of the tests.
+#[inline(always)]
+fn rounded(t_max: f64, intersect: impl FnOnce(f64) -> Option<f64>) -> Option<f64> {
+    const UP: f64 = 1.0 + f32::EPSILON as f64;
+    let t = f64::from(intersect(t_max * UP)? as f32);
+    (t <= t_max).then_some(t)
+}
+
+/// What [`Form::rounding`] is for coordinates of at most `reach`.
+fn rounding_within(reach: f32) -> f64 {
+    4.0 * f64::from(f32::EPSILON * reach)
+}
+
+/// A sphere as `f32`: 16 bytes.
+pub struct PackedSphere {
+    center: Point,
+    radius: f32,
+}
+
+impl PackedSphere {
+    /// Whether the ray's line certainly misses it, decided in `f32`.
+    #[inline(always)]
+    fn is_missed_by(&self, ray: &PackedRay) -> bool {
+        let reach = self.radius + ray.distance_error();
+        ray.squared_distance(self.center) > reach * reach
+    }
+}
+
+impl Form for PackedSphere {
+    type Of = Sphere;
+    type Ray = PackedRay;
+
+    fn of(sphere: &Sphere, frame: &UnitFrame) -> Self {
+        PackedSphere {
+            center: frame.point(sphere.center).as_vec3(),
+            radius: (sphere.radius * frame.scale()) as f32,
+        }
+    }
+
+    #[inline(always)]
+    fn intersect(&self, ray: &PackedRay, t_max: f64) -> Option<f64> {
+        if self.is_missed_by(ray) {
+            return None;
+        }
+        let sphere = Sphere {
+            center: self.center.as_dvec3(),
+            radius: f64::from(self.radius),
+        };
+        rounded(t_max, |t_max| Shape::intersect(&sphere, &ray.wide, t_max))
+    }
+
+    fn rounding(&self) -> f64 {
+        rounding_within(self.center.abs().max_element() + self.radius)
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
+}
+
+/// A triangle as `f32`: 36 bytes. Shading takes its normals from the scene.
+pub struct PackedTriangle {
+    vertices: [Point; 3],
+}
+
+impl PackedTriangle {
+    /// Whether the ray's line certainly misses it, decided in `f32`.
+    #[inline(always)]
+    fn is_missed_by(&self, ray: &PackedRay) -> bool {
+        let [a, b, c] = self.vertices.map(|v| ray.sheared(v));
+        let u = c[0] * b[1] - c[1] * b[0];
+        let v = a[0] * c[1] - a[1] * c[0];
+        let w = b[0] * a[1] - b[1] * a[0];
+        let size = [a, b, c]
+            .iter()
+            .fold(0.0_f32, |m, p| m.max(p[0].abs()).max(p[1].abs()));
+        // Four coordinates off by 4 ε of `reach`, of which `size` is at most twice, and 2 ε of the
+        // products.
+        let error = 24.0 * f32::EPSILON * ray.reach * size;
+        u.min(v).min(w) < -error && u.max(v).max(w) > error
+    }
+}
+
+impl Form for PackedTriangle {
+    type Of = Triangle;
+    type Ray = PackedRay;
+
+    fn of(triangle: &Triangle, frame: &UnitFrame) -> Self {
+        PackedTriangle {
+            vertices: triangle.vertices.map(|v| frame.point(v).as_vec3()),
+        }
+    }
+
+    #[inline(always)]
+    fn intersect(&self, ray: &PackedRay, t_max: f64) -> Option<f64> {
+        if self.is_missed_by(ray) {
+            return None;
+        }
+        let triangle = Triangle {
+            vertices: self.vertices.map(|v| v.as_dvec3()),
+            normals: None,
+        };
+        rounded(t_max, |t_max| Shape::intersect(&triangle, &ray.wide, t_max))
+    }
+
+    fn rounding(&self) -> f64 {
+        rounding_within(reach(&self.vertices))
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
+}
+
+fn reach(points: &[Point]) -> f32 {
+    points
+        .iter()
+        .fold(0.0, |reach, p| p.abs().max_element().max(reach))
+}
+
+/// A polygon as the `f32` vertices of its outline, which rounding puts a little off a common plane.
+pub struct PackedPolygon {
+    vertices: Box<[Point]>,
+}
+
+impl PackedPolygon {
+    /// Whether the ray's line certainly misses it, decided in `f32`.
+    #[inline(always)]
+    fn is_missed_by(&self, ray: &PackedRay) -> bool {
+        let (mut lo, mut hi) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+        for &vertex in &self.vertices {
+            let p = ray.sheared(vertex);
+            for k in 0..2 {
+                lo[k] = lo[k].min(p[k]);
+                hi[k] = hi[k].max(p[k]);
+            }
+        }
+        let error = 4.0 * f32::EPSILON * ray.reach;
+        lo[0] > error || lo[1] > error || hi[0] < -error || hi[1] < -error
+    }
+}
+
+impl Form for PackedPolygon {
+    type Of = Polygon;
+    type Ray = PackedRay;
+
+    fn of(polygon: &Polygon, frame: &UnitFrame) -> Self {
+        PackedPolygon {
+            vertices: polygon
+                .vertices_in_plane()
+                .map(|v| frame.point(v).as_vec3())
+                .collect(),
+        }
+    }
+
+    #[inline(always)]
+    fn intersect(&self, ray: &PackedRay, t_max: f64) -> Option<f64> {
+        if self.is_missed_by(ray) {
+            return None;
+        }
+        rounded(t_max, |t_max| {
+            let t = self.crossing(&ray.wide)?;
+            (ray.wide.t_min <= t && t <= t_max).then_some(t)
+        })
+    }
+
+    fn rounding(&self) -> f64 {
+        rounding_within(reach(&self.vertices))
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>() + size_of_val(&*self.vertices)
+    }
+}
+
+impl PackedPolygon {
+    /// Where the ray's line passes through the outline, by the even–odd rule; on the outline counts.
+    ///
+    /// In coordinates in which the ray is the third axis, the chord of the outline along the first
+    /// axis that holds the origin ends on two edges. `t` there is a mean of those of the chord's
+    /// ends, and those are means of their edges' vertices: never off the polygon, however the ray
+    /// grazes it. An edge is decided from the very same numbers whichever neighbour asks. A ray that
+    /// runs within the plane, as far as can be told, has no hit, as with triangles.
+    fn crossing(&self, ray: &Ray) -> Option<f64> {
+        let shear = Shear::of(ray.direction)?;
+        let (mut distance, mut perimeter, mut area) = (0.0_f64, 0.0, 0.0);
+        let mut apply = |vertex: &Point| {
+            let from_origin = vertex.as_dvec3() - ray.origin;
+            distance = distance.max(from_origin.abs().max_element());
+            shear.apply(from_origin)
+        };
+        let mut a = apply(self.vertices.last()?);
+        let (mut left, mut right) = ((f64::NEG_INFINITY, 0.0), (f64::INFINITY, 0.0));
+        let (mut inside, mut on_edge) = (false, None);
+        for vertex in &self.vertices {
+            let b = apply(vertex);
+            // Changes sign, and nothing else, where the edge is walked the other way.
+            let cross = a.x * b.y - a.y * b.x;
+            area += cross;
+            perimeter += (b.x - a.x).abs() + (b.y - a.y).abs();
+            if cross == 0.0 && a.x.min(b.x) <= 0.0 && a.x.max(b.x) >= 0.0 {
+                on_edge = on_edge.or(t_of_origin(a, b));
+            } else if (a.y > 0.0) != (b.y > 0.0) {
+                let rise = b.y - a.y;
+                let (x, t) = (cross / rise, (a.z * b.y - a.y * b.z) / rise);
+                if x > 0.0 {
+                    inside = !inside;
+                    right = if x < right.0 { (x, t) } else { right };
+                } else {
+                    left = if x > left.0 { (x, t) } else { left };
+                }
+            }
+            a = b;
+        }
+        if area.abs() <= 16.0 * f64::EPSILON * distance * perimeter {
+            return None;
+        }
+        let chord = || {
+            let t = (right.1 * -left.0 + left.1 * right.0) / (right.0 - left.0);
+            (inside && t.is_finite()).then_some(t)
+        };
+        on_edge.or_else(chord)
+    }
+}
+
+/// The third coordinate where the segment's first two are 0, on whose line the origin is known to
+/// lie; `None` beyond its ends.
+fn t_of_origin(a: Vec3, b: Vec3) -> Option<f64> {
+    if a.y.min(b.y) > 0.0 || a.y.max(b.y) < 0.0 {
+        return None;
+    }
+    let (x, y) = (b.x - a.x, b.y - a.y);
+    Some(if x == 0.0 && y == 0.0 {
+        a.z
+    } else if x.abs() > y.abs() {
+        (a.z * b.x - a.x * b.z) / x
+    } else {
+        (a.z * b.y - a.y * b.z) / y
+    })
+}
+
+/// A cylinder or cone as `f32`: 40 bytes.
+pub struct PackedCone {
+    axis: Point,
+    middle: Point,
+    half_length: f32,
+    middle_radius: f32,
+    slope: f32,
+    squared_reach: f32,
+}
+
+impl PackedCone {
+    /// Whether the ray's line certainly misses it, decided in `f32`.
+    #[inline(always)]
+    fn is_missed_by(&self, ray: &PackedRay) -> bool {
+        let radius = self.middle_radius + self.slope.abs() * self.half_length;
+        // The distance between the ray's line and the axis, times the length of their cross product:
+        // 6 ε of its factors' size, each, and 8 ε of the sum.
+        let normal = ray.direction.cross(self.axis);
+        let speed = ray.direction.abs().max_element();
+        let error = 64.0 * f32::EPSILON * ray.reach * speed;
+        let apart = (ray.origin - self.middle).dot(normal).abs() - error;
+        let around = radius * (1.0 + 8.0 * f32::EPSILON);
+        if apart > 0.0 && apart * apart > around * around * normal.length_squared() {
+            return true;
+        }
+        // The ball around it.
+        let error = ray.distance_error();
+        let more = error * (2.0 * (self.half_length + radius) + error);
+        ray.squared_distance(self.middle) > self.squared_reach + more
+    }
+}
+
+impl Form for PackedCone {
+    type Of = Cone;
+    type Ray = PackedRay;
+
+    fn of(cone: &Cone, frame: &UnitFrame) -> Self {
+        let side = cone.side();
+        let scale = frame.scale();
+        PackedCone {
+            axis: side.axis.as_vec3(),
+            middle: frame.point(side.middle).as_vec3(),
+            half_length: (side.half_length * scale) as f32,
+            middle_radius: (side.middle_radius * scale) as f32,
+            slope: side.slope as f32,
+            // It only rules out: rounding must not make it smaller.
+            squared_reach: (side.squared_reach * scale * scale) as f32 * (1.0 + 8.0 * f32::EPSILON)
+                + f32::EPSILON * f32::EPSILON,
+        }
+    }
+
+    #[inline(always)]
+    fn intersect(&self, ray: &PackedRay, t_max: f64) -> Option<f64> {
+        if self.is_missed_by(ray) {
+            return None;
+        }
+        let side = cone::Side {
+            axis: self.axis.as_dvec3(),
+            middle: self.middle.as_dvec3(),
+            half_length: f64::from(self.half_length),
+            middle_radius: f64::from(self.middle_radius),
+            slope: f64::from(self.slope),
+            squared_reach: f64::from(self.squared_reach),
+        };
+        rounded(t_max, |t_max| side.intersect(&ray.wide, t_max))
+    }
+
+    fn rounding(&self) -> f64 {
+        let radius = self.middle_radius + self.slope.abs() * self.half_length;
+        rounding_within(self.middle.abs().max_element() + self.half_length + radius)
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>()
+    }
+}
+
+/// One object of a scene of several kinds.
+pub enum PackedPrimitive {
+    Sphere(PackedSphere),
+    Triangle(PackedTriangle),
+    Polygon(PackedPolygon),
+    Cone(PackedCone),
+}
+
+macro_rules! each_kind {
+    ($self:ident, $form:ident => $answer:expr) => {
+        match $self {
+            PackedPrimitive::Sphere($form) => $answer,
+            PackedPrimitive::Triangle($form) => $answer,
+            PackedPrimitive::Polygon($form) => $answer,
+            PackedPrimitive::Cone($form) => $answer,
+        }
+    };
+}
+
+impl Form for PackedPrimitive {
+    type Of = Primitive;
+    type Ray = PackedRay;
+
+    fn of(primitive: &Primitive, frame: &UnitFrame) -> Self {
+        match primitive {
+            Primitive::Sphere(s) => PackedPrimitive::Sphere(Form::of(s, frame)),
+            Primitive::Triangle(t) => PackedPrimitive::Triangle(Form::of(t, frame)),
+            Primitive::Polygon(p) => PackedPrimitive::Polygon(Form::of(p, frame)),
+            Primitive::Cone(c) => PackedPrimitive::Cone(Form::of(c, frame)),
+        }
+    }
+
+    #[inline]
+    fn intersect(&self, ray: &PackedRay, t_max: f64) -> Option<f64> {
+        each_kind!(self, form => form.intersect(ray, t_max))
+    }
+
+    fn rounding(&self) -> f64 {
+        each_kind!(self, form => form.rounding())
+    }
+
+    fn bytes(&self) -> usize {
+        let inside = each_kind!(self, form => form.bytes() - size_of_val(form));
+        size_of::<Self>() + inside
+    }
+}

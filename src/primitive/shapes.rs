@@ -1,0 +1,161 @@
+//! The objects as intersection kernels want them: in one precision, and one kind in one array where
+//! a scene has one kind.
+
+use super::packed::{
+    Form, PackedCone, PackedPolygon, PackedPrimitive, PackedSphere, PackedTriangle,
+};
+use super::{
+    Cone, Polygon, Precision, Primitive, PrimitiveKind, Shape, Sphere, Triangle, UnitFrame,
+};
+use crate::geometry::Aabb;
+
+/// The objects of a scene by number, in one of two precisions.
+pub enum Shapes {
+    F64(Arrays<Sphere, Triangle, Polygon, Cone, Primitive>),
+    F32 {
+        frame: UnitFrame,
+        arrays: Arrays<PackedSphere, PackedTriangle, PackedPolygon, PackedCone, PackedPrimitive>,
+        /// `None` without objects that have a width.
+        frailest: Option<Frailest>,
+    },
+}
+
+/// The object that rounding changes most, by its width.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frailest {
+    pub object: u32,
+    /// Its width ([`super::Shape::breadth`]) over its rounding ([`Shapes::rounding`]).
+    pub breadth: f64,
+}
+
+/// The array of all objects. A scene of one kind runs without a choice of kind per test.
+pub enum Arrays<S, T, P, C, M> {
+    Spheres(Vec<S>),
+    Triangles(Vec<T>),
+    Polygons(Vec<P>),
+    Cones(Vec<C>),
+    Mixed(Vec<M>),
+}
+
+/// Runs `$body` with `$objects` bound to the one array there is, compiled once for every kind.
+macro_rules! with_array {
+    ($arrays:expr, $objects:ident => $body:expr) => {
+        match $arrays {
+            $crate::primitive::Arrays::Spheres(v) => {
+                let $objects = v.as_slice();
+                $body
+            }
+            $crate::primitive::Arrays::Triangles(v) => {
+                let $objects = v.as_slice();
+                $body
+            }
+            $crate::primitive::Arrays::Polygons(v) => {
+                let $objects = v.as_slice();
+                $body
+            }
+            $crate::primitive::Arrays::Cones(v) => {
+                let $objects = v.as_slice();
+                $body
+            }
+            $crate::primitive::Arrays::Mixed(v) => {
+                let $objects = v.as_slice();
+                $body
+            }
+        }
+    };
+}
+pub(crate) use with_array;
+
+impl<S, T, P, C, M> Arrays<S, T, P, C, M>
+where
+    S: Form<Of = Sphere>,
+    T: Form<Of = Triangle>,
+    P: Form<Of = Polygon>,
+    C: Form<Of = Cone>,
+    M: Form<Of = Primitive>,
+{
+    fn of(objects: &[Primitive], frame: &UnitFrame) -> Self {
+        macro_rules! only {
+            ($variant:ident) => {
+                objects
+                    .iter()
+                    .filter_map(|object| match object {
+                        Primitive::$variant(shape) => Some(Form::of(shape, frame)),
+                        _ => None,
+                    })
+                    .collect()
+            };
+        }
+        let kind = objects.first().map(Primitive::kind);
+        match kind.filter(|kind| objects.iter().all(|o| o.kind() == *kind)) {
+            Some(PrimitiveKind::Sphere) => Arrays::Spheres(only!(Sphere)),
+            Some(PrimitiveKind::Triangle) => Arrays::Triangles(only!(Triangle)),
+            Some(PrimitiveKind::Polygon) => Arrays::Polygons(only!(Polygon)),
+            Some(PrimitiveKind::Cone) => Arrays::Cones(only!(Cone)),
+            None => Arrays::Mixed(objects.iter().map(|o| Form::of(o, frame)).collect()),
+        }
+    }
+}
+
+impl Shapes {
+    /// Objects within `bounds`, prepared for a precision.
+    pub fn of(objects: &[Primitive], bounds: &Aabb, precision: Precision) -> Self {
+        let frame = UnitFrame::around(bounds);
+        match precision {
+            Precision::F64 => Shapes::F64(Arrays::of(objects, &frame)),
+            Precision::F32 => {
+                let arrays = Arrays::of(objects, &frame);
+                let roundings = with_array!(&arrays, forms => {
+                    forms.iter().map(Form::rounding).map(|r| r / frame.scale()).collect()
+                });
+                Shapes::F32 {
+                    frame,
+                    arrays,
+                    frailest: frailest(objects, roundings),
+                }
+            }
+        }
+    }
+
+    pub fn precision(&self) -> Precision {
+        match self {
+            Shapes::F64(_) => Precision::F64,
+            Shapes::F32 { .. } => Precision::F32,
+        }
+    }
+
+    /// How far, a length in the world, rounding may put an object's surface from where it is, and a
+    /// point on it from the surface, beyond what `f64` does.
+    pub fn rounding(&self, object: u32) -> f64 {
+        match self {
+            Shapes::F64(_) => 0.0,
+            Shapes::F32 { frame, arrays, .. } => {
+                with_array!(arrays, objects => objects[object as usize].rounding()) / frame.scale()
+            }
+        }
+    }
+
+    /// Bytes that the objects take.
+    pub fn bytes(&self) -> usize {
+        macro_rules! sum {
+            ($arrays:expr) => {
+                with_array!($arrays, objects => objects.iter().map(Form::bytes).sum())
+            };
+        }
+        match self {
+            Shapes::F64(arrays) => sum!(arrays),
+            Shapes::F32 { arrays, .. } => sum!(arrays),
+        }
+    }
+}
+
+/// The object with the least width for its rounding. Objects without any width, such as a sphere of
+/// radius 0, lose nothing.
+fn frailest(objects: &[Primitive], roundings: Vec<f64>) -> Option<Frailest> {
+    let widths = objects.iter().zip(roundings).zip(0..);
+    let frail = widths.filter_map(|((shape, rounding), object)| {
+        let breadth = shape.breadth() / rounding;
+        (breadth > 0.0).then_some(Frailest { object, breadth })
+    });
+    frail.min_by(|a, b| a.breadth.total_cmp(&b.breadth))
+}

@@ -1,0 +1,81 @@
+//! The coordinates in which `f32` holds a scene.
+
+use crate::geometry::{Aabb, Vec3};
+
+/// Coordinates with the scene's centre as origin, scaled by a power of two so that the scene's
+/// longest edge is from ½ to 1: no coordinate of it is above ½.
+///
+/// A scene that is moved or scaled as a whole loses nothing by that but the 24 bits of its own size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnitFrame {
+    /// The scene's centre, scaled.
+    center: Vec3,
+    scale: f64,
+}
+
+impl UnitFrame {
+    /// The frame of a scene with these bounds; those of a scene without extent are not scaled.
+    pub fn around(bounds: &Aabb) -> Self {
+        let half = (bounds.hi * 0.5 - bounds.lo * 0.5).max_element();
+        if bounds.is_empty() || half == 0.0 {
+            let center = if bounds.is_empty() {
+                Vec3::ZERO
+            } else {
+                bounds.lo
+            };
+            return UnitFrame { center, scale: 1.0 };
+        }
+        let scale = libm::scalbn(1.0, -(libm::ilogb(half) + 2));
+        UnitFrame {
+            center: bounds.center() * scale,
+            scale,
+        }
+    }
+
+    /// Lengths here per length in the world: a power of two.
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// A point of the world.
+    #[inline]
+    pub fn point(&self, world: Vec3) -> Vec3 {
+        // Scaled first: the difference of two huge coordinates may be too large for a number.
+        world * self.scale - self.center
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_of_any_size_and_place_fills_the_cube() {
+        for (size, offset) in [
+            (1.0, 0.0),
+            (3e30, 0.0),
+            (1e-30, 0.0),
+            (1e300, 0.0),
+            (1.0, 1e12),
+        ] {
+            let lo = Vec3::splat(offset);
+            let bounds = Aabb::new(lo, lo + size * Vec3::new(1.0, 0.5, 0.0));
+            let frame = UnitFrame::around(&bounds);
+            let (lo, hi) = (frame.point(bounds.lo), frame.point(bounds.hi));
+            assert!(
+                (0.5..=1.0).contains(&(hi - lo).x),
+                "{size} {offset}: {lo} {hi}"
+            );
+            assert!(lo.abs().max(hi.abs()).max_element() <= 0.5);
+        }
+    }
+
+    #[test]
+    fn a_scene_without_extent_stays_finite() {
+        for bounds in [Aabb::EMPTY, Aabb::new(Vec3::ONE, Vec3::ONE)] {
+            assert_eq!(UnitFrame::around(&bounds).scale(), 1.0);
+        }
+        let point = Aabb::new(Vec3::ONE, Vec3::ONE);
+        assert_eq!(UnitFrame::around(&point).point(Vec3::ONE), Vec3::ZERO);
+    }
+}
