@@ -73,10 +73,9 @@ fn visits_are_the_same_for_any_number_of_threads() {
 fn pixels_within_a_range_are_those_whose_records_say_so() {
     let (scene, tree, render) = small("balls:1", "midpoint");
     let visits = visits(&scene, &tree, &render, 2);
-    let view = render.view().unwrap();
     let rays: Vec<Vec<u32>> = (0..SIDE * SIDE)
         .map(|i| {
-            let record = record_pixel(&scene, &tree, &view, render.d_arec, i % SIDE, i / SIDE);
+            let record = record_pixel(&scene, &tree, &render, [i % SIDE, i / SIDE]).unwrap();
             let rays = record.rays.iter();
             rays.map(|ray| ray.path.steps.len() as u32).collect()
         })

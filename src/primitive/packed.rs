@@ -252,7 +252,8 @@ impl PackedPolygon {
             shear.apply(from_origin)
         };
         let mut a = apply(self.vertices.last()?);
-        let (mut left, mut right) = ((f64::NEG_INFINITY, 0.0), (f64::INFINITY, 0.0));
+        // The nearest edges that cross the axis on either side of the origin, and where.
+        let (mut left, mut right) = ((f64::NEG_INFINITY, a, a), (f64::INFINITY, a, a));
         let (mut inside, mut on_edge) = (false, None);
         for vertex in &self.vertices {
             let b = apply(vertex);
@@ -263,13 +264,12 @@ impl PackedPolygon {
             if cross == 0.0 && a.x.min(b.x) <= 0.0 && a.x.max(b.x) >= 0.0 {
                 on_edge = on_edge.or(t_of_origin(a, b));
             } else if (a.y > 0.0) != (b.y > 0.0) {
-                let rise = b.y - a.y;
-                let (x, t) = (cross / rise, (a.z * b.y - a.y * b.z) / rise);
+                let x = cross / (b.y - a.y);
                 if x > 0.0 {
                     inside = !inside;
-                    right = if x < right.0 { (x, t) } else { right };
+                    right = if x < right.0 { (x, a, b) } else { right };
                 } else {
-                    left = if x > left.0 { (x, t) } else { left };
+                    left = if x > left.0 { (x, a, b) } else { left };
                 }
             }
             a = b;
@@ -278,10 +278,12 @@ impl PackedPolygon {
             return None;
         }
         let chord = || {
-            let t = (right.1 * -left.0 + left.1 * right.0) / (right.0 - left.0);
-            (inside && t.is_finite()).then_some(t)
+            let t_on = |a: Vec3, b: Vec3| (a.z * b.y - a.y * b.z) / (b.y - a.y);
+            let (t_left, t_right) = (t_on(left.1, left.2), t_on(right.1, right.2));
+            let t = (t_right * -left.0 + t_left * right.0) / (right.0 - left.0);
+            t.is_finite().then_some(t)
         };
-        on_edge.or_else(chord)
+        on_edge.or_else(|| if inside { chord() } else { None })
     }
 }
 
@@ -312,6 +314,19 @@ pub struct PackedCone {
 }
 
 impl PackedCone {
+    /// The same numbers widened.
+    #[inline(always)]
+    fn side(&self) -> cone::Side {
+        cone::Side {
+            axis: self.axis.as_dvec3(),
+            middle: self.middle.as_dvec3(),
+            half_length: f64::from(self.half_length),
+            middle_radius: f64::from(self.middle_radius),
+            slope: f64::from(self.slope),
+            squared_reach: f64::from(self.squared_reach),
+        }
+    }
+
     /// Whether the ray's line certainly misses it, decided in `f32`.
     #[inline(always)]
     fn is_missed_by(&self, ray: &PackedRay) -> bool {
@@ -357,14 +372,7 @@ impl Form for PackedCone {
         if self.is_missed_by(ray) {
             return None;
         }
-        let side = cone::Side {
-            axis: self.axis.as_dvec3(),
-            middle: self.middle.as_dvec3(),
-            half_length: f64::from(self.half_length),
-            middle_radius: f64::from(self.middle_radius),
-            slope: f64::from(self.slope),
-            squared_reach: f64::from(self.squared_reach),
-        };
+        let side = self.side();
         rounded(t_max, |t_max| side.intersect(&ray.wide, t_max))
     }
 
@@ -422,5 +430,97 @@ impl Form for PackedPrimitive {
     fn bytes(&self) -> usize {
         let inside = each_kind!(self, form => form.bytes() - size_of_val(form));
         size_of::<Self>() + inside
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Aabb;
+
+    /// Numbers from −½ to ½, the same everywhere.
+    fn numbers() -> impl FnMut() -> f64 {
+        let mut state = 1u64;
+        move || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        }
+    }
+
+    /// Rays that pass within a few roundings of the outline of what they are aimed at: where `f64`
+    /// finds a hit, `f32` must not have ruled it out.
+    #[test]
+    fn what_is_ruled_out_is_missed() {
+        let frame = UnitFrame::around(&Aabb::new(Vec3::splat(-0.5), Vec3::splat(0.5)));
+        let mut number = numbers();
+        let mut vector = || Vec3::new(number(), number(), number());
+        let (mut hits, mut misses) = ([0; 4], [0; 4]);
+        for i in 0..100_000 {
+            let [a, b, c] = [vector(), vector(), vector()];
+            let (size, origin) = (10f64.powf(6.0 * vector().x - 3.0), 4.0 * vector());
+            let (Ok(sphere), Ok(triangle), Ok(polygon), Ok(cone)) = (
+                Sphere::new(a, 0.25 * size.min(1.0)),
+                Triangle::new([a, b, c], None),
+                Polygon::new(vec![a, b, c], None),
+                Cone::new(a, 0.1 * size.min(1.0), b, 0.05 * size.min(1.0)),
+            ) else {
+                continue;
+            };
+            let off = 10f64.powf(-4.0 - 6.0 * vector().x) * vector();
+            let across = (origin - a).any_orthonormal_vector();
+            let normal = (a - origin).cross(b - a).normalize();
+            let targets = [
+                a + sphere.radius * across,
+                a + (i % 7) as f64 / 6.0 * (b - a),
+                b + (i % 5) as f64 / 4.0 * (c - b),
+                0.5 * (a + b) + 0.5 * (cone.base_radius() + cone.apex_radius()) * normal,
+            ];
+            for (k, target) in targets.into_iter().enumerate() {
+                let ray = Ray::new(origin, (target + off - origin).normalize());
+                let Some(ray) = PackedRay::new(&frame, &ray) else {
+                    continue;
+                };
+                let wide = &ray.wide;
+                let far = f64::INFINITY;
+                let (hit, missed) = match k {
+                    0 => {
+                        let packed = PackedSphere::of(&sphere, &frame);
+                        let exact = Sphere {
+                            center: packed.center.as_dvec3(),
+                            radius: packed.radius.into(),
+                        };
+                        let hit = Shape::intersect(&exact, wide, far);
+                        (hit.is_some(), packed.is_missed_by(&ray))
+                    }
+                    1 => {
+                        let packed = PackedTriangle::of(&triangle, &frame);
+                        let exact = Triangle {
+                            vertices: packed.vertices.map(|v| v.as_dvec3()),
+                            normals: None,
+                        };
+                        let hit = Shape::intersect(&exact, wide, far);
+                        (hit.is_some(), packed.is_missed_by(&ray))
+                    }
+                    2 => {
+                        let packed = PackedPolygon::of(&polygon, &frame);
+                        (packed.crossing(wide).is_some(), packed.is_missed_by(&ray))
+                    }
+                    _ => {
+                        let packed = PackedCone::of(&cone, &frame);
+                        let hit = packed.side().intersect(wide, far);
+                        (hit.is_some(), packed.is_missed_by(&ray))
+                    }
+                };
+                assert!(!(hit && missed), "kind {k}, {ray:?}");
+                hits[k] += usize::from(hit);
+                misses[k] += usize::from(missed);
+            }
+        }
+        assert!(
+            hits.iter().chain(&misses).all(|&n| n > 1000),
+            "{hits:?} {misses:?}"
+        );
     }
 }

@@ -5,6 +5,7 @@ use crate::geometry::{Axis, Ray, Vec3};
 use glam::Vec3 as Point;
 
 /// A ray in the coordinates of a [`UnitFrame`], its numbers those of an `f32`.
+#[derive(Debug)]
 pub struct PackedRay {
     pub(crate) frame: UnitFrame,
     /// The same numbers widened.
@@ -31,6 +32,7 @@ impl PackedRay {
 
     /// `None` where the ray certainly misses the scene, has no direction, or one so short or long that
     /// its distances to the scene have no number.
+    #[inline(always)]
     pub fn new(frame: &UnitFrame, ray: &Ray) -> Option<Self> {
         let largest = ray.direction.abs().max_element();
         if !(largest > 0.0 && largest.is_finite()) {
