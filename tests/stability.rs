@@ -1,10 +1,12 @@
 //! The torture set: every case by every method is right.
 
 use bspscope::measure::stability::{CASES, Cell, KERNELS, Outcome, run};
+use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
 use bspscope::scene::{Scene, builtin};
 use bspscope::trace::thread_pool;
 use bspscope::tree::Method;
+use std::collections::BTreeSet;
 
 fn matrix(scene: Option<&Scene>, methods: &[Method]) -> Vec<Cell> {
     run(
@@ -16,6 +18,9 @@ fn matrix(scene: Option<&Scene>, methods: &[Method]) -> Vec<Cell> {
     )
     .unwrap()
 }
+
+/// Cases with objects too small beside others, or too thin, for 24 bits.
+const NOT_IN_F32: [&str; 3] = ["cylinders and cones", "mixed sizes", "slivers"];
 
 fn assert_right(cells: &[Cell]) {
     let wrong: Vec<_> = cells
@@ -34,15 +39,21 @@ fn every_case_is_right_by_every_method() {
     assert_eq!(cells.len(), cases * methods.len() * KERNELS.len());
     assert_right(&cells);
     // Nothing passed because nothing was asked.
-    for theme in ["transforms", "rays"] {
-        let of_theme = cells.iter().filter(|cell| cell.theme == theme);
-        for cell in of_theme {
-            assert!(
-                matches!(cell.outcome, Outcome::Pass { rays } if rays >= 100),
-                "{cell:?}"
-            );
+    let mut not_in_f32 = BTreeSet::new();
+    for cell in &cells {
+        match cell.outcome {
+            Outcome::Pass { rays } => {
+                let asks = ["transforms", "rays"].contains(&cell.theme);
+                assert!(!asks || rays >= 100, "{cell:?}");
+            }
+            _ => {
+                assert_eq!(cell.precision, Precision::F32);
+                not_in_f32.insert(cell.case);
+            }
         }
     }
+    // What f32 cannot hold is known; the rest passes in it, too.
+    assert_eq!(not_in_f32.into_iter().collect::<Vec<_>>(), NOT_IN_F32);
 }
 
 #[test]

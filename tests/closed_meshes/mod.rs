@@ -1,10 +1,11 @@
 //! Closed meshes with rays from inside at their vertices and edges.
 
 use bspscope::geometry::{Ray, Vec3};
+use bspscope::primitive::Precision;
 use bspscope::primitive::{Polygon, Primitive, Triangle};
 use bspscope::progress::Progress;
 use bspscope::scene::{Camera, Material, Scene, SceneParts};
-use bspscope::trace::{Batch, Hit, RayKind, RayTracer, Shapes, Timed};
+use bspscope::trace::{Batch, Hit, RayKind, RayTracer, Timed};
 use bspscope::tree::{BuildSettings, Method, build};
 use rayon::prelude::*;
 
@@ -25,20 +26,21 @@ pub struct Leaks {
     pub example: Option<Ray>,
 }
 
-/// Traces about `count` rays, evenly over meshes and methods.
+/// Traces about `count` rays, evenly over meshes, methods and precisions.
 pub fn leaks(count: u64) -> Vec<Leaks> {
     const CHUNK: u64 = 4096;
     let methods: Vec<_> = Method::all().collect();
     let meshes = meshes();
-    let each = count.div_ceil((meshes.len() * methods.len()) as u64);
+    let parts = meshes.len() * methods.len() * Precision::ALL.len();
+    let each = count.div_ceil(parts as u64);
     let mut found = Vec::new();
     for mesh in &meshes {
         let scene = scene_of(&mesh.faces);
         for &method in &methods {
             let settings = BuildSettings::for_method(method);
             let tree = build(&scene, &settings, &Progress::new()).unwrap();
-            let (shapes, progress) = (Shapes::of(&scene), Progress::new());
-            let leaking = |chunk: u64| {
+            let progress = Progress::new();
+            let leaking = |precision: Precision, chunk: u64| {
                 let range = chunk * CHUNK..each.min((chunk + 1) * CHUNK);
                 let rays: Vec<Ray> = range.map(|i| ray(mesh, i)).collect();
                 let mut hits: Vec<Hit> = Vec::new();
@@ -47,23 +49,26 @@ pub fn leaks(count: u64) -> Vec<Leaks> {
                     rays: &rays,
                     pixels: &[],
                 };
-                Timed::new(&tree, &shapes, &progress).closest_hits(batch, &mut hits);
+                Timed::new(&tree, scene.shapes(precision), &progress)
+                    .closest_hits(batch, &mut hits);
                 let all = rays.into_iter().zip(hits);
                 let leaking = all.filter(|(_, hit)| !hit.is_hit());
                 leaking.fold((0, None), |(n, first), (ray, _)| {
                     (n + 1, first.or(Some(ray)))
                 })
             };
-            let (leaked, example) = (0..each.div_ceil(CHUNK))
-                .into_par_iter()
-                .map(leaking)
-                .reduce(|| (0, None), |a, b| (a.0 + b.0, a.1.or(b.1)));
-            found.push(Leaks {
-                name: format!("{}, {}", mesh.name, method.name),
-                rays: each,
-                leaked,
-                example,
-            });
+            for precision in Precision::ALL {
+                let (leaked, example) = (0..each.div_ceil(CHUNK))
+                    .into_par_iter()
+                    .map(|chunk| leaking(precision, chunk))
+                    .reduce(|| (0, None), |a, b| (a.0 + b.0, a.1.or(b.1)));
+                found.push(Leaks {
+                    name: format!("{}, {}, {}", mesh.name, method.name, precision.name()),
+                    rays: each,
+                    leaked,
+                    example,
+                });
+            }
         }
     }
     found
