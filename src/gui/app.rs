@@ -261,7 +261,8 @@ impl eframe::App for App {
             self.act(action, &ctx);
         }
         self.state.follow_rays(&ctx);
-        self.state.judge_rays(&ctx);
+        self.state
+            .judge_rays(self.panes.picture.heat.is_timing(), &ctx);
         egui::Panel::top("top bar").show(ui, |ui| {
             top_bar::show(ui, &mut self.state, &mut self.files, &mut self.help_open);
         });

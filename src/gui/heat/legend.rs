@@ -75,7 +75,7 @@ impl HeatView {
     /// Stops the pass that takes the times, or begins it anew.
     fn timing_button(&mut self, ui: &mut egui::Ui) {
         let (name, about) = match self.timing().standing() {
-            Standing::Waiting => return,
+            Standing::Waiting | Standing::Done => return,
             Standing::Running(_) => ("Cancel timing", "Stop taking the time of every pixel."),
             Standing::Ended(_) => ("Take times", "Take the time of every pixel after all."),
         };
