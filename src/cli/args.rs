@@ -2,6 +2,7 @@
 
 use crate::geometry::Axis;
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, heatmap};
+use crate::measure::paper::{self, PaperScene};
 use crate::measure::trade::KNOBS;
 use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
@@ -36,6 +37,7 @@ pub struct Arguments {
 pub enum Command {
     Measure(MeasureArgs),
     Compare(CompareArgs),
+    Paper(PaperArgs),
     Render(RenderArgs),
     Probe(ProbeArgs),
     Generate(GenerateArgs),
@@ -103,6 +105,30 @@ pub struct CompareArgs {
     pub trace: TraceArgs,
     #[command(flatten)]
     pub picture: PictureArgs,
+    #[command(flatten)]
+    pub report: ReportArgs,
+}
+
+/// Repeat the paper's experiment: its Tables 4, 5 and 6, printed beside computed
+///
+/// Every cell is marked: equal after rounding, same direction (from method 1 to method 2), or
+/// differs; what is known of the difference is said. Conditions are the paper's: cylinders as 10
+/// polygons, D_MAX 20, N_OILF 1, D_AREC of Table 4, 512 x 512 pixels. Exit code 1 if the two methods
+/// gave different images.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  bspscope paper\n  bspscope paper balls rings tetra --format json\n  \
+    bspscope paper room -o room.tex"
+)]
+pub struct PaperArgs {
+    /// Scenes of the paper [default: all six]
+    #[arg(value_name = "SCENE", value_parser = paper_scenes())]
+    pub scenes: Vec<&'static PaperScene>,
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// Threads; 0 takes as many as the machine has cores
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Picture")]
+    pub threads: usize,
     #[command(flatten)]
     pub report: ReportArgs,
 }
@@ -469,6 +495,11 @@ fn writer_names() -> PossibleValuesParser {
 fn method_names() -> impl TypedValueParser<Value = Method> {
     PossibleValuesParser::new(Method::all().map(|m| PossibleValue::new(m.name).help(m.title)))
         .try_map(|name| Method::named(&name))
+}
+
+fn paper_scenes() -> impl TypedValueParser<Value = &'static PaperScene> {
+    PossibleValuesParser::new(paper::SCENES.iter().map(|scene| scene.name))
+        .try_map(|name| paper::scene(&name).ok_or("no such scene"))
 }
 
 fn heatmap_names() -> impl TypedValueParser<Value = ByHeatmap> {

@@ -10,6 +10,7 @@ mod heat;
 mod measure;
 mod methods;
 mod output;
+mod paper;
 mod probe;
 mod render;
 mod resolve;
@@ -38,6 +39,7 @@ pub fn main() -> ExitCode {
         Some(Command::Measure(args)) => measure::run(args),
         Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Render(args)) => render::run(args),
+        Some(Command::Paper(args)) => paper::run(args),
         Some(Command::Probe(args)) => probe::run(args),
         Some(Command::Generate(args)) => generate::run(args),
         Some(Command::Methods(args)) => methods::run(args),

@@ -2,7 +2,7 @@
 
 use super::args::{BuildArgs, CylinderArgs, PictureArgs, TraceArgs};
 use super::bar;
-use crate::report::{WRITERS, Writer};
+use crate::report::Writer;
 use crate::scene::format::{FORMATS, FormatError};
 use crate::scene::{Camera, LoadError, Scene, SceneRequest, SceneSource, builtin, load};
 use crate::trace::RenderSettings;
@@ -110,15 +110,19 @@ pub fn methods(asked: &[Method]) -> Vec<Method> {
 }
 
 /// The writer asked for by name, else by the file's extension, else the first.
-pub fn writer(name: Option<&str>, file: Option<&Path>) -> &'static Writer {
+pub fn writer<R: ?Sized>(
+    writers: &'static [Writer<R>],
+    name: Option<&str>,
+    file: Option<&Path>,
+) -> &'static Writer<R> {
     let extension = file
         .and_then(Path::extension)
         .map(|e| e.to_string_lossy().to_ascii_lowercase());
-    WRITERS
+    writers
         .iter()
         .find(|writer| match name {
             Some(name) => writer.name == name,
             None => extension.as_deref() == Some(writer.extension),
         })
-        .unwrap_or(&WRITERS[0])
+        .unwrap_or(&writers[0])
 }

@@ -5,6 +5,7 @@ mod facts;
 pub mod heat;
 pub mod judge;
 mod measurement;
+pub mod paper;
 mod parameter;
 mod parameters;
 pub mod stability;
