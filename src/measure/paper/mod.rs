@@ -311,7 +311,7 @@ mod tests {
         for scene in &SCENES {
             let objects = scene.characteristic("N_O");
             let figures = scene.properties.map(|row| row.map(number));
-            for method in 0..2 {
+            for method in [0, 1] {
                 let [leaves, empty, duplication, full] =
                     [0, 1, 2, 3].map(|row: usize| figures[row][method]);
                 let computed =
