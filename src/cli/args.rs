@@ -8,7 +8,7 @@ use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
 use crate::scene::builtin::BUILTINS;
 use crate::scene::{Cylinders, Sampling};
-use crate::trace::PrecisionChoice;
+use crate::trace::{KernelChoice, PrecisionChoice};
 use crate::tree::{BuildSettings, MaxDepth, Method, OverlapRule};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -448,6 +448,10 @@ pub struct TraceArgs {
     /// Numbers that rays are traced in: f32, f64, or auto for f32 where it can hold the scene
     #[arg(long, value_name = "NUMBERS", value_parser = precision_names(), default_value = "f64")]
     pub precision: PrecisionChoice,
+    /// Kernel of the timed pass: plain for one ray after the other, as the paper timed; lanes for
+    /// batches of rays in vectors; auto for lanes where the processor has vectors for them
+    #[arg(long, value_name = "KERNEL", value_parser = kernel_names(), default_value = "plain")]
+    pub kernel: KernelChoice,
     /// Where the first sample lies: in the pixel's centre, or on a lattice that spans the angle
     #[arg(long, value_name = "WHERE", value_parser = sampling_names(), default_value = "center")]
     pub sampling: Sampling,
@@ -549,6 +553,11 @@ fn pixel(text: &str) -> Result<[i64; 2], String> {
     text.split_once(',')
         .and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]))
         .ok_or_else(|| "expected a column and a row, such as 256,256".into())
+}
+
+fn kernel_names() -> impl TypedValueParser<Value = KernelChoice> {
+    PossibleValuesParser::new(KernelChoice::ALL.map(KernelChoice::name))
+        .try_map(|name| KernelChoice::named(&name).ok_or("no such kernel"))
 }
 
 fn precision_names() -> impl TypedValueParser<Value = PrecisionChoice> {

@@ -91,6 +91,7 @@ pub fn render(camera: Camera, trace: &TraceArgs, picture: &PictureArgs) -> Rende
         d_arec: trace.d_arec,
         cut_off: trace.cut_off,
         precision: trace.precision,
+        kernel: trace.kernel,
         sampling: trace.sampling,
         threads: match trace.threads {
             0 => std::thread::available_parallelism().map_or(1, usize::from),

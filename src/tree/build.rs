@@ -80,6 +80,7 @@ pub fn build(
         settings: settings.clone(),
         depth_limit,
         depth_reached,
+        derived: Default::default(),
     })
 }
 
