@@ -2,7 +2,7 @@
 //!
 //! It walks the same tree as the plain kernel, any method's, in a form made once a tree, and gives the
 //! same hits, ray for ray and bit for bit. For that, nothing of it needs to be exact but the tests
-//! themselves, which are the plain kernel's. All before them only rules out, in `f32` and with room
+//! themselves, which are the plain kernel's. All before them only decides what is certain, in `f32` and with room
 //! for what that rounds, in either precision: planes are as thick as rounding may move rays and
 //! objects ([`prepare`]), and blocks of 16 objects are held against a ray at once ([`block`]). What is
 //! left, one or two objects a ray, is tested one by one.

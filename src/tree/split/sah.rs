@@ -29,7 +29,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             step: 1.0,
             unit: "objects",
             about: "How many objects are tested at the cost of one.",
-            source: "lanes of a 512-bit vector; 8 and 16 measured by cargo bench --bench peers",
+            source: "lanes of a 512-bit vector; benches/README.md",
         },
         Constant {
             name: "traversal-cost",
@@ -39,7 +39,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             step: 0.0,
             unit: "blocks",
             about: "Cost of passing an inner node, in tests of a block.",
-            source: "measured by cargo bench --bench peers",
+            source: "benches/README.md: little depends on it from 0.4 to 0.7",
         },
         Constant {
             name: "empty-factor",
@@ -61,7 +61,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             unit: "objects",
             about: "Cells with at most this many objects try every plane, larger ones the limits of \
                     64 bins.",
-            source: "measured: from 1024 on, more gains nothing",
+            source: "ours, not yet measured",
         },
     ],
     rule: |settings| Box::new(Sah::new(settings)),
