@@ -10,7 +10,7 @@ use bspscope::trace::RenderSettings;
 /// Width and height of the pictures in pixels.
 const SIZE: u32 = 192;
 /// How often each tree is timed.
-const ROUNDS: u32 = 3;
+const ROUNDS: u32 = 7;
 /// The greatest relative error that is aimed at.
 const GOAL: f64 = 0.15;
 

@@ -160,7 +160,7 @@ pub struct ModelArgs {
     #[arg(long, value_name = "WxH", value_parser = resolution, default_value = "192x192")]
     pub resolution: [u32; 2],
     /// How often each tree is timed; the least time counts
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
     pub rounds: u32,
     /// Form of the result
     #[arg(long, value_enum, default_value_t = ListFormat::Text, help_heading = "Output")]
