@@ -8,13 +8,16 @@ mod compare;
 mod generate;
 mod heat;
 mod measure;
+mod merge;
 mod methods;
+mod model;
 mod output;
 mod paper;
 mod probe;
 mod render;
 mod resolve;
 mod stability;
+mod sweep;
 mod trade;
 mod verify;
 mod window;
@@ -37,6 +40,9 @@ pub fn main() -> ExitCode {
     let outcome = match &arguments.command {
         None => window::run(&arguments.window),
         Some(Command::Measure(args)) => measure::run(args),
+        Some(Command::Merge(args)) => merge::run(args),
+        Some(Command::Sweep(args)) => sweep::run(args),
+        Some(Command::Model(args)) => model::run(args),
         Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Paper(args)) => paper::run(args),

@@ -53,14 +53,14 @@ pub fn builds(methods: &[Method], args: &BuildArgs) -> Result<Vec<BuildSettings>
         .map(|&method| BuildSettings {
             d_max: args.d_max,
             n_oilf: args.n_oilf,
-            root_margin: args.root_margin,
-            overlap: args.overlap,
-            first_axis: args.first_axis,
-            memory_limit: args.memory_limit.saturating_mul(1 << 20),
+            root_margin: args.rules.root_margin,
+            overlap: args.rules.overlap,
+            first_axis: args.rules.first_axis,
+            memory_limit: args.rules.memory_limit.saturating_mul(1 << 20),
             ..BuildSettings::for_method(method)
         })
         .collect();
-    for (name, value) in &args.set {
+    for (name, value) in &args.rules.set {
         let mut known = false;
         for build in &mut builds {
             if build.method.constants.iter().any(|c| c.name == name) {

@@ -121,6 +121,10 @@ impl App {
             Action::Redo => state.redo(),
             Action::Compare => state.compare_or_not(),
             Action::OtherTree => state.show(state.which.other()),
+            Action::Paper => {
+                let threads = state.wanted.render.threads;
+                state.experiment.start_or_cancel(threads, ctx);
+            }
             Action::Theme => top_bar::toggle_theme(ctx),
             Action::LeftBar => self.layout.left.shown ^= true,
             Action::RightBar => self.layout.right.shown ^= true,

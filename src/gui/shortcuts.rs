@@ -59,6 +59,7 @@ pub enum Action {
     Redo,
     Compare,
     OtherTree,
+    Paper,
     Theme,
     LeftBar,
     RightBar,
@@ -186,6 +187,7 @@ shortcuts! {
     Window Redo COMMAND [Y] "Ctrl+Y" "Redo what was undone";
     Window Compare COMMAND [E] "Ctrl+E" "Compare with another tree, B, or end that";
     Window OtherTree NONE [J] "J" "Bring the other of two compared trees to the front";
+    Window Paper COMMAND [U] "Ctrl+U" "Repeat the paper's experiment, or cancel that";
     Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
     Window LeftBar COMMAND [B] "Ctrl+B" "Show or hide the bar on the left";
     Window RightBar COMMAND [I] "Ctrl+I" "Show or hide the bar on the right";

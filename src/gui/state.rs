@@ -7,6 +7,7 @@ use super::StartOptions;
 use super::comparing::{Comparing, Verdict, Which};
 use super::inspect::Inspect;
 use super::judging::Judging;
+use super::panels::paper::Experiment;
 use super::selection::Selection;
 use super::walk::{Picked, Walking, Wish};
 use crate::measure::heat::PixelCounts;
@@ -49,6 +50,8 @@ pub struct State {
     pub inspect: Inspect,
     /// What the judge has found of what is shown.
     pub judging: Judging,
+    /// The paper's experiment, repeated.
+    pub experiment: Experiment,
 }
 
 /// The tree of a comparison that is not in front.
@@ -187,6 +190,7 @@ impl State {
             walking: Walking::default(),
             inspect: Inspect::default(),
             judging: Judging::default(),
+            experiment: Experiment::default(),
         }
     }
 
