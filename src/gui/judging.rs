@@ -74,8 +74,8 @@ impl State {
         if complete {
             judging.running = None;
         }
-        // The worker's times must not suffer.
-        let rests = self.work.is_none();
+        // The worker's times must not suffer, nor those of a trade.
+        let rests = self.work.is_none() && !self.trading.is_running();
         match self
             .current
             .as_ref()

@@ -356,6 +356,9 @@ impl HeatView {
                 Standing::Waiting if state.stopped && !current.done => {
                     "Not timed: the picture was cancelled. Resume it first.".to_owned()
                 }
+                Standing::Waiting if state.trading.is_running() => {
+                    "timing … begins when the trade has ended".to_owned()
+                }
                 Standing::Waiting => "timing … begins when the picture is finished".to_owned(),
             };
         }

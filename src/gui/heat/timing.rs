@@ -125,9 +125,9 @@ impl Timing {
     }
 }
 
-/// Whether there is a finished picture and the worker has nothing to do.
+/// Whether there is a finished picture, the worker has nothing to do and no trade takes times.
 fn may_run(current: &Current, state: &State) -> bool {
-    state.work.is_none() && current.done
+    state.work.is_none() && current.done && !state.trading.is_running()
 }
 
 fn start(heatmap: &'static Heatmap, current: &Current, ctx: &egui::Context) -> Running {
