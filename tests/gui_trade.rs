@@ -118,10 +118,10 @@ fn the_chosen_outcomes_error_is_mapped_pixel_by_pixel() {
     let at = map.min + map.size() * egui::vec2(6.5, 10.5) / 24.0;
     window.hover_at(at);
     window.run_steps(2);
-    assert!(has(&window, "pixel 6, 10: "));
+    assert!(has(&window, "pixel 6, 10: ") && !has(&window, "Pixel 6, 10 (from"));
     window.drag_at(at);
     window.drop_at(at);
-    wait(&mut window, "the pixel", |w| has(w, "Pixel 6, 10"));
+    wait(&mut window, "the pixel", |w| has(w, "Pixel 6, 10 (from"));
     let point = text_with(&window, "method sah-cut: ");
     click(&mut window, &point);
     wait(&mut window, "no error", |w| has(w, "No pixel differs"));

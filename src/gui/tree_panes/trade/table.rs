@@ -24,7 +24,7 @@ const COLUMNS: [(&str, f32, &str); 10] = [
     ),
     (
         "spread",
-        84.0,
+        98.0,
         "Least and largest time of the rounds, as ratios to the reference's median",
     ),
     (
@@ -98,23 +98,30 @@ pub fn show(
                     let place = row.index();
                     let outcome = &trade.outcomes[place];
                     row.set_selected(chosen == Some(place));
-                    for text in cells(trade, outcome, front[place]) {
-                        row.col(|ui| {
+                    let words = outcome.choice.words();
+                    for (column, text) in
+                        cells(trade, outcome, front[place]).into_iter().enumerate()
+                    {
+                        let (_, cell) = row.col(|ui| {
                             let label = egui::Label::new(text).selectable(false);
                             // A label that is cut off would take the hovering from its row.
                             ui.add(label.truncate().sense(Sense::hover()));
                         });
+                        // The first cell stands for the row: the others may be out of sight.
+                        if column == 0 {
+                            cell.widget_info(|| {
+                                let (name, is_chosen) =
+                                    (format!("Load {words}"), chosen == Some(place));
+                                egui::WidgetInfo::selected(
+                                    egui::Role::Button,
+                                    true,
+                                    is_chosen,
+                                    name,
+                                )
+                            });
+                        }
                     }
                     let response = row.response();
-                    let words = outcome.choice.words();
-                    response.widget_info(|| {
-                        egui::WidgetInfo::selected(
-                            egui::Role::Button,
-                            true,
-                            chosen == Some(place),
-                            format!("Load {words}"),
-                        )
-                    });
                     if response
                         .on_hover_text(format!("{words}\nClick to load these settings."))
                         .clicked()
