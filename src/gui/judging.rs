@@ -75,8 +75,8 @@ impl State {
         if complete {
             judging.running = None;
         }
-        // The worker's times must not suffer.
-        let rests = self.work.is_none() && !timing;
+        // The worker's times must not suffer, nor those of pixels or of a trade.
+        let rests = self.work.is_none() && !timing && !self.trading.is_running();
         match self
             .current
             .as_ref()

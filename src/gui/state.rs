@@ -9,6 +9,7 @@ use super::inspect::Inspect;
 use super::judging::Judging;
 use super::panels::paper::Experiment;
 use super::selection::Selection;
+use super::trading::Trading;
 use super::walk::{Picked, Walking, Wish};
 use crate::measure::heat::PixelCounts;
 use crate::progress::Progress;
@@ -52,6 +53,8 @@ pub struct State {
     pub judging: Judging,
     /// The paper's experiment, repeated.
     pub experiment: Experiment,
+    /// What accuracy costs.
+    pub trading: Trading,
 }
 
 /// The tree of a comparison that is not in front.
@@ -191,6 +194,7 @@ impl State {
             inspect: Inspect::default(),
             judging: Judging::default(),
             experiment: Experiment::default(),
+            trading: Trading::default(),
         }
     }
 
@@ -350,6 +354,7 @@ impl State {
             self.stopped = true;
         }
         self.inspect.visits.cancel();
+        self.trading.cancel();
     }
 
     /// Whether what is shown was made with other settings than the widgets say.

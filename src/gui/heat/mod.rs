@@ -162,7 +162,8 @@ impl HeatView {
                 shown.render,
             );
             let pass = &mut self.timings[which as usize];
-            pass.get(current, state.work.is_none(), ctx, move |progress| {
+            let resting = state.work.is_none() && !state.trading.is_running();
+            pass.get(current, resting, ctx, move |progress| {
                 let pool = thread_pool(render.threads)?;
                 let mut counts = PixelCounts::new(render.width, render.height);
                 counts.seconds = Some(pixel_times(&scene, &tree, &render, &pool, progress)?);
@@ -372,6 +373,9 @@ impl HeatView {
                 Standing::Ended(why) => format!("Not timed: {why}"),
                 Standing::Waiting | Standing::Done if state.stopped && !current.done => {
                     "Not timed: the picture was cancelled. Resume it first.".to_owned()
+                }
+                Standing::Waiting if state.trading.is_running() => {
+                    "timing … begins when the trade has ended".to_owned()
                 }
                 Standing::Waiting | Standing::Done => {
                     "timing … begins when the picture is finished".to_owned()
