@@ -44,7 +44,8 @@ fn every_case_is_right_by_every_method() {
         match cell.outcome {
             Outcome::Pass { rays } => {
                 let asks = ["transforms", "rays"].contains(&cell.theme);
-                assert!(!asks || rays >= 100, "{cell:?}");
+                // Few where a tree has few planes.
+                assert!(!asks || rays >= 20, "{cell:?}");
             }
             _ => {
                 assert_eq!(cell.precision, Precision::F32);
