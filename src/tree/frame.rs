@@ -74,6 +74,14 @@ impl Frame {
         ((world - self.center[axis.index()]) / self.half[axis.index()]) as f32
     }
 
+    /// The storable planes nearest to the lower and upper ends of a box, by axis.
+    #[inline]
+    pub fn planes_around(&self, bounds: &Aabb) -> [[f32; 2]; 3] {
+        let lo = self.point_to_local(bounds.lo).as_vec3();
+        let hi = self.point_to_local(bounds.hi).as_vec3();
+        std::array::from_fn(|k| [lo[k], hi[k]])
+    }
+
     /// The highest storable plane strictly below a world coordinate, by more than [`Frame::slack`].
     pub fn plane_below(&self, axis: Axis, world: f64) -> f32 {
         // Starting two slacks away takes few steps even where `f32` is finest, around zero.
@@ -92,6 +100,17 @@ impl Frame {
         }
         plane
     }
+}
+
+/// Whether a box does more than touch a cell from outside; both are given by their planes. A flat box
+/// in the plane between two cells is inside both.
+#[inline]
+pub fn is_inside(planes: &[[f32; 2]; 3], cell: &[[f32; 2]; 3]) -> bool {
+    (0..3).all(|k| {
+        let ([lo, hi], [cell_lo, cell_hi]) = (planes[k], cell[k]);
+        let only_touches = (hi <= cell_lo && lo < cell_lo) || (lo >= cell_hi && hi > cell_hi);
+        !only_touches
+    })
 }
 
 #[cfg(test)]

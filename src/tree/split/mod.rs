@@ -3,6 +3,7 @@
 mod midpoint;
 mod none;
 mod object_median;
+mod sah;
 mod sah_cut;
 
 use super::{BuildSettings, Frame, OverlapRule, StopReason};
@@ -12,6 +13,7 @@ use crate::geometry::{Aabb, Axis};
 pub static SPLIT_RULES: &[MethodInfo] = &[
     midpoint::METHOD,
     sah_cut::METHOD,
+    sah::METHOD,
     object_median::METHOD,
     none::METHOD,
 ];

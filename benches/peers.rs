@@ -1,0 +1,292 @@
+//! Our kernels beside those of others, on the same rays: `cargo bench --bench peers`.
+//!
+//! Every round runs every kernel on a set of rays before the next round begins, so that what else
+//! the machine does hits all of them; a figure is the median of the rounds' ratios to Embree's
+//! kernel for single rays. A short run: `cargo bench --bench peers -- --scene tetra --rounds 3`.
+//! What the figures were is told in `benches/README.md`.
+
+#[path = "peers/crates.rs"]
+mod crates;
+#[path = "peers/embree.rs"]
+mod embree;
+#[path = "peers/kernels.rs"]
+mod kernels;
+#[path = "peers/ours.rs"]
+mod ours;
+#[path = "peers/rays.rs"]
+mod rays;
+#[path = "peers/scenes.rs"]
+mod scenes;
+
+use bspscope::trace::Hit;
+use clap::Parser;
+use kernels::{Found, Kernel, NarrowRay, Rays};
+use rays::{RaySet, ray_sets};
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+
+/// Our kernels beside Embree, obvhs and parry3d: rays a second on five sets of rays.
+#[derive(Parser)]
+struct Options {
+    /// Scenes to run, of tetra, terrain, balls, balls-tessellated; all without this
+    #[arg(long, value_name = "NAME")]
+    scene: Vec<String>,
+    /// Sets of rays to run, by letter: P, D, C, S, A
+    #[arg(long, default_value = "PDCSA")]
+    sets: String,
+    /// Only kernels whose name contains this, and Embree
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    kernel: String,
+    /// Rounds over all kernels
+    #[arg(long, default_value_t = 7)]
+    rounds: usize,
+    /// Rays of a set are those of a picture of SIZE × SIZE pixels; a multiple of 4
+    #[arg(long, value_name = "SIZE", default_value_t = 512)]
+    size: u32,
+    /// Numbers of threads to run with
+    #[arg(long, value_delimiter = ',', default_value = "1,2")]
+    threads: Vec<usize>,
+    /// Writes all figures there as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<std::path::PathBuf>,
+    /// What cargo passes to every bench
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+/// A kernel that takes part, with what building its tree took.
+struct Entrant<'a> {
+    name: String,
+    kernel: Box<dyn Kernel + 'a>,
+    build: Duration,
+}
+
+/// A kernel's answers to a set of rays.
+#[derive(Default)]
+struct Answers {
+    found: Vec<Found>,
+    blocked: Vec<bool>,
+}
+
+fn main() {
+    let options = Options::parse();
+    assert!(options.size.is_multiple_of(4) && options.size > 0 && options.rounds > 0);
+    let wanted = |name: &str| options.scene.is_empty() || options.scene.iter().any(|s| s == name);
+    let mut report = Vec::new();
+    let mut wrong = 0;
+    for (name, make) in scenes::SCENES {
+        if wanted(name) {
+            wrong += run(&make(), &options, &mut report);
+        }
+    }
+    if let Some(path) = &options.json {
+        let text = serde_json::to_string_pretty(&report).expect("numbers and text");
+        std::fs::write(path, text).expect("the file can be written");
+    }
+    if wrong > 0 {
+        println!("{wrong} answers of our kernels differ from those of the plain one");
+        std::process::exit(1);
+    }
+}
+
+/// Runs all kernels on a scene; gives the number of wrong answers of ours.
+fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) -> usize {
+    let scene = &subject.scene;
+    println!("\n{}: {} objects", subject.name, scene.objects().len());
+    let timed = |name: &str, make: &dyn Fn() -> Option<Box<dyn Kernel>>| {
+        let start = Instant::now();
+        let kernel = make()?;
+        let build = start.elapsed();
+        let name = name.to_owned();
+        Some(Entrant {
+            name,
+            kernel,
+            build,
+        })
+    };
+    let start = Instant::now();
+    let tree = ours::build(scene);
+    let build = start.elapsed();
+    println!(
+        "our tree: {} nodes, {} references, depth {}",
+        tree.nodes().len(),
+        tree.references().len(),
+        tree.depth_reached()
+    );
+    let mut entrants = Vec::new();
+    match timed("embree i1", &|| {
+        Some(Box::new(embree::Embree::new(scene, 1)?) as _)
+    }) {
+        Some(entrant) => entrants.push(entrant),
+        None => println!(
+            "Embree is not installed (Debian: libembree3-3); ratios are to the first kernel"
+        ),
+    }
+    entrants.extend(timed("obvhs", &|| {
+        Some(Box::new(crates::Obvhs::new(scene)?) as _)
+    }));
+    entrants.extend(timed("parry3d", &|| {
+        Some(Box::new(crates::Parry::new(scene)?) as _)
+    }));
+    let reference = entrants.len();
+    for (name, kernel) in ours::kernels(scene, &tree) {
+        entrants.push(Entrant {
+            name,
+            kernel,
+            build,
+        });
+    }
+    let sets = ray_sets(subject, options.size, |rays| {
+        let mut found = Vec::new();
+        let narrow: Vec<NarrowRay> = rays.iter().map(NarrowRay::from).collect();
+        let rays = Rays {
+            wide: rays,
+            narrow: &narrow,
+        };
+        entrants[reference].kernel.closest(rays, &mut found);
+        found
+            .iter()
+            .map(|f| f.map_or(Hit::MISS, |(t, object)| Hit { t, object }))
+            .collect()
+    });
+    let first = entrants[0].name.clone();
+    let plain = entrants[reference].name.clone();
+    let ours: Vec<bool> = (0..entrants.len()).map(|i| i >= reference).collect();
+    let keep =
+        |e: &Entrant<'_>| e.name.contains(&options.kernel) || e.name == first || e.name == plain;
+    let (entrants, ours): (Vec<Entrant<'_>>, Vec<bool>) = entrants
+        .into_iter()
+        .zip(ours)
+        .filter(|(e, _)| keep(e))
+        .unzip();
+
+    let mut wrong = 0;
+    for &threads in &options.threads {
+        println!(
+            "{threads} thread(s); Mrays/s of {first}, then ratios to it; differing hits in brackets"
+        );
+        let mut rows: Vec<String> = entrants
+            .iter()
+            .map(|e| format!("{:22} build {:6.2} s", e.name, e.build.as_secs_f64()))
+            .collect();
+        for set in sets.iter().filter(|set| options.sets.contains(set.letter)) {
+            let narrow: Vec<NarrowRay> = set.rays.iter().map(NarrowRay::from).collect();
+            let rays = Rays {
+                wide: &set.rays,
+                narrow: &narrow,
+            };
+            let mut times = vec![Vec::new(); entrants.len()];
+            let mut answers: Vec<Answers> = Vec::new();
+            for _ in 0..options.rounds {
+                answers.clear();
+                for (entrant, times) in entrants.iter().zip(&mut times) {
+                    let (answer, time) = ask(entrant.kernel.as_ref(), set, rays, threads);
+                    answers.push(answer);
+                    times.push(time);
+                }
+            }
+            let reference = entrants.iter().position(|e| e.name == plain).expect("kept");
+            for (k, entrant) in entrants.iter().enumerate() {
+                let mut ratios: Vec<f64> =
+                    times[0].iter().zip(&times[k]).map(|(a, b)| a / b).collect();
+                let ratio = median(&mut ratios);
+                let mut seconds = times[k].clone();
+                let rate = set.rays.len() as f64 / median(&mut seconds) / 1e6;
+                let differing = differing(set, &answers[reference], &answers[k]);
+                // Ours must answer as the plain one does but for what f32 rounds.
+                let allowed = set.rays.len() / if ours[k] { 2000 } else { 100 };
+                if ours[k] && differing > allowed {
+                    wrong += differing;
+                }
+                let figure = if k == 0 { rate } else { ratio };
+                rows[k] += &format!("  {} {figure:5.2} ({differing})", set.letter);
+                report.push(json!({
+                    "scene": subject.name, "objects": scene.objects().len(), "threads": threads,
+                    "set": set.name, "rays": set.rays.len(), "kernel": entrant.name,
+                    "mrays_per_s": rate, "ratio_to": first, "ratio": ratio,
+                    "differing_hits": differing, "build_s": entrant.build.as_secs_f64(),
+                }));
+            }
+        }
+        rows.iter().for_each(|row| println!("{row}"));
+    }
+    wrong
+}
+
+/// Rays that a thread takes at once.
+const CHUNK: usize = 1 << 14;
+
+/// A kernel's answers and the time it took, in seconds: the thread's own time on one thread, that of
+/// the clock on the wall on several.
+fn ask(kernel: &dyn Kernel, set: &RaySet, rays: Rays<'_>, threads: usize) -> (Answers, f64) {
+    let ask = |rays: Rays<'_>, answers: &mut Answers| {
+        if set.any {
+            kernel.any(rays, &mut answers.blocked);
+        } else {
+            kernel.closest(rays, &mut answers.found);
+        }
+    };
+    let empty = |rays: usize| Answers {
+        found: Vec::with_capacity(rays),
+        blocked: Vec::with_capacity(rays),
+    };
+    if threads == 1 {
+        let mut answers = empty(rays.wide.len());
+        let start = cpu_time::ThreadTime::now();
+        ask(rays, &mut answers);
+        return (answers, start.elapsed().as_secs_f64());
+    }
+    let chunks: Vec<Rays<'_>> = rays
+        .wide
+        .chunks(CHUNK)
+        .zip(rays.narrow.chunks(CHUNK))
+        .map(|(wide, narrow)| Rays { wide, narrow })
+        .collect();
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let parts = std::sync::Mutex::new(Vec::new());
+    let start = Instant::now();
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                loop {
+                    let k = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                    let Some(&rays) = chunks.get(k) else { return };
+                    let mut answers = empty(rays.wide.len());
+                    ask(rays, &mut answers);
+                    parts.lock().expect("no thread panics").push((k, answers));
+                }
+            });
+        }
+    });
+    let time = start.elapsed().as_secs_f64();
+    let mut parts = parts.into_inner().expect("no thread panics");
+    parts.sort_by_key(|(k, _)| *k);
+    let mut answers = Answers::default();
+    for (_, part) in parts {
+        answers.found.extend(part.found);
+        answers.blocked.extend(part.blocked);
+    }
+    (answers, time)
+}
+
+/// How many answers differ by more than the rounding of an `f32`.
+fn differing(set: &RaySet, a: &Answers, b: &Answers) -> usize {
+    if set.any {
+        return a
+            .blocked
+            .iter()
+            .zip(&b.blocked)
+            .filter(|(a, b)| a != b)
+            .count();
+    }
+    let differ = |(a, b): &(&Found, &Found)| match (a, b) {
+        (Some((a, _)), Some((b, _))) => (a - b).abs() > 1e-4 * a.abs().max(1e-2),
+        (a, b) => a.is_some() != b.is_some(),
+    };
+    a.found.iter().zip(&b.found).filter(differ).count()
+}
+
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
