@@ -198,7 +198,7 @@ pub fn trade(
         for (place, choice) in choices.iter().enumerate() {
             let done = f64::from(round) * choices.len() as f64 + place as f64;
             let part = progress.part(done / steps, (done + 1.0) / steps);
-            let (scene, tree) = made.get(exact, &choice.setting, &part)?;
+            let (scene, tree) = pool.install(|| made.get(exact, &choice.setting, &part))?;
             let (picture, seconds) = traced(scene, tree, &choice.setting.render, &pool, &part)?;
             if round == 0 {
                 let owners = owners(exact, choice.setting.cylinders);
