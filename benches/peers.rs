@@ -17,10 +17,8 @@ mod ours;
 mod rays;
 #[path = "peers/scenes.rs"]
 mod scenes;
-#[path = "peers/terrain.rs"]
-mod terrain;
 
-use bspscope::trace::Hit;
+use bspscope::trace::{Hit, LaneTree};
 use clap::Parser;
 use kernels::{Found, Kernel, NarrowRay, Rays};
 use rays::{RaySet, ray_sets};
@@ -108,7 +106,12 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
     };
     let start = Instant::now();
     let tree = ours::build(scene);
+    let lanes = LaneTree::of(scene, &tree);
     let build = start.elapsed();
+    println!(
+        "ready for lanes: {:.1} bytes an object",
+        lanes.bytes() as f64 / scene.objects().len() as f64
+    );
     println!(
         "our tree: {} nodes, {} references, depth {}",
         tree.nodes().len(),
@@ -131,7 +134,7 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
         Some(Box::new(crates::Parry::new(scene)?) as _)
     }));
     let reference = entrants.len();
-    for (name, kernel) in ours::kernels(scene, &tree) {
+    for (name, kernel) in ours::kernels(scene, &tree, lanes) {
         entrants.push(Entrant {
             name,
             kernel,

@@ -588,3 +588,45 @@ fn trade_writes_every_form_and_takes_only_what_is_asked_for() {
         "{widths:?}"
     );
 }
+
+#[test]
+fn the_papers_tables_come_in_every_form() {
+    let program = Program::new();
+    let quick = "paper tetra --resolution 16x16";
+    let report = program.json(&format!("{quick} --format json"));
+    let tetra = &report["scenes"][0];
+    assert_eq!(tetra["unequal"], serde_json::json!([]));
+    assert_eq!(tetra["table"], 5);
+    assert_eq!(tetra["table_4"]["N_O"]["mark"], "equal after rounding");
+    let leaves = &tetra["properties"]["N_LS"];
+    assert_eq!(leaves["1"]["computed"], 96_056.0);
+    assert_eq!(leaves["1"]["mark"], "equal after rounding");
+    assert_eq!(leaves["2"]["mark"], "same direction");
+    let slip = tetra["properties"]["N_AOIFL"]["2/1"]["note"].as_str();
+    assert!(slip.unwrap().contains("125.4"));
+
+    let csv = program.done(&format!("{quick} --format csv"));
+    let mut csv = csv::Reader::from_reader(csv.as_bytes());
+    let rows: Vec<_> = csv.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 7 + 10 * 3);
+    assert!(
+        rows.iter()
+            .any(|row| &row[2] == "N_LS" && &row[5] == "11322")
+    );
+
+    assert!(
+        program
+            .done(quick)
+            .contains("96056   =   11322      11540   ~")
+    );
+    let markdown = program.done(&format!("{quick} --format markdown"));
+    assert!(
+        markdown.contains("| N\\_LS |  | 96056 | 96056 | = |"),
+        "{markdown}"
+    );
+    program.done(&format!("{quick} -o tables.tex"));
+    let latex = std::fs::read_to_string(program.path().join("tables.tex")).unwrap();
+    assert!(latex.contains("N\\_LS &  & 96056 & 96056 & = &"), "{latex}");
+    // clap's own message takes several lines.
+    assert_eq!(program.run("paper teaching").status.code(), Some(2));
+}

@@ -6,7 +6,8 @@ use egui_kittest::SnapshotOptions;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::time::Instant;
 use window_harness::{
-    PATIENCE, Window, finish, has, is_finished, open, open_with_graphics, press, small, wait,
+    PATIENCE, Window, click, finish, has, is_finished, open, open_sized, open_with_graphics, press,
+    small, wait,
 };
 
 /// The figure beside a name in the panels.
@@ -277,6 +278,7 @@ fn filters_say_how_many_leaves_are_shown() {
     finish(&mut window);
     let leaves = figure(&window, "leaves");
     assert!(has(&window, &format!("{leaves} of {leaves} leaves shown")));
+    click(&mut window, "Show …");
     window.get_by_label("Empty (dashed)").click();
     window.run_steps(3);
     assert!(!has(&window, &format!("{leaves} of {leaves} leaves shown")));
@@ -287,6 +289,25 @@ fn filters_say_how_many_leaves_are_shown() {
     window.get_by_label("Leaf boxes").click();
     window.run_steps(3);
     assert!(has(&window, "Leaf boxes are not shown"));
+}
+
+#[test]
+fn in_a_small_view_the_legend_is_folded_until_it_is_asked_for() {
+    let mut window = open_sized(small("balls:1"), [1280.0, 720.0], true);
+    finish(&mut window);
+    window.get_by_label("Traced picture").click();
+    wait(&mut window, "the colours", |w| has(w, "Depth (levels"));
+    let unfolded = |w: &Window<'_>| has(w, "leaves shown") && has(w, "Lines of the rays");
+    assert!(!unfolded(&window));
+    click(&mut window, "Unfold the legend");
+    assert!(unfolded(&window));
+    let view = window.get_by_label("3D view of scene and tree").rect();
+    let top = window.get_by_label("Fold the legend").rect();
+    assert!(view.contains_rect(top), "{top} in {view}");
+    window.hover_at(view.right_top() + egui::vec2(-20.0, 20.0));
+    window.run_steps(2);
+    press(&mut window, egui::Modifiers::NONE, egui::Key::I);
+    assert!(!unfolded(&window) && has(&window, "Depth (levels"));
 }
 
 #[test]

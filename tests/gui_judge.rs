@@ -16,7 +16,10 @@ fn sampled_rays_of_a_finished_picture_are_checked_in_the_background() {
 #[test]
 fn the_judge_stops_when_told_and_begins_again() {
     let mut window = open(small("teaching"));
-    wait(&mut window, "a window", |w| has(w, "check sampled rays"));
+    // Once the scene's facts stand above it, the box stays where it is.
+    wait(&mut window, "a window", |w| {
+        has(w, "lights: ") && has(w, "check sampled rays")
+    });
     click(&mut window, "check sampled rays");
     finish(&mut window);
     window.run_steps(5);

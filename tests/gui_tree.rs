@@ -53,6 +53,21 @@ fn the_outline_unfolds_from_the_root() {
 }
 
 #[test]
+fn all_columns_of_the_outline_have_room_at_1280_points() {
+    let mut window = open_sized(small("balls:1"), [1280.0, 720.0], false);
+    wait(&mut window, "the outline", |w| has(w, "node 0"));
+    // The outline is as wide as picture and 3D view together.
+    let view = window.get_by_label("3D view of scene and tree").rect();
+    for title in ["exp. nodes", "visits"] {
+        let header = window.get_by_label(title).rect();
+        assert!(
+            header.right() <= view.right(),
+            "{title}: {header} in {view}"
+        );
+    }
+}
+
+#[test]
 fn a_node_selected_in_the_outline_is_marked_in_3d() {
     let mut window = open("balls:1", "midpoint", true);
     assert!(!has(&window, "thick box"));

@@ -4,26 +4,85 @@ use super::kernels::{Found, Kernel, Rays};
 use bspscope::primitive::{Precision, Shapes};
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
-use bspscope::trace::{Batch, Hit, RayKind, RayTracer, Timed};
+use bspscope::trace::{
+    Batch, Hit, InstructionSet, LaneKernel, LaneTree, RayKind, RayTracer, Timed,
+};
 use bspscope::tree::{BuildSettings, MaxDepth, Method, Tree, build as build_tree};
 
-/// The tree that all our kernels walk.
+/// The tree that all our kernels walk, built on one thread as the others' are.
 pub fn build(scene: &Scene) -> Tree {
     let settings = BuildSettings {
         d_max: MaxDepth::Fixed(MaxDepth::LIMIT),
         ..BuildSettings::for_method(Method::named("sah").expect("a method"))
     };
-    build_tree(scene, &settings, &Progress::new()).expect("a tree")
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let build = || build_tree(scene, &settings, &Progress::new());
+    pool.expect("a thread").install(build).expect("a tree")
 }
 
 /// All kernels; the first is the plain one in `f64`.
-pub fn kernels<'a>(scene: &'a Scene, tree: &'a Tree) -> Vec<(String, Box<dyn Kernel + 'a>)> {
-    let plain = Plain {
-        tree,
-        shapes: scene.shapes(Precision::F64),
-        progress: Progress::new(),
-    };
-    vec![("plain f64".into(), Box::new(plain))]
+pub fn kernels<'a>(
+    scene: &'a Scene,
+    tree: &'a Tree,
+    lanes: &'a LaneTree,
+) -> Vec<(String, Box<dyn Kernel + 'a>)> {
+    let mut kernels: Vec<(String, Box<dyn Kernel + 'a>)> = Vec::new();
+    for precision in [Precision::F64, Precision::F32] {
+        let shapes = scene.shapes(precision);
+        let plain = Plain {
+            tree,
+            shapes,
+            progress: Progress::new(),
+        };
+        kernels.push((format!("plain {}", precision.name()), Box::new(plain)));
+        for instructions in InstructionSet::ALL.into_iter().filter(|set| set.is_here()) {
+            let kernel = Lanes {
+                tree,
+                lanes,
+                shapes,
+                instructions,
+            };
+            let name = format!("lanes {} {}", instructions.name(), precision.name());
+            kernels.push((name, Box::new(kernel)));
+        }
+    }
+    kernels
+}
+
+struct Lanes<'a> {
+    tree: &'a Tree,
+    lanes: &'a LaneTree,
+    shapes: &'a Shapes,
+    instructions: InstructionSet,
+}
+
+impl Lanes<'_> {
+    fn kernel(&self) -> LaneKernel<'_> {
+        LaneKernel::new(self.tree, self.lanes, self.shapes, self.instructions)
+    }
+}
+
+/// Rays of a call: a few tiles of a picture.
+const CALL: usize = 8192;
+
+impl Kernel for Lanes<'_> {
+    fn closest(&self, rays: Rays<'_>, answers: &mut Vec<Found>) {
+        let (mut kernel, mut hits) = (self.kernel(), Vec::new());
+        for rays in rays.wide.chunks(CALL) {
+            hits.resize(rays.len(), Hit::MISS);
+            kernel.closest_hits(rays, &mut hits);
+            answers.extend(found(&hits));
+        }
+    }
+
+    fn any(&self, rays: Rays<'_>, answers: &mut Vec<bool>) {
+        let (mut kernel, mut blocked) = (self.kernel(), Vec::new());
+        for rays in rays.wide.chunks(CALL) {
+            blocked.resize(rays.len(), false);
+            kernel.any_hits(rays, &mut blocked);
+            answers.extend(&blocked);
+        }
+    }
 }
 
 struct Plain<'a> {

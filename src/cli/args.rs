@@ -2,12 +2,16 @@
 
 use crate::geometry::Axis;
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, heatmap};
+use crate::measure::model::Equation;
+use crate::measure::paper::{self, PaperScene};
+use crate::measure::sweep::Shard;
 use crate::measure::trade::KNOBS;
+use crate::measure::{PARAMETERS, Parameter, parameter};
 use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
 use crate::scene::builtin::BUILTINS;
 use crate::scene::{Cylinders, Sampling};
-use crate::trace::PrecisionChoice;
+use crate::trace::{KernelChoice, PrecisionChoice};
 use crate::tree::{BuildSettings, MaxDepth, Method, OverlapRule};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -35,8 +39,12 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     Measure(MeasureArgs),
+    Merge(MergeArgs),
+    Model(ModelArgs),
     Compare(CompareArgs),
+    Paper(PaperArgs),
     Render(RenderArgs),
+    Sweep(SweepArgs),
     Probe(ProbeArgs),
     Generate(GenerateArgs),
     Methods(MethodsArgs),
@@ -106,6 +114,149 @@ pub struct CompareArgs {
     #[command(flatten)]
     pub report: ReportArgs,
 }
+
+/// Repeat the paper's experiment: its Tables 4, 5 and 6, printed beside computed
+///
+/// Every cell is marked: equal after rounding, same direction (from method 1 to method 2), or
+/// differs; what is known of the difference is said. Conditions are the paper's: cylinders as 10
+/// polygons, D_MAX 20, N_OILF 1, D_AREC of Table 4, 512 x 512 pixels. Exit code 1 if the two methods
+/// gave different images.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  bspscope paper\n  bspscope paper balls rings tetra --format json\n  \
+    bspscope paper room -o room.tex"
+)]
+pub struct PaperArgs {
+    /// Scenes of the paper [default: all six]
+    #[arg(value_name = "SCENE", value_parser = paper_scenes())]
+    pub scenes: Vec<&'static PaperScene>,
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// Threads; 0 takes as many as the machine has cores
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Picture")]
+    pub threads: usize,
+    #[command(flatten)]
+    pub report: ReportArgs,
+}
+
+/// Find what tests and traversal take: the times of the paper's equation (1)
+///
+/// By regression over a set of trees (the paper's methods, depths around the automatic one, two leaf
+/// sizes), with 95 % confidence intervals, and by timing in place. The times are tested on trees
+/// that were left out of the fit.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope model balls\n\
+    bspscope model balls rings tetra --cylinders polygons:10 --equation printed --format json"))]
+pub struct ModelArgs {
+    /// Scenes, files or generators
+    #[arg(required = true, value_name = "SCENE")]
+    pub scenes: Vec<String>,
+    #[command(flatten)]
+    pub cylinders: CylinderArgs,
+    /// How tests that hit are counted: every one, or as the paper's equation (1) has it
+    #[arg(long, value_name = "HOW", value_parser = equation_names(), default_value = "corrected")]
+    pub equation: Equation,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", value_parser = resolution, default_value = "192x192")]
+    pub resolution: [u32; 2],
+    /// How often each tree is timed; the least time counts
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
+    pub rounds: u32,
+    /// Form of the result
+    #[arg(long, value_enum, default_value_t = ListFormat::Text, help_heading = "Output")]
+    pub format: ListFormat,
+    /// Write to this file in place of standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: Option<PathBuf>,
+}
+
+/// Measure a scene over a grid of build methods, depths and leaf sizes
+///
+/// Every point is measured once and becomes a row of the file, in the order of the grid: methods,
+/// leaf sizes, depths. Run again, a sweep that was broken off goes on after the last whole row; rows
+/// that are there stay as they are, with their times. What no machine changes is the same in every
+/// run. In the end the best settings are told, beside the automatic rule 1.2 log2 N + 2.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope sweep balls -o balls.csv --chart balls.svg\n\
+    bspscope sweep tetra --method sah-cut --d-max 8..24 --n-oilf 1,2,4 -o tetra.jsonl\n\
+    bspscope sweep rings --shard 2/4 -o rings-2.csv"))]
+pub struct SweepArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Build methods, separated by commas [default: the paper's two]
+    #[arg(long, value_name = "METHODS", value_parser = method_names(), value_delimiter = ',', help_heading = "Tree")]
+    pub method: Vec<Method>,
+    /// Greatest depths: numbers, ranges such as 8..24, and auto, separated by commas
+    #[arg(long, value_name = "DEPTHS", value_parser = depths, default_value = "1..30", help_heading = "Tree")]
+    pub d_max: Depths,
+    /// Leaf sizes: numbers and ranges, separated by commas
+    #[arg(long, value_name = "SIZES", value_parser = leaf_sizes, default_value = "1,2,4,8", help_heading = "Tree")]
+    pub n_oilf: LeafSizes,
+    #[command(flatten)]
+    pub rules: RuleArgs,
+    #[command(flatten)]
+    pub trace: TraceArgs,
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// Measure only this part of the points: I/N, with I from 1 to N
+    #[arg(long, value_name = "I/N", default_value = "1/1")]
+    pub shard: Shard,
+    /// File for the rows: .csv, or .jsonl for JSON lines
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: PathBuf,
+    #[command(flatten)]
+    pub charts: ChartArgs,
+}
+
+/// Put the parts of a sweep together
+///
+/// Parts are the files of its shards, in any order. Of a point that is there twice the first is
+/// kept; its counts must be equal. Exit code 1 if points are missing; what is there is written.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  bspscope merge rings-1.csv rings-2.csv -o rings.csv\n  \
+    bspscope merge rings.csv -o rings.jsonl --show N_AT --chart rings.png"
+)]
+pub struct MergeArgs {
+    /// Files of rows: .csv or .jsonl
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// File for the rows: .csv, or .jsonl for JSON lines
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: PathBuf,
+    #[command(flatten)]
+    pub charts: ChartArgs,
+}
+
+/// What is told and drawn of a sweep.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+pub struct ChartArgs {
+    /// Draw the rows: .png or .svg; may be given more than once
+    #[arg(long, value_name = "FILE")]
+    pub chart: Vec<PathBuf>,
+    /// The parameter that is drawn, and by whose least value settings are best
+    #[arg(long, value_name = "SYMBOL", value_parser = parameter_names(), default_value = "T_TR")]
+    pub show: ByParameter,
+}
+
+/// A parameter, chosen by its symbol.
+#[derive(Clone, Copy)]
+pub struct ByParameter(pub &'static Parameter);
+
+impl std::fmt::Debug for ByParameter {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.0.symbol)
+    }
+}
+
+/// Greatest depths in the order in which they were typed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Depths(pub Vec<MaxDepth>);
+
+/// Leaf sizes in the order in which they were typed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeafSizes(pub Vec<u32>);
 
 /// Render the picture, or a heatmap of what its pixels cost, to a PNG or OpenEXR file
 #[derive(Debug, Args)]
@@ -387,6 +538,14 @@ pub struct BuildArgs {
     /// A cell with at most this many objects becomes a leaf, N_OILF
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub n_oilf: u32,
+    #[command(flatten)]
+    pub rules: RuleArgs,
+}
+
+/// What a tree is built with beside its limits.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Tree")]
+pub struct RuleArgs {
     /// When an object belongs to a cell: paper, bounds or exact
     #[arg(long, value_name = "RULE", default_value = OverlapRule::Paper.name())]
     pub overlap: OverlapRule,
@@ -422,6 +581,10 @@ pub struct TraceArgs {
     /// Numbers that rays are traced in: f32, f64, or auto for f32 where it can hold the scene
     #[arg(long, value_name = "NUMBERS", value_parser = precision_names(), default_value = "f64")]
     pub precision: PrecisionChoice,
+    /// Kernel of the timed pass: plain for one ray after the other, as the paper timed; lanes for
+    /// batches of rays in vectors; auto for lanes where the processor has vectors for them
+    #[arg(long, value_name = "KERNEL", value_parser = kernel_names(), default_value = "plain")]
+    pub kernel: KernelChoice,
     /// Where the first sample lies: in the pixel's centre, or on a lattice that spans the angle
     #[arg(long, value_name = "WHERE", value_parser = sampling_names(), default_value = "center")]
     pub sampling: Sampling,
@@ -471,6 +634,68 @@ fn method_names() -> impl TypedValueParser<Value = Method> {
         .try_map(|name| Method::named(&name))
 }
 
+fn equation_names() -> impl TypedValueParser<Value = Equation> {
+    PossibleValuesParser::new(Equation::ALL.map(Equation::name)).try_map(|name| {
+        let mut all = Equation::ALL.into_iter();
+        all.find(|e| e.name() == name).ok_or("no such equation")
+    })
+}
+
+fn parameter_names() -> impl TypedValueParser<Value = ByParameter> {
+    PossibleValuesParser::new(
+        PARAMETERS
+            .iter()
+            .map(|p| PossibleValue::new(p.symbol).help(p.name)),
+    )
+    .map(|symbol| ByParameter(parameter(&symbol)))
+}
+
+/// Numbers and ranges with both ends, separated by commas; each number at most once.
+fn numbers(text: &str, most: u32) -> Result<Vec<u32>, String> {
+    let mut numbers = Vec::new();
+    for part in text.split(',') {
+        let (from, to) = part.split_once("..").unwrap_or((part, part));
+        let range = from.trim().parse::<u32>().ok().zip(to.trim().parse().ok());
+        let (from, to) = range
+            .filter(|(from, to)| from <= to && *to <= most)
+            .ok_or_else(|| {
+                format!("expected numbers up to {most} or ranges such as 8..24, found '{part}'")
+            })?;
+        for number in from..=to {
+            if numbers.contains(&number) {
+                return Err(format!("{number} is there twice"));
+            }
+            numbers.push(number);
+        }
+    }
+    Ok(numbers)
+}
+
+fn depths(text: &str) -> Result<Depths, String> {
+    let parts = || text.split(',').map(str::trim);
+    let fixed: Vec<_> = parts().filter(|part| *part != "auto").collect();
+    let mut depths = Vec::new();
+    if !fixed.is_empty() {
+        let fixed = numbers(&fixed.join(","), MaxDepth::LIMIT)?;
+        depths.extend(fixed.into_iter().map(MaxDepth::Fixed));
+    }
+    if parts().any(|part| part == "auto") {
+        depths.push(MaxDepth::Automatic);
+    }
+    Ok(Depths(depths))
+}
+
+fn leaf_sizes(text: &str) -> Result<LeafSizes, String> {
+    /// More than this many leaf sizes are a mistake in typing.
+    const MOST: u32 = 100_000;
+    numbers(text, MOST).map(LeafSizes)
+}
+
+fn paper_scenes() -> impl TypedValueParser<Value = &'static PaperScene> {
+    PossibleValuesParser::new(paper::SCENES.iter().map(|scene| scene.name))
+        .try_map(|name| paper::scene(&name).ok_or("no such scene"))
+}
+
 fn heatmap_names() -> impl TypedValueParser<Value = ByHeatmap> {
     PossibleValuesParser::new(
         HEATMAPS
@@ -518,6 +743,11 @@ fn pixel(text: &str) -> Result<[i64; 2], String> {
     text.split_once(',')
         .and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]))
         .ok_or_else(|| "expected a column and a row, such as 256,256".into())
+}
+
+fn kernel_names() -> impl TypedValueParser<Value = KernelChoice> {
+    PossibleValuesParser::new(KernelChoice::ALL.map(KernelChoice::name))
+        .try_map(|name| KernelChoice::named(&name).ok_or("no such kernel"))
 }
 
 fn precision_names() -> impl TypedValueParser<Value = PrecisionChoice> {
@@ -589,6 +819,16 @@ mod tests {
     #[test]
     fn the_definition_is_sound() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn lists_of_numbers_are_read() {
+        assert_eq!(numbers("3..5,9", 20), Ok(vec![3, 4, 5, 9]));
+        for wrong in ["", "5..3", "1,,2", "x", "21", "2,1..3"] {
+            assert!(numbers(wrong, 20).is_err(), "{wrong}");
+        }
+        let depths = depths("auto, 7").unwrap();
+        assert_eq!(depths.0, [MaxDepth::Fixed(7), MaxDepth::Automatic]);
     }
 
     #[test]

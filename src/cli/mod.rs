@@ -8,12 +8,16 @@ mod compare;
 mod generate;
 mod heat;
 mod measure;
+mod merge;
 mod methods;
+mod model;
 mod output;
+mod paper;
 mod probe;
 mod render;
 mod resolve;
 mod stability;
+mod sweep;
 mod trade;
 mod verify;
 mod window;
@@ -36,8 +40,12 @@ pub fn main() -> ExitCode {
     let outcome = match &arguments.command {
         None => window::run(&arguments.window),
         Some(Command::Measure(args)) => measure::run(args),
+        Some(Command::Merge(args)) => merge::run(args),
+        Some(Command::Sweep(args)) => sweep::run(args),
+        Some(Command::Model(args)) => model::run(args),
         Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Render(args)) => render::run(args),
+        Some(Command::Paper(args)) => paper::run(args),
         Some(Command::Probe(args)) => probe::run(args),
         Some(Command::Generate(args)) => generate::run(args),
         Some(Command::Methods(args)) => methods::run(args),

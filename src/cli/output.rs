@@ -2,7 +2,7 @@
 
 use super::args::ReportArgs;
 use super::resolve;
-use crate::report::Report;
+use crate::report::{Report, WRITERS, Writer};
 use anyhow::{Context, Result, bail};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -45,8 +45,17 @@ pub fn write_to(
 
 /// Writes a report in the form and to the place asked for.
 pub fn write_report(report: &Report, args: &ReportArgs) -> Result<()> {
+    write_with(WRITERS, report, args)
+}
+
+/// Writes with the one of these writers that is asked for, to the place asked for.
+pub fn write_with<R: ?Sized>(
+    writers: &'static [Writer<R>],
+    report: &R,
+    args: &ReportArgs,
+) -> Result<()> {
     let file = args.output.as_deref();
-    let writer = resolve::writer(args.format.as_deref(), file);
+    let writer = resolve::writer(writers, args.format.as_deref(), file);
     write_to(file, |out| (writer.write)(report, out))
 }
 

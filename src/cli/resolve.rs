@@ -2,7 +2,7 @@
 
 use super::args::{BuildArgs, CylinderArgs, PictureArgs, TraceArgs};
 use super::bar;
-use crate::report::{WRITERS, Writer};
+use crate::report::Writer;
 use crate::scene::format::{FORMATS, FormatError};
 use crate::scene::{Camera, LoadError, Scene, SceneRequest, SceneSource, builtin, load};
 use crate::trace::RenderSettings;
@@ -53,14 +53,14 @@ pub fn builds(methods: &[Method], args: &BuildArgs) -> Result<Vec<BuildSettings>
         .map(|&method| BuildSettings {
             d_max: args.d_max,
             n_oilf: args.n_oilf,
-            root_margin: args.root_margin,
-            overlap: args.overlap,
-            first_axis: args.first_axis,
-            memory_limit: args.memory_limit.saturating_mul(1 << 20),
+            root_margin: args.rules.root_margin,
+            overlap: args.rules.overlap,
+            first_axis: args.rules.first_axis,
+            memory_limit: args.rules.memory_limit.saturating_mul(1 << 20),
             ..BuildSettings::for_method(method)
         })
         .collect();
-    for (name, value) in &args.set {
+    for (name, value) in &args.rules.set {
         let mut known = false;
         for build in &mut builds {
             if build.method.constants.iter().any(|c| c.name == name) {
@@ -91,6 +91,7 @@ pub fn render(camera: Camera, trace: &TraceArgs, picture: &PictureArgs) -> Rende
         d_arec: trace.d_arec,
         cut_off: trace.cut_off,
         precision: trace.precision,
+        kernel: trace.kernel,
         sampling: trace.sampling,
         threads: match trace.threads {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
@@ -110,15 +111,19 @@ pub fn methods(asked: &[Method]) -> Vec<Method> {
 }
 
 /// The writer asked for by name, else by the file's extension, else the first.
-pub fn writer(name: Option<&str>, file: Option<&Path>) -> &'static Writer {
+pub fn writer<R: ?Sized>(
+    writers: &'static [Writer<R>],
+    name: Option<&str>,
+    file: Option<&Path>,
+) -> &'static Writer<R> {
     let extension = file
         .and_then(Path::extension)
         .map(|e| e.to_string_lossy().to_ascii_lowercase());
-    WRITERS
+    writers
         .iter()
         .find(|writer| match name {
             Some(name) => writer.name == name,
             None => extension.as_deref() == Some(writer.extension),
         })
-        .unwrap_or(&WRITERS[0])
+        .unwrap_or(&writers[0])
 }

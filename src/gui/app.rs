@@ -121,6 +121,10 @@ impl App {
             Action::Redo => state.redo(),
             Action::Compare => state.compare_or_not(),
             Action::OtherTree => state.show(state.which.other()),
+            Action::Paper => {
+                let threads = state.wanted.render.threads;
+                state.experiment.start_or_cancel(threads, ctx);
+            }
             Action::Theme => top_bar::toggle_theme(ctx),
             Action::LeftBar => self.layout.left.shown ^= true,
             Action::RightBar => self.layout.right.shown ^= true,
@@ -261,7 +265,8 @@ impl eframe::App for App {
             self.act(action, &ctx);
         }
         self.state.follow_rays(&ctx);
-        self.state.judge_rays(&ctx);
+        self.state
+            .judge_rays(self.panes.picture.heat.is_timing(), &ctx);
         egui::Panel::top("top bar").show(ui, |ui| {
             top_bar::show(ui, &mut self.state, &mut self.files, &mut self.help_open);
         });
@@ -293,6 +298,7 @@ impl eframe::App for App {
         }
         self.state.send();
         self.panes.picture.heat.make_way(&self.state);
+        self.state.trading.make_way(self.state.work.is_none());
         self.keep_layout(&ctx);
     }
 

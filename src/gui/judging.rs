@@ -63,7 +63,8 @@ impl Judging {
 
 impl State {
     /// Lets the judge begin where it may, and stops it where it may not.
-    pub fn judge_rays(&mut self, ctx: &egui::Context) {
+    /// `timing` says that times are being taken, which must not suffer.
+    pub fn judge_rays(&mut self, timing: bool, ctx: &egui::Context) {
         let number = self.current.as_ref().map(|current| current.number);
         let judging = &mut self.judging;
         if judging.number != number {
@@ -74,8 +75,8 @@ impl State {
         if complete {
             judging.running = None;
         }
-        // The worker's times must not suffer.
-        let rests = self.work.is_none();
+        // The worker's times must not suffer, nor those of pixels or of a trade.
+        let rests = self.work.is_none() && !timing && !self.trading.is_running();
         match self
             .current
             .as_ref()

@@ -55,6 +55,7 @@ impl Pane {
             Scope::Tree => Some(Pane::Tree(TreePane::Outline)),
             Scope::Leaves => Some(Pane::Tree(TreePane::Histograms)),
             Scope::Cost => Some(Pane::Tree(TreePane::Cost)),
+            Scope::Trade => Some(Pane::Tree(TreePane::Trade)),
         }
     }
 }

@@ -5,7 +5,7 @@
 //! actions, which keys, help and the command [`palette`] share. [`panels`] are one file and one line
 //! each; the panes are [`picture_pane`], [`view3d`] and [`tree_panes`], which share what [`inspect`]
 //! knows of the tree. [`comparing`] is what two trees side by side need; [`build_bar`] goes through
-//! the build of a tree.
+//! the build of a tree; [`trading`] takes what accuracy costs in the background.
 
 mod app;
 mod background;
@@ -27,6 +27,7 @@ mod picture_pane;
 mod picture_pass;
 mod recent;
 mod rows;
+mod scale_bar;
 mod selection;
 mod shortcuts;
 mod state;
@@ -34,6 +35,7 @@ mod status;
 mod step_text;
 mod symbol;
 mod top_bar;
+mod trading;
 mod tree_panes;
 mod view3d;
 mod visits;

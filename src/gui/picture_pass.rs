@@ -1,4 +1,4 @@
-//! A pass over the current picture's rays, made in the background on demand, while the worker rests.
+//! A pass over a picture's rays, made in the background on demand, while the worker rests.
 
 use super::state::Current;
 use crate::progress::Progress;
@@ -54,7 +54,7 @@ impl<T> Default for PicturePass<T> {
 }
 
 impl<T: Send + 'static> PicturePass<T> {
-    /// What came of the pass over the current picture. Begins the pass if the picture is finished
+    /// What came of the pass over this picture. Begins the pass if the picture is finished
     /// and the worker is `resting`.
     pub fn get(
         &mut self,
@@ -104,6 +104,10 @@ impl<T: Send + 'static> PicturePass<T> {
         another
     }
 
+    pub fn is_running(&self) -> bool {
+        matches!(self.pass, Pass::Running(_))
+    }
+
     /// What came of the pass, if it is done.
     pub fn ready(&self) -> Option<Arc<T>> {
         match &self.pass {
@@ -115,14 +119,14 @@ impl<T: Send + 'static> PicturePass<T> {
     /// Gives up a pass that runs, for the worker's times would suffer from it; it begins anew when
     /// asked for again.
     pub fn give_way(&mut self) {
-        if matches!(self.pass, Pass::Running(_)) {
+        if self.is_running() {
             self.pass = Pass::Due;
         }
     }
 
     /// Stops a pass that runs until [`PicturePass::again`].
     pub fn cancel(&mut self) {
-        if matches!(self.pass, Pass::Running(_)) {
+        if self.is_running() {
             self.pass = Pass::Ended("cancelled".to_owned());
         }
     }

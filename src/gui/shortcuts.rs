@@ -11,16 +11,18 @@ pub enum Scope {
     Tree,
     Leaves,
     Cost,
+    Trade,
 }
 
 impl Scope {
-    pub const ALL: [Scope; 6] = [
+    pub const ALL: [Scope; 7] = [
         Scope::Window,
         Scope::Picture,
         Scope::View3d,
         Scope::Tree,
         Scope::Leaves,
         Scope::Cost,
+        Scope::Trade,
     ];
 
     pub const fn title(self) -> &'static str {
@@ -31,6 +33,7 @@ impl Scope {
             Scope::Tree => "Pointer over the outline of the tree",
             Scope::Leaves => "Pointer over the leaf histograms",
             Scope::Cost => "Pointer over the split cost",
+            Scope::Trade => "Pointer over the trade",
         }
     }
 }
@@ -59,6 +62,7 @@ pub enum Action {
     Redo,
     Compare,
     OtherTree,
+    Paper,
     Theme,
     LeftBar,
     RightBar,
@@ -134,6 +138,12 @@ pub enum Action {
     LessVisited,
     ClearRanges,
     UndoWhatIf,
+    RunTrade,
+    NextOutcome,
+    PreviousOutcome,
+    NextError,
+    ErrorMap,
+    FoldLegend,
     /// Done with the mouse; listed for the help window alone.
     Mouse,
 }
@@ -186,6 +196,7 @@ shortcuts! {
     Window Redo COMMAND [Y] "Ctrl+Y" "Redo what was undone";
     Window Compare COMMAND [E] "Ctrl+E" "Compare with another tree, B, or end that";
     Window OtherTree NONE [J] "J" "Bring the other of two compared trees to the front";
+    Window Paper COMMAND [U] "Ctrl+U" "Repeat the paper's experiment, or cancel that";
     Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
     Window LeftBar COMMAND [B] "Ctrl+B" "Show or hide the bar on the left";
     Window RightBar COMMAND [I] "Ctrl+I" "Show or hide the bar on the right";
@@ -253,6 +264,7 @@ shortcuts! {
     View3d CutSide NONE [U] "U" "Hide the other side of the cut";
     View3d CutLess NONE [OpenBracket] "[" "Move the cut down its axis";
     View3d CutMore NONE [CloseBracket] "]" "Move the cut up its axis";
+    View3d FoldLegend NONE [I] "I" "Fold the legend to its colours, or unfold it";
     View3d FlyForward NONE [W] "W" "Fly forward";
     View3d FlyBack NONE [S] "S" "Fly back";
     View3d FlyLeft NONE [A] "A" "Fly to the left";
@@ -272,6 +284,11 @@ shortcuts! {
     Leaves ClearRanges NONE [Delete] "Delete" "Select all leaves again";
     Cost Mouse NONE [] "Drag" "Try a plane; it changes no tree";
     Cost UndoWhatIf NONE [Delete] "Delete or Esc" "Take the tried plane away";
+    Trade RunTrade NONE [Enter] "Enter" "Take the trade of time for accuracy; Esc ends it";
+    Trade PreviousOutcome NONE [ArrowUp] "Up" "Load the settings of the outcome before";
+    Trade NextOutcome NONE [ArrowDown] "Down" "Load the settings of the next outcome";
+    Trade NextError NONE [E] "E" "Another measure of the error";
+    Trade ErrorMap NONE [M] "M" "Beside the plot the table of outcomes, or the chosen one's error of every pixel";
 }
 
 /// Flying and flipping go on while a key is held; all else happens once.

@@ -7,7 +7,9 @@ use super::StartOptions;
 use super::comparing::{Comparing, Verdict, Which};
 use super::inspect::Inspect;
 use super::judging::Judging;
+use super::panels::paper::Experiment;
 use super::selection::Selection;
+use super::trading::Trading;
 use super::walk::{Picked, Walking, Wish};
 use crate::measure::heat::PixelCounts;
 use crate::progress::Progress;
@@ -49,6 +51,10 @@ pub struct State {
     pub inspect: Inspect,
     /// What the judge has found of what is shown.
     pub judging: Judging,
+    /// The paper's experiment, repeated.
+    pub experiment: Experiment,
+    /// What accuracy costs.
+    pub trading: Trading,
 }
 
 /// The tree of a comparison that is not in front.
@@ -187,6 +193,8 @@ impl State {
             walking: Walking::default(),
             inspect: Inspect::default(),
             judging: Judging::default(),
+            experiment: Experiment::default(),
+            trading: Trading::default(),
         }
     }
 
@@ -346,6 +354,7 @@ impl State {
             self.stopped = true;
         }
         self.inspect.visits.cancel();
+        self.trading.cancel();
     }
 
     /// Whether what is shown was made with other settings than the widgets say.

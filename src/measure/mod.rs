@@ -5,9 +5,12 @@ mod facts;
 pub mod heat;
 pub mod judge;
 mod measurement;
+pub mod model;
+pub mod paper;
 mod parameter;
 mod parameters;
 pub mod stability;
+pub mod sweep;
 pub mod trade;
 mod verify;
 

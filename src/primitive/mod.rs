@@ -18,6 +18,8 @@ mod unit_frame;
 
 pub use cone::Cone;
 pub use packed::Form;
+pub(crate) use packed::{PackedSphere, PackedTriangle};
+pub(crate) use packed_ray::FramedRay;
 pub use packed_ray::PackedRay;
 pub use polygon::Polygon;
 pub use precision::Precision;

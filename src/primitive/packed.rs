@@ -29,6 +29,10 @@ pub trait Form: Sized + Send + Sync {
     /// As [`Shape::intersect`]; `t_max` and the result of packed objects are those of an `f32`.
     fn intersect(&self, ray: &Self::Ray, t_max: f64) -> Option<f64>;
 
+    /// [`Form::intersect`] without its filter, for a ray that may hit. A packed object's ray is that of
+    /// a [`PackedRay`] in `f64`.
+    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64>;
+
     /// The largest distance (a length of the frame) between the form and the object, and between a
     /// point of it and the same point as `f32`; 0 where nothing is rounded.
     fn rounding(&self) -> f64;
@@ -47,6 +51,11 @@ impl<S: Shape + Clone> Form for S {
 
     #[inline(always)]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+        Shape::intersect(self, ray, t_max)
+    }
+
+    #[inline(always)]
+    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         Shape::intersect(self, ray, t_max)
     }
 
@@ -80,6 +89,11 @@ pub struct PackedSphere {
 }
 
 impl PackedSphere {
+    #[inline(always)]
+    pub(crate) fn from_center(center: Point, radius: f32) -> Self {
+        PackedSphere { center, radius }
+    }
+
     /// Whether the ray's line certainly misses it, decided in `f32`.
     #[inline(always)]
     fn is_missed_by(&self, ray: &PackedRay) -> bool {
@@ -104,11 +118,16 @@ impl Form for PackedSphere {
         if self.is_missed_by(ray) {
             return None;
         }
+        self.settle(&ray.wide, t_max)
+    }
+
+    #[inline(always)]
+    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let sphere = Sphere {
             center: self.center.as_dvec3(),
             radius: f64::from(self.radius),
         };
-        rounded(t_max, |t_max| Shape::intersect(&sphere, &ray.wide, t_max))
+        rounded(t_max, |t_max| Shape::intersect(&sphere, ray, t_max))
     }
 
     fn rounding(&self) -> f64 {
@@ -126,6 +145,11 @@ pub struct PackedTriangle {
 }
 
 impl PackedTriangle {
+    #[inline(always)]
+    pub(crate) fn from_vertices(vertices: [Point; 3]) -> Self {
+        PackedTriangle { vertices }
+    }
+
     /// Whether the ray's line certainly misses it, decided in `f32`.
     #[inline(always)]
     fn is_missed_by(&self, ray: &PackedRay) -> bool {
@@ -158,11 +182,16 @@ impl Form for PackedTriangle {
         if self.is_missed_by(ray) {
             return None;
         }
+        self.settle(&ray.wide, t_max)
+    }
+
+    #[inline(always)]
+    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let triangle = Triangle {
             vertices: self.vertices.map(|v| v.as_dvec3()),
             normals: None,
         };
-        rounded(t_max, |t_max| Shape::intersect(&triangle, &ray.wide, t_max))
+        rounded(t_max, |t_max| Shape::intersect(&triangle, ray, t_max))
     }
 
     fn rounding(&self) -> f64 {
@@ -220,9 +249,14 @@ impl Form for PackedPolygon {
         if self.is_missed_by(ray) {
             return None;
         }
+        self.settle(&ray.wide, t_max)
+    }
+
+    #[inline(always)]
+    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         rounded(t_max, |t_max| {
-            let t = self.crossing(&ray.wide)?;
-            (ray.wide.t_min <= t && t <= t_max).then_some(t)
+            let t = self.crossing(ray)?;
+            (ray.t_min <= t && t <= t_max).then_some(t)
         })
     }
 
@@ -372,8 +406,13 @@ impl Form for PackedCone {
         if self.is_missed_by(ray) {
             return None;
         }
+        self.settle(&ray.wide, t_max)
+    }
+
+    #[inline(always)]
+    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let side = self.side();
-        rounded(t_max, |t_max| side.intersect(&ray.wide, t_max))
+        rounded(t_max, |t_max| side.intersect(ray, t_max))
     }
 
     fn rounding(&self) -> f64 {
@@ -421,6 +460,11 @@ impl Form for PackedPrimitive {
     #[inline]
     fn intersect(&self, ray: &PackedRay, t_max: f64) -> Option<f64> {
         each_kind!(self, form => form.intersect(ray, t_max))
+    }
+
+    #[inline]
+    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+        each_kind!(self, form => form.settle(ray, t_max))
     }
 
     fn rounding(&self) -> f64 {

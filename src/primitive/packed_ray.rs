@@ -25,7 +25,22 @@ pub struct PackedRay {
     scale: f64,
 }
 
-impl PackedRay {
+/// A ray of the world as `f32` in the coordinates of a [`UnitFrame`]: what every test of packed
+/// objects starts from.
+#[derive(Clone, Copy)]
+pub(crate) struct FramedRay {
+    pub(crate) origin: Point,
+    /// Its largest component is from ½ to 2.
+    pub(crate) direction: Point,
+    pub(crate) t_min: f32,
+    pub(crate) t_max: f32,
+    /// Where on the ray in the world this one's origin lies.
+    pub(crate) start: f64,
+    /// Distances here per distance in the world: a power of two.
+    pub(crate) scale: f64,
+}
+
+impl FramedRay {
     /// A ray whose origin is farther out than this is moved towards the scene, whose coordinates are
     /// at most ½: rounding is that of places near the scene, wherever the eye is.
     const FAR: f64 = 2.0;
@@ -33,21 +48,12 @@ impl PackedRay {
     /// `None` where the ray certainly misses the scene, has no direction, or one so short or long that
     /// its distances to the scene have no number.
     #[inline(always)]
-    pub fn new(frame: &UnitFrame, ray: &Ray) -> Option<Self> {
+    pub(crate) fn new(frame: &UnitFrame, ray: &Ray) -> Option<Self> {
         let largest = ray.direction.abs().max_element();
-        if !(largest > 0.0 && largest.is_finite()) {
-            return None;
-        }
         // Directions get a largest component from ½ to 2; every `t` takes the opposite scale.
-        let shrink = if (0.5..2.0).contains(&largest) {
-            1.0
-        } else {
-            libm::scalbn(1.0, -libm::ilogb(largest))
-        };
-        let direction = ray.direction * shrink;
-        let scale = frame.scale() / shrink;
-        if !(scale > 0.0 && scale.is_finite()) {
-            return None;
+        let (mut direction, mut scale) = (ray.direction, frame.scale());
+        if !(0.5..2.0).contains(&largest) {
+            (direction, scale) = rescaled(direction, largest, scale)?;
         }
         let mut origin = frame.point(ray.origin);
         let mut start = 0.0;
@@ -56,7 +62,58 @@ impl PackedRay {
             origin += entry * direction;
             start = entry / scale;
         }
-        let (origin, direction) = (origin.as_vec3(), direction.as_vec3());
+        Some(FramedRay {
+            origin: origin.as_vec3(),
+            direction: direction.as_vec3(),
+            t_min: ((ray.t_min - start) * scale).max(0.0) as f32,
+            t_max: ((ray.t_max - start) * scale) as f32,
+            start,
+            scale,
+        })
+    }
+
+    /// The same numbers widened.
+    #[inline(always)]
+    pub(crate) fn wide(&self) -> Ray {
+        Ray {
+            origin: self.origin.as_dvec3(),
+            direction: self.direction.as_dvec3(),
+            t_min: f64::from(self.t_min),
+            t_max: f64::from(self.t_max),
+        }
+    }
+
+    /// A distance on this ray as one on the ray in the world.
+    #[inline(always)]
+    pub(crate) fn to_world(self, t: f64) -> f64 {
+        self.start + t / self.scale
+    }
+
+    /// A distance on the ray in the world as one on this ray.
+    #[inline(always)]
+    pub(crate) fn in_frame(&self, t: f64) -> f64 {
+        (t - self.start) * self.scale
+    }
+}
+
+/// A direction with a largest component from 1 to 2, and the scale of distances with it.
+#[cold]
+fn rescaled(direction: Vec3, largest: f64, scale: f64) -> Option<(Vec3, f64)> {
+    if !(largest > 0.0 && largest.is_finite()) {
+        return None;
+    }
+    let shrink = libm::scalbn(1.0, -libm::ilogb(largest));
+    let scale = scale / shrink;
+    (scale > 0.0 && scale.is_finite()).then_some((direction * shrink, scale))
+}
+
+impl PackedRay {
+    /// `None` where the ray certainly misses the scene, has no direction, or one so short or long that
+    /// its distances to the scene have no number.
+    #[inline(always)]
+    pub fn new(frame: &UnitFrame, ray: &Ray) -> Option<Self> {
+        let framed = FramedRay::new(frame, ray)?;
+        let direction = framed.direction;
         let size = direction.abs();
         let axis = if size.x > size.y && size.x > size.z {
             Axis::X
@@ -68,20 +125,15 @@ impl PackedRay {
         let turned = turned(direction, axis);
         Some(PackedRay {
             frame: *frame,
-            origin,
+            origin: framed.origin,
             direction,
             per_square: 1.0 / direction.length_squared(),
             axis,
             shear: [turned.x / turned.z, turned.y / turned.z],
-            reach: 0.5 + origin.abs().max_element(),
-            wide: Ray {
-                origin: origin.as_dvec3(),
-                direction: direction.as_dvec3(),
-                t_min: f64::from(((ray.t_min - start) * scale).max(0.0) as f32),
-                t_max: f64::from(((ray.t_max - start) * scale) as f32),
-            },
-            start,
-            scale,
+            reach: 0.5 + framed.origin.abs().max_element(),
+            wide: framed.wide(),
+            start: framed.start,
+            scale: framed.scale,
         })
     }
 

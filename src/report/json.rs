@@ -96,6 +96,10 @@ fn settings(run: &Measurement) -> Result<Value> {
             "used": run.precision.precision.name(),
             "why": run.precision.why,
         },
+        "kernel": {
+            "asked": name(&render.kernel)?,
+            "used": render.kernel.used(),
+        },
         "sampling": name(&render.sampling)?,
         "threads": render.threads,
         "camera": render.camera,

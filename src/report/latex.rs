@@ -74,7 +74,7 @@ fn number(text: &str) -> String {
 }
 
 /// Text with the characters that mean something to LaTeX, or that its old fonts lack, replaced.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
         match c {
@@ -89,6 +89,8 @@ fn escaped(text: &str) -> String {
             'Δ' => out += "$\\Delta$",
             'Λ' => out += "$\\Lambda$",
             '–' => out += "--",
+            '≠' => out += "$\\neq$",
+            '→' => out += "$\\to$",
             c => out.push(c),
         }
     }

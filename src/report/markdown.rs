@@ -51,7 +51,7 @@ fn write_section(section: &Section, report: &Report, out: &mut dyn Write) -> Res
 }
 
 /// Text with the characters that Markdown would take for markup escaped.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
         if matches!(c, '\\' | '`' | '*' | '_' | '|' | '<' | '[' | '#') {

@@ -1,9 +1,11 @@
 //! Reports of measurements. A writer is one file here and one line in [`WRITERS`].
 
 mod csv;
+pub mod grid;
 mod json;
 mod latex;
 mod markdown;
+pub mod paper;
 pub mod pixel;
 mod sections;
 mod text;
@@ -19,7 +21,7 @@ use serde_json::Value;
 use std::io::Write;
 
 /// A form that a report can be written in.
-pub struct Writer {
+pub struct Writer<R: ?Sized = Report> {
     /// Name on the command line.
     pub name: &'static str,
     /// One phrase: what it is good for.
@@ -27,7 +29,7 @@ pub struct Writer {
     /// File name extension, lower case, without the dot.
     pub extension: &'static str,
     /// Writes the whole report.
-    pub write: fn(&Report, &mut dyn Write) -> std::io::Result<()>,
+    pub write: fn(&R, &mut dyn Write) -> std::io::Result<()>,
 }
 
 /// All writers; the first is the default.

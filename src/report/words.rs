@@ -65,6 +65,7 @@ pub fn settings(report: &Report) -> Vec<String> {
             camera.angle
         ));
         lines.push(format!("Precision: {}", run.precision));
+        lines.push(format!("Timed kernel: {}", render.kernel.used()));
     }
     lines.extend(report.runs.iter().map(tree));
     lines

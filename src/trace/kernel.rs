@@ -31,7 +31,7 @@ impl Hit {
 
     /// A hit on a ray where it was traced, as one on the ray of the world.
     #[inline(always)]
-    fn in_world<I: Inside>(self, inside: &I) -> Hit {
+    pub(super) fn in_world<I: Inside>(self, inside: &I) -> Hit {
         if self.is_hit() {
             let t = inside.to_world(self.t);
             Hit { t, ..self }

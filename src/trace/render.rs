@@ -2,7 +2,7 @@
 
 use super::{
     Counting, PixelTallies, RayKind, RenderSettings, Scratch, Shading, Tally, Tile, Timed,
-    objects_along, tiles, trace_samples,
+    TimedKernel, objects_along, tiles, trace_samples,
 };
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
@@ -146,6 +146,8 @@ pub fn timed_pass(
     on_tile: impl Fn(&Tile, &[Vec3]) + Sync,
 ) -> Result<TimedPass, RenderError> {
     let shading = Shading::new(scene, settings)?;
+    // Making the tree ready for the kernel, once a tree, is no part of tracing.
+    TimedKernel::new(settings.kernel, scene, tree, shading.shapes, progress);
     let start = Instant::now();
     let cpu = over_tiles(
         settings,
@@ -153,7 +155,8 @@ pub fn timed_pass(
         progress,
         |tile, pixels| {
             let start = ThreadTime::now();
-            let mut tracer = Timed::new(tree, shading.shapes, progress);
+            let mut tracer =
+                TimedKernel::new(settings.kernel, scene, tree, shading.shapes, progress);
             let mut colors = Vec::new();
             trace_samples(&shading, pixels, sample, &mut tracer, &mut colors);
             let time = start.elapsed();
@@ -313,7 +316,8 @@ pub fn preview(
                     (x, y)
                 })
                 .collect();
-            let mut tracer = Timed::new(tree, shading.shapes, progress);
+            let mut tracer =
+                TimedKernel::new(settings.kernel, scene, tree, shading.shapes, progress);
             let mut coarse = Vec::new();
             trace_samples(&shading, &centers, 0, &mut tracer, &mut coarse);
             if !progress.is_cancelled() {

@@ -1,6 +1,6 @@
 //! How a picture is traced.
 
-use super::PrecisionChoice;
+use super::{KernelChoice, PrecisionChoice};
 use crate::scene::{Camera, Sampling};
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +21,9 @@ pub struct RenderSettings {
     /// The numbers that rays are traced in.
     #[serde(default)]
     pub precision: PrecisionChoice,
+    /// The kernel that the timed pass is traced with; every one gives the same picture.
+    #[serde(default)]
+    pub kernel: KernelChoice,
     /// Where in a pixel the first sample lies.
     pub sampling: Sampling,
     /// Samples a pixel in the finished picture, at least 1. Measurements always take one.
@@ -39,6 +42,7 @@ impl RenderSettings {
             d_arec: 4,
             cut_off: 0.0,
             precision: PrecisionChoice::F64,
+            kernel: KernelChoice::Plain,
             sampling: Sampling::Center,
             samples: 1,
             threads: 0,

@@ -5,6 +5,7 @@
 
 mod build;
 mod cost;
+mod derived;
 mod find;
 mod frame;
 mod index;
@@ -17,7 +18,7 @@ mod validate;
 pub use build::{BuildError, build};
 pub use cost::{CostCurve, NodeCost, SplitCost};
 pub use find::{Field, Order, Query};
-pub use frame::{Frame, ObjectPlanes};
+pub use frame::{Frame, ObjectPlanes, is_inside};
 pub use index::{NodeFacts, TreeIndex};
 pub use moment::Moment;
 pub use node::{Node, NodeKind, StopReason};
@@ -38,6 +39,7 @@ pub struct Tree {
     settings: BuildSettings,
     depth_limit: u32,
     depth_reached: u32,
+    derived: derived::Derived,
 }
 
 /// A cell of the tree, as [`Tree::cells`] meets it.
@@ -99,6 +101,14 @@ impl Tree {
     /// The greatest depth of any leaf, `D_REACH`.
     pub fn depth_reached(&self) -> u32 {
         self.depth_reached
+    }
+
+    /// What another module makes of the tree, once: one thing a tree, kept as long as it.
+    ///
+    /// # Panics
+    /// If something of another type is kept already.
+    pub(crate) fn derived<T: Send + Sync + 'static>(&self, make: impl FnOnce() -> T) -> &T {
+        self.derived.get(make)
     }
 
     /// Bytes held by nodes and references.

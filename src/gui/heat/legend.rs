@@ -3,23 +3,20 @@
 
 use super::look::Look;
 use super::{HeatView, Standing};
+use crate::gui::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::gui::state::State;
 use crate::gui::symbol::grouped;
-use egui::{Color32, FontId, Painter, Rect, Shape, Stroke, pos2, vec2};
+use egui::{Color32, Painter, Rect, Shape, Stroke, pos2, vec2};
 
 /// Heights in points.
 const HISTOGRAM: f32 = 34.0;
 const BAR: f32 = 12.0;
-const TICK: f32 = 4.0;
-const NUMBERS: f32 = 14.0;
 /// Of the whole legend, until it was laid out once: in a short pane, and in others.
 const USUAL: [f32; 2] = [106.0, 152.0];
 /// A pane of less than this is short.
 const SHORT: f32 = 480.0;
 /// A mark's half width.
 const MARK: f32 = 5.0;
-/// What a tick's number takes at most.
-const TICK_ROOM: f32 = 36.0;
 
 impl HeatView {
     /// Height to keep free for the legend; none without a heatmap.
@@ -75,7 +72,7 @@ impl HeatView {
     /// Stops the pass that takes the times, or begins it anew.
     fn timing_button(&mut self, ui: &mut egui::Ui) {
         let (name, about) = match self.timing().standing() {
-            Standing::Waiting => return,
+            Standing::Waiting | Standing::Done => return,
             Standing::Running(_) => ("Cancel timing", "Stop taking the time of every pixel."),
             Standing::Ended(_) => ("Take times", "Take the time of every pixel after all."),
         };
@@ -217,9 +214,9 @@ fn scale(ui: &mut egui::Ui, look: &Look, hovered: Option<[u32; 2]>, picked: Opti
     );
     let bar = Rect::from_min_size(axis.min + vec2(0.0, HISTOGRAM), vec2(axis.width(), BAR));
     columns(&painter, look, bar, soft);
-    color_bar(&painter, look, bar);
+    color_bar(&painter, &crate::overlay::COLORMAPS[look.key.colors], bar);
     painter.rect_stroke(bar, 0.0, Stroke::new(1.0, soft), egui::StrokeKind::Outside);
-    numbers(&painter, look, bar, rect, ink);
+    numbers(&painter, range, look.beyond, bar, rect, ink);
     let room = HISTOGRAM - 2.0;
     for (mark, pixel) in [(Mark::Picked, picked), (Mark::Pointer, hovered)] {
         if let Some(place) = pixel.and_then(|pixel| look.place(pixel)) {
@@ -243,53 +240,6 @@ fn columns(painter: &Painter, look: &Look, bar: Rect, color: Color32) {
             let corner = pos2(bar.left() + i as f32 * step, bar.top() - height);
             let column = Rect::from_min_size(corner, vec2(step, height));
             painter.rect_filled(column, 0.0, color);
-        }
-    }
-}
-
-fn color_bar(painter: &Painter, look: &Look, bar: Rect) {
-    let colors = &crate::overlay::COLORMAPS[look.key.colors];
-    const PIECES: usize = 128;
-    let mut mesh = egui::Mesh::default();
-    for i in 0..=PIECES {
-        let place = i as f32 / PIECES as f32;
-        let [r, g, b] = colors.color(f64::from(place));
-        let x = bar.left() + place * bar.width();
-        for y in [bar.top(), bar.bottom()] {
-            mesh.colored_vertex(pos2(x, y), Color32::from_rgb(r, g, b));
-        }
-        if i > 0 {
-            let at = 2 * i as u32;
-            mesh.add_triangle(at - 2, at - 1, at);
-            mesh.add_triangle(at - 1, at, at + 1);
-        }
-    }
-    painter.add(mesh);
-}
-
-/// Ticks and their numbers, as many as have room.
-fn numbers(painter: &Painter, look: &Look, bar: Rect, rect: Rect, ink: Color32) {
-    let Some(range) = &look.scale else {
-        return;
-    };
-    let [below, above] = look.beyond;
-    let mut free_from = rect.left();
-    for tick in range.ticks((bar.width() / TICK_ROOM) as usize) {
-        let x = bar.left() + tick.place as f32 * bar.width();
-        let foot = pos2(x, bar.bottom() + TICK);
-        painter.line_segment([pos2(x, bar.bottom()), foot], Stroke::new(1.0, ink));
-        // The ends' colours stand for all that lies beyond, too.
-        let text = match tick.place {
-            place if place <= 0.0 && below > 0 => format!("≤ {}", tick.text),
-            place if place >= 1.0 && above > 0 => format!("≥ {}", tick.text),
-            _ => tick.text,
-        };
-        let laid_out = painter.layout_no_wrap(text, FontId::proportional(11.0), ink);
-        let width = laid_out.rect.width();
-        let left = (x - width / 2.0).min(rect.right() - width).max(rect.left());
-        if left >= free_from {
-            painter.galley(pos2(left, foot.y), laid_out, ink);
-            free_from = left + width + 4.0;
         }
     }
 }

@@ -6,22 +6,22 @@ mod controls;
 mod layer;
 mod legend;
 mod look;
-mod timing;
 
 use super::background::Latest;
 use super::comparing::{View, Which};
+use super::picture_pass::{PicturePass, Standing};
 use super::shortcuts::Action;
 use super::state::{Current, State};
 use super::symbol::grouped;
-use crate::measure::heat::{Heatmap, Source};
+use crate::measure::heat::{Heatmap, PixelCounts, Source};
 use crate::overlay::Range;
+use crate::trace::{pixel_times, thread_pool};
 use crate::worker::{PIXEL_COUNTS_LIMIT, Stage};
 use choice::Choice;
 use egui::{Color32, TextureId};
 use layer::Layer;
 use look::{Look, LookKey, Values, ValuesKey};
 use std::sync::Arc;
-use timing::{Standing, Timing};
 
 /// The heatmaps over the picture, or over the pictures of two compared trees.
 #[derive(Default)]
@@ -31,8 +31,8 @@ pub struct HeatView {
     layers: [Layer; 2],
     /// Of B less A.
     difference: Layer,
-    /// Of A and of B.
-    timings: [Timing; 2],
+    /// The time of every pixel, of A and of B.
+    timings: [PicturePass<Values>; 2],
     /// What legend and keys are about.
     on: On,
     orders: Latest<ValuesKey, Vec<u32>>,
@@ -86,7 +86,7 @@ impl HeatView {
         of_b.keep_only(b, None);
         self.difference.keep_only(b, a);
         let Some((place, heatmap)) = self.choice.heatmap() else {
-            self.timings.iter_mut().for_each(Timing::give_up);
+            self.timings.iter_mut().for_each(PicturePass::give_way);
             self.layers = Default::default();
             self.difference = Layer::default();
             return;
@@ -146,7 +146,7 @@ impl HeatView {
     ) -> Option<Arc<Values>> {
         let layer = &mut self.layers[which as usize];
         if !matches!(heatmap.source, Source::Time) {
-            self.timings[which as usize].give_up();
+            self.timings[which as usize].give_way();
             let counts = Arc::clone(current.pixel_counts.as_ref()?);
             return layer.values(key, ctx, move || Values::of(heatmap, &counts, key.rays));
         }
@@ -155,7 +155,20 @@ impl HeatView {
         let times = if is_too_large(current) || waits {
             None
         } else {
-            self.timings[which as usize].get(heatmap, current, state, ctx)
+            let shown = &current.shown;
+            let (scene, tree, render) = (
+                Arc::clone(&shown.scene),
+                Arc::clone(&shown.tree),
+                shown.render,
+            );
+            let pass = &mut self.timings[which as usize];
+            let resting = state.work.is_none() && !state.trading.is_running();
+            pass.get(current, resting, ctx, move |progress| {
+                let pool = thread_pool(render.threads)?;
+                let mut counts = PixelCounts::new(render.width, render.height);
+                counts.seconds = Some(pixel_times(&scene, &tree, &render, &pool, progress)?);
+                Ok(Values::of(heatmap, &counts, key.rays))
+            })
         };
         if times.is_none() {
             layer.look = None;
@@ -293,8 +306,8 @@ impl HeatView {
 
     /// Frees the processor for the worker's own timing.
     pub fn make_way(&mut self, state: &State) {
-        for (timing, current) in self.timings.iter_mut().zip(state.both()) {
-            timing.make_way(current, state);
+        if state.work.is_some() {
+            self.timings.iter_mut().for_each(PicturePass::give_way);
         }
     }
 
@@ -321,13 +334,18 @@ impl HeatView {
         })
     }
 
+    /// Whether the time of pixels is being taken.
+    pub fn is_timing(&self) -> bool {
+        self.timings.iter().any(PicturePass::is_running)
+    }
+
     /// The pass whose standing matters now.
-    fn timing(&mut self) -> &mut Timing {
+    fn timing(&mut self) -> &mut PicturePass<Values> {
         let [a, b] = &mut self.timings;
         match self.on {
             On::Picture(Which::A) => a,
             On::Picture(Which::B) => b,
-            On::Difference if a.is_taken() => b,
+            On::Difference if a.ready().is_some() => b,
             On::Difference => a,
         }
     }
@@ -353,10 +371,15 @@ impl HeatView {
                     format!("timing every pixel … {:.0} %", done * 100.0)
                 }
                 Standing::Ended(why) => format!("Not timed: {why}"),
-                Standing::Waiting if state.stopped && !current.done => {
+                Standing::Waiting | Standing::Done if state.stopped && !current.done => {
                     "Not timed: the picture was cancelled. Resume it first.".to_owned()
                 }
-                Standing::Waiting => "timing … begins when the picture is finished".to_owned(),
+                Standing::Waiting if state.trading.is_running() => {
+                    "timing … begins when the trade has ended".to_owned()
+                }
+                Standing::Waiting | Standing::Done => {
+                    "timing … begins when the picture is finished".to_owned()
+                }
             };
         }
         if current.pixel_counts.is_some() {

@@ -34,6 +34,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
             grouped(rays as usize),
             share * 100.0
         )),
+        None if state.trading.is_running() => ui.weak("Waits for the end of the trade"),
         None => ui.weak("Waits for the finished picture"),
     };
     if rays == 0 {

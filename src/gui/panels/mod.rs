@@ -4,6 +4,7 @@ mod build_settings;
 mod comparison;
 mod figures;
 mod judge;
+pub mod paper;
 mod parameters;
 mod picture_settings;
 mod pixel;
@@ -43,6 +44,7 @@ pub static PANELS: &[Panel] = &[
     rays::PANEL,
     walk::PANEL,
     parameters::PANEL,
+    paper::PANEL,
 ];
 
 /// Shows the panels of one side; `unfolded` says by title which were folded or unfolded.

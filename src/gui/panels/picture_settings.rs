@@ -72,8 +72,14 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
                         }
                     });
                 if let Some(current) = &state.current {
-                    let used = current.shown.measurement.precision.to_string();
-                    list.response.on_hover_text(format!("Used: {used}."));
+                    let used = &current.shown.measurement.precision;
+                    let about = format!("Used: {used}.");
+                    list.response.on_hover_text(&about);
+                    let asked = current.shown.render.precision;
+                    if asked == PrecisionChoice::Auto {
+                        let used = format!("took {}", used.precision.name());
+                        ui.weak(used).on_hover_text(&about);
+                    }
                 }
             },
         );

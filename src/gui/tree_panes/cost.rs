@@ -1,7 +1,7 @@
 //! What splitting the selected node costs at every plane along x, y and z, with the plane chosen
 //! and a plane of one's own to try.
 
-use super::{is_under_pointer, short, waiting};
+use super::{is_under_pointer, nice_step, short, waiting};
 use crate::geometry::Axis;
 use crate::gui::inspect::{TreeKey, WhatIf};
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
@@ -140,16 +140,6 @@ fn plane_text(axis: Axis, s: &SplitCost) -> String {
         grouped(above),
         short(s.cost)
     )
-}
-
-/// The least 1, 2 or 5 times a power of ten that is at least this.
-fn nice_step(least: f64) -> f64 {
-    let power = libm::exp10(least.max(f64::MIN_POSITIVE).log10().floor());
-    let steps = [1.0, 2.0, 5.0].map(|of| of * power);
-    steps
-        .into_iter()
-        .find(|&step| step >= least)
-        .unwrap_or(10.0 * power)
 }
 
 impl Drawn {

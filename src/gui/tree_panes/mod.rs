@@ -1,5 +1,5 @@
-//! The panes about the tree: its outline, histograms of its leaves, its shape, and the cost of
-//! splitting the selected node. A pane is one file and one line in [`TreePane::ALL`].
+//! The panes about the tree: its outline, histograms of its leaves, its shape, the cost of splitting
+//! the selected node, and what accuracy costs. A pane is one file and one line in [`TreePane::ALL`].
 
 mod cost;
 mod find_bar;
@@ -7,6 +7,7 @@ mod histograms;
 mod icicle;
 mod outline;
 mod rows;
+mod trade;
 
 use super::state::State;
 
@@ -17,14 +18,16 @@ pub enum TreePane {
     Histograms,
     Icicle,
     Cost,
+    Trade,
 }
 
 impl TreePane {
-    pub const ALL: [TreePane; 4] = [
+    pub const ALL: [TreePane; 5] = [
         TreePane::Outline,
         TreePane::Histograms,
         TreePane::Icicle,
         TreePane::Cost,
+        TreePane::Trade,
     ];
 
     /// What its tab says.
@@ -34,6 +37,7 @@ impl TreePane {
             TreePane::Histograms => "Leaf histograms",
             TreePane::Icicle => "Icicle",
             TreePane::Cost => "Split cost",
+            TreePane::Trade => "Trade",
         }
     }
 }
@@ -45,6 +49,7 @@ pub struct TreePanes {
     histograms: histograms::Histograms,
     icicle: icicle::Icicle,
     cost: cost::CostPane,
+    trade: trade::TradePane,
 }
 
 impl TreePanes {
@@ -58,6 +63,7 @@ impl TreePanes {
             TreePane::Histograms => self.histograms.ui(ui, state),
             TreePane::Icicle => self.icicle.ui(ui, state),
             TreePane::Cost => self.cost.ui(ui, state),
+            TreePane::Trade => self.trade.ui(ui, state),
         }
     }
 }
@@ -88,4 +94,14 @@ fn short(value: f64) -> String {
     } else {
         format!("{value:.3}")
     }
+}
+
+/// The least 1, 2 or 5 times a power of ten that is at least this.
+fn nice_step(least: f64) -> f64 {
+    let power = libm::exp10(least.max(f64::MIN_POSITIVE).log10().floor());
+    let steps = [1.0, 2.0, 5.0].map(|of| of * power);
+    steps
+        .into_iter()
+        .find(|&step| step >= least)
+        .unwrap_or(10.0 * power)
 }

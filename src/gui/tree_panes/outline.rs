@@ -23,38 +23,56 @@ pub struct Outline {
     find: FindBar,
 }
 
-const COLUMNS: [(&str, f32, &str); 9] = [
+/// Title, least and usual width in points, and meaning of every column.
+const COLUMNS: [(&str, [f32; 2], &str); 9] = [
     (
         "node",
-        164.0,
+        [100.0, 164.0],
         "Index of the node in the tree's array; 0 is the root",
     ),
-    ("depth", 42.0, "Levels below the root"),
+    ("depth", [38.0, 42.0], "Levels below the root"),
     (
         "plane, or why a leaf",
-        164.0,
+        [92.0, 164.0],
         "Axis and place of the split plane, in units of length; or why the cell was not split",
     ),
-    ("objects", 54.0, "Objects in the cell, each counted once"),
-    ("refs", 66.0, "References of all leaves below"),
+    (
+        "objects",
+        [48.0, 54.0],
+        "Objects in the cell, each counted once",
+    ),
+    ("refs", [52.0, 66.0], "References of all leaves below"),
     (
         "area",
-        58.0,
+        [58.0, 58.0],
         "Surface area of the cell, in percent of the root's",
     ),
     (
         "tests",
-        54.0,
+        [44.0, 54.0],
         "Expected cost: intersection tests of a ray through the cell if nothing stops it \
          (MacDonald and Booth 1990)",
     ),
     (
         "exp. nodes",
-        66.0,
+        [64.0, 66.0],
         "Expected nodes: those that such a ray is expected to visit, this one included",
     ),
-    ("visits", 110.0, visits::ABOUT),
+    ("visits", [104.0, 120.0], visits::ABOUT),
 ];
+
+/// The widths of the columns in a table of this width: as usual, or down to the least where there is
+/// less room.
+fn widths(room: f32) -> [f32; COLUMNS.len()] {
+    let sum = |which: usize| {
+        COLUMNS
+            .iter()
+            .map(|(_, width, _)| width[which])
+            .sum::<f32>()
+    };
+    let share = ((room - sum(0)) / (sum(1) - sum(0))).clamp(0.0, 1.0);
+    COLUMNS.map(|(_, [least, usual], _)| least + share * (usual - least))
+}
 
 impl Outline {
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
@@ -262,7 +280,7 @@ impl Table<'_> {
                     .auto_shrink(false)
                     .cell_layout(egui::Layout::left_to_right(Align::Center))
                     .animate_scrolling(false);
-                for (_, width, _) in COLUMNS {
+                for width in widths(width - 6.0 * COLUMNS.len() as f32) {
                     builder = builder.column(Column::exact(width).clip(true));
                 }
                 if let Some(row) = scroll {

@@ -7,6 +7,7 @@ use crate::gui::build_bar;
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::{Current, State};
 use crate::overlay::{COLORINGS, Coloring, Filter, Visited};
+use egui::containers::menu::{MenuButton, MenuConfig};
 
 /// What the 3D view shows.
 #[derive(Clone, Copy)]
@@ -53,17 +54,11 @@ impl Settings {
     }
 }
 
-/// The row of widgets above the view.
+/// The row of widgets above the view; what is turned rarely is in a menu, to leave room for the view.
 pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &mut State) {
-    let depth_reached = state
-        .current
-        .as_ref()
-        .map_or(0, |c| c.shown.tree.depth_reached());
     let mut linked = view.settings.linked;
-    let View3d {
-        settings, camera, ..
-    } = &mut *view;
     ui.horizontal_wrapped(|ui| {
+        let settings = &mut view.settings;
         ui.checkbox(&mut settings.scene, "Objects")
             .on_hover_text(tip("Show the scene's objects.", Action::ShowScene));
         ui.checkbox(&mut settings.boxes, "Leaf boxes")
@@ -71,19 +66,9 @@ pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &mut State) {
                 "Show the cells of the tree's leaves.",
                 Action::ShowBoxes,
             ));
-        ui.checkbox(&mut settings.filter.full, "Full (solid)")
-            .on_hover_text(tip(
-                "Show leaves with objects; their edges are solid.",
-                Action::ShowFull,
-            ));
-        ui.checkbox(&mut settings.filter.empty, "Empty (dashed)")
-            .on_hover_text(tip(
-                "Show leaves without objects; their edges are dashed.",
-                Action::ShowEmpty,
-            ));
         egui::ComboBox::from_id_salt("coloring")
             .selected_text(format!("Colour: {}", settings.coloring.title))
-            .width(130.0)
+            .width(100.0)
             .show_ui(ui, |ui| {
                 for coloring in COLORINGS {
                     let chosen = coloring.name == settings.coloring.name;
@@ -95,49 +80,73 @@ pub fn toolbar(view: &mut View3d, ui: &mut egui::Ui, state: &mut State) {
             .response
             .accessible_name("Colour of leaves")
             .on_hover_text(tip("What leaves are coloured by.", Action::NextColoring));
-        egui::ComboBox::from_id_salt("visited")
-            .selected_text(settings.filter.visited.title())
-            .width(110.0)
-            .show_ui(ui, |ui| {
-                for visited in Visited::ALL {
-                    let value = &mut settings.filter.visited;
-                    ui.selectable_value(value, visited, visited.title());
-                }
-            })
-            .response
-            .on_hover_text(tip(
-                "Show leaves by whether any ray of the picture visited them.",
-                Action::VisitedOrNot,
-            ));
-        depth_filter(&mut settings.filter, depth_reached, ui);
+        let config =
+            MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
+        let (button, _) = MenuButton::new("Show …").config(config).ui(ui, |ui| {
+            ui.reset_style();
+            leaves_shown(ui, &mut view.settings, state);
+            ui.separator();
+            rays_and_camera(ui, view, &mut linked);
+        });
+        button.on_hover_text("Which leaves and rays are shown, and which camera.");
         build_bar::switch(ui, state);
         if let Some(current) = &state.current {
-            settings.cut.controls(ui, &current.shown.tree.root_cell());
+            let root = current.shown.tree.root_cell();
+            view.settings.cut.controls(ui, &root);
         }
-        ui.checkbox(&mut settings.only_visited, "Only visited")
-            .on_hover_text(tip(
-                "Of all leaves, show only those that the picked pixel's ray visited.",
-                Action::Shown,
-            ));
-        ui.checkbox(&mut settings.all_rays, "All rays")
-            .on_hover_text(tip(
-                "Show all rays of the picked pixel, or only the selected one.",
-                Action::ShowRays,
-            ));
-        ui.checkbox(&mut linked, "Linked").on_hover_text(tip(
-            "One camera for this view and the picture. Unlinked, the picture's camera is drawn \
-                 as a frustum; linking again returns to it.",
-            Action::Link,
-        ));
-        ui.checkbox(&mut camera.orthographic, "Orthographic")
-            .on_hover_text(tip(
-                "Parallel rays, in this view alone: pictures are always in perspective.",
-                Action::Orthographic,
-            ));
     });
     if linked != view.settings.linked {
         view.link(linked, state);
     }
+}
+
+/// Filters of the leaf boxes.
+fn leaves_shown(ui: &mut egui::Ui, settings: &mut Settings, state: &State) {
+    let tree = state.current.as_ref().map(|current| &current.shown.tree);
+    let filter = &mut settings.filter;
+    ui.strong("Leaves");
+    ui.checkbox(&mut filter.full, "Full (solid)")
+        .on_hover_text(tip(
+            "Show leaves with objects; their edges are solid.",
+            Action::ShowFull,
+        ));
+    ui.checkbox(&mut filter.empty, "Empty (dashed)")
+        .on_hover_text(tip(
+            "Show leaves without objects; their edges are dashed.",
+            Action::ShowEmpty,
+        ));
+    for visited in Visited::ALL {
+        ui.radio_value(&mut filter.visited, visited, visited.title())
+            .on_hover_text(tip(
+                "Show leaves by whether any ray of the picture visited them.",
+                Action::VisitedOrNot,
+            ));
+    }
+    ui.horizontal(|ui| depth_filter(filter, tree.map_or(0, |tree| tree.depth_reached()), ui));
+    ui.checkbox(&mut settings.only_visited, "Only visited")
+        .on_hover_text(tip(
+            "Of all leaves, show only those that the picked pixel's ray visited.",
+            Action::Shown,
+        ));
+}
+
+fn rays_and_camera(ui: &mut egui::Ui, view: &mut View3d, linked: &mut bool) {
+    ui.strong("Rays and camera");
+    ui.checkbox(&mut view.settings.all_rays, "All rays")
+        .on_hover_text(tip(
+            "Show all rays of the picked pixel, or only the selected one.",
+            Action::ShowRays,
+        ));
+    ui.checkbox(linked, "Linked").on_hover_text(tip(
+        "One camera for this view and the picture. Unlinked, the picture's camera is drawn as a \
+         frustum; linking again returns to it.",
+        Action::Link,
+    ));
+    ui.checkbox(&mut view.camera.orthographic, "Orthographic")
+        .on_hover_text(tip(
+            "Parallel rays, in this view alone: pictures are always in perspective.",
+            Action::Orthographic,
+        ));
 }
 
 fn depth_filter(filter: &mut Filter, depth_reached: u32, ui: &mut egui::Ui) {
@@ -183,6 +192,7 @@ pub fn act(view: &mut View3d, action: Action, state: &State, dt: f64) -> bool {
         return true;
     }
     match action {
+        Action::FoldLegend => view.fold_legend(),
         Action::ShowScene => settings.scene ^= true,
         Action::ShowBoxes => settings.boxes ^= true,
         Action::ShowFull => settings.filter.full ^= true,

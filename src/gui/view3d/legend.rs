@@ -1,6 +1,7 @@
 //! What the colours and lines of the 3D view mean.
 
 use super::Settings;
+use crate::gui::shortcuts::{Action, tip};
 use crate::gui::symbol::grouped;
 use crate::gui::walk::Picked;
 use crate::overlay::{
@@ -28,10 +29,19 @@ pub struct Legend<'a> {
     pub marks: Vec<String>,
     /// Objects that were left out.
     pub left_out: usize,
+    /// Whether it is unfolded; folded, it tells what the colours mean.
+    pub open: bool,
 }
 
-/// Shows the legend in the lower left corner of the view.
-pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) {
+/// Whether an unfolded legend leaves most of a view to be seen.
+pub fn fits(view: Rect) -> bool {
+    view.width() >= 340.0 && view.height() >= 420.0
+}
+
+/// Shows the legend in the lower left corner of the view; says whether it is to be folded or unfolded.
+pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) -> bool {
+    /// Around the contents.
+    const MARGIN: f32 = 6.0;
     // The ground is dark in both themes, and so is the legend.
     let visuals = egui::Visuals {
         override_text_color: Some(Color32::from_gray(225)),
@@ -51,12 +61,17 @@ pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) {
         egui::Frame::new()
             .fill(Color32::from_black_alpha(190))
             .corner_radius(4)
-            .inner_margin(6)
+            .inner_margin(MARGIN)
             .show(ui, |ui| {
                 ui.set_max_width((view.width() - 30.0).clamp(80.0, 330.0));
                 ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Wrap);
                 ui.spacing_mut().item_spacing.y = 2.0;
-                contents(legend, view.height() > ROOMY, ui);
+                let most = (view.height() - 16.0 - 2.0 * MARGIN).max(20.0);
+                egui::ScrollArea::vertical()
+                    .max_height(most)
+                    .min_scrolled_height(most)
+                    .show(ui, |ui| contents(legend, view.height() > ROOMY, ui))
+                    .inner
             })
     });
     let now = shown.inner.response.rect.height();
@@ -64,48 +79,84 @@ pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) {
         ui.data_mut(|data| data.insert_temp(id, now));
         ui.ctx().request_repaint();
     }
+    shown.inner.inner
 }
 
-/// `roomy` where there is room for all of it without hiding the view.
-fn contents(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
+/// The whole legend, or its colours alone; whether the button that folds it was clicked. `roomy` where
+/// there is room for all of it without hiding the view.
+fn contents(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) -> bool {
     let coloring = legend.settings.coloring;
-    match legend.boxes {
-        Some(boxes) if !legend.settings.only_visited => {
-            if coloring.unit.is_empty() {
-                ui.strong(format!("Leaves by {}", coloring.title.to_lowercase()));
-            } else {
-                ui.strong(format!("{} ({})", coloring.title, coloring.unit));
+    let boxes = legend.boxes.filter(|_| !legend.settings.only_visited);
+    let folds = ui
+        .horizontal(|ui| {
+            let folds = fold_button(legend.open, ui);
+            match boxes {
+                Some(_) if coloring.unit.is_empty() => {
+                    ui.strong(format!("Leaves by {}", coloring.title.to_lowercase()));
+                }
+                Some(_) => {
+                    ui.strong(format!("{} ({})", coloring.title, coloring.unit));
+                }
+                None if legend.settings.boxes && !legend.settings.only_visited => {
+                    ui.label(legend.waits_for.unwrap_or("Preparing the leaf boxes …"));
+                }
+                None => {
+                    ui.label("Leaf boxes are not shown");
+                }
             }
-            color_bar(coloring, boxes.range, ui);
-            ui.label("solid edges: full leaf · dashed edges: empty leaf");
-            let visited = legend.settings.filter.visited;
-            if visited != Visited::Either {
-                ui.label(format!("leaves shown: {}", visited.title().to_lowercase()));
-            }
-            if boxes.undecided > 0 {
-                ui.label(format!(
-                    "dotted white: {} cells not decided yet",
-                    grouped(boxes.undecided)
-                ));
-            }
-            let shown = boxes.instances.len() - boxes.undecided;
+            folds
+        })
+        .inner;
+    if let Some(boxes) = boxes {
+        color_bar(coloring, boxes.range, ui);
+    }
+    if legend.open {
+        lines(legend, boxes, roomy, ui);
+    }
+    folds
+}
+
+/// The triangle that folds or unfolds the legend; whether it was clicked.
+fn fold_button(open: bool, ui: &mut egui::Ui) -> bool {
+    let (_, response) = ui.allocate_exact_size(vec2(14.0, 14.0), egui::Sense::click());
+    let name = if open {
+        "Fold the legend"
+    } else {
+        "Unfold the legend"
+    };
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+    let icon = response.clone().with_new_rect(response.rect.shrink(2.0));
+    egui::collapsing_header::paint_default_icon(ui, f32::from(u8::from(open)), &icon);
+    let about = "All that the colours, lines and boxes of the view mean, or the colours alone.";
+    let response = response.on_hover_text(tip(about, Action::FoldLegend));
+    response.clicked()
+}
+
+/// What else there is to say of boxes, rays and marks.
+fn lines(legend: &Legend<'_>, boxes: Option<&LeafBoxes>, roomy: bool, ui: &mut egui::Ui) {
+    if let Some(boxes) = boxes {
+        ui.label("solid edges: full leaf · dashed edges: empty leaf");
+        let visited = legend.settings.filter.visited;
+        if visited != Visited::Either {
+            ui.label(format!("leaves shown: {}", visited.title().to_lowercase()));
+        }
+        if boxes.undecided > 0 {
             ui.label(format!(
-                "{} of {} leaves shown",
-                grouped(shown),
-                grouped(boxes.leaves)
+                "dotted white: {} cells not decided yet",
+                grouped(boxes.undecided)
             ));
-            if (legend.drawn as usize) < boxes.instances.len() {
-                ui.label(format!(
-                    "drawn by the processor: {} of them",
-                    grouped(legend.drawn as usize)
-                ));
-            }
         }
-        None if legend.settings.boxes && !legend.settings.only_visited => {
-            ui.label(legend.waits_for.unwrap_or("Preparing the leaf boxes …"));
-        }
-        _ => {
-            ui.label("Leaf boxes are not shown");
+        let shown = boxes.instances.len() - boxes.undecided;
+        ui.label(format!(
+            "{} of {} leaves shown",
+            grouped(shown),
+            grouped(boxes.leaves)
+        ));
+        if (legend.drawn as usize) < boxes.instances.len() {
+            ui.label(format!(
+                "drawn by the processor: {} of them",
+                grouped(legend.drawn as usize)
+            ));
         }
     }
     if let Some(picked) = legend.picked {

@@ -52,6 +52,10 @@ pub struct View3d {
     faces: Arc<Vec<overlay::FaceCorner>>,
     /// When the camera or the build moved last, in seconds.
     moved: f64,
+    /// Whether the legend is unfolded; `None` until the user said, by the room that there is.
+    legend_open: Option<bool>,
+    /// Whether there is room for an unfolded legend.
+    roomy: bool,
 }
 
 /// What draws.
@@ -89,6 +93,8 @@ impl View3d {
             lines: Arc::default(),
             faces: Arc::default(),
             moved: f64::NEG_INFINITY,
+            legend_open: None,
+            roomy: true,
         }
     }
 
@@ -103,6 +109,7 @@ impl View3d {
             egui::WidgetInfo::labeled(egui::Role::Canvas, true, "3D view of scene and tree")
         });
         self.camera.aspect = f64::from(rect.width() / rect.height());
+        self.roomy = legend::fits(rect);
         let framed = self.frame_wanted(state);
         if self.steer(ui, &response, state) || framed {
             self.moved = ui.input(|i| i.time);
@@ -166,6 +173,15 @@ impl View3d {
     /// Colours the leaves by something else.
     pub fn color_by(&mut self, coloring: &'static overlay::Coloring) {
         self.settings.coloring = coloring;
+    }
+
+    fn is_legend_open(&self) -> bool {
+        self.legend_open.unwrap_or(self.roomy)
+    }
+
+    /// Folds the legend, or unfolds it.
+    fn fold_legend(&mut self) {
+        self.legend_open = Some(!self.is_legend_open());
     }
 
     /// Takes over a new scene's camera, or the picture's while linked.
@@ -355,8 +371,11 @@ impl View3d {
             drawn,
             picked: current.picked.as_ref(),
             left_out,
+            open: self.is_legend_open(),
         };
-        legend::show(&legend, ui, rect);
+        if legend::show(&legend, ui, rect) {
+            self.fold_legend();
+        }
     }
 
     fn globals(&self, rect: Rect, center: Vec3, bounds: &Aabb, root: &Aabb) -> Globals {

@@ -23,8 +23,7 @@ impl ImageError {
         assert!(width > 0 && picture.len().is_multiple_of(width));
         let (mut squares, mut max) = (0.0, 0.0_f64);
         for (p, r) in picture.iter().zip(reference) {
-            for (p, r) in p.iter().zip(r) {
-                let off = f64::from(p.clamp(0.0, 1.0)) - f64::from(r.clamp(0.0, 1.0));
+            for off in off(p, r) {
                 squares += off * off;
                 max = max.max(off.abs());
             }
@@ -37,6 +36,27 @@ impl ImageError {
             ssim: ssim(&luminance(picture), &luminance(reference), width),
         }
     }
+}
+
+/// The error of every pixel of a picture p against a reference r: the square root of the mean of
+/// (p − r)² over its colours, 0 to 1. The RMSE is the square root of the mean of their squares.
+///
+/// # Panics
+/// If there are not as many pixels in both.
+pub fn pixel_errors(picture: &[[f32; 3]], reference: &[[f32; 3]]) -> Vec<f32> {
+    assert_eq!(picture.len(), reference.len());
+    let pixels = picture.iter().zip(reference);
+    pixels
+        .map(|(p, r)| {
+            let squares: f64 = off(p, r).map(|off| off * off).iter().sum();
+            (squares / 3.0).sqrt() as f32
+        })
+        .collect()
+}
+
+/// What a pixel has more than another, colour by colour.
+fn off(p: &[f32; 3], r: &[f32; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| f64::from(p[i].clamp(0.0, 1.0)) - f64::from(r[i].clamp(0.0, 1.0)))
 }
 
 /// Relative luminance (Rec. ITU-R BT.709).
@@ -119,6 +139,18 @@ mod tests {
         assert!((error.psnr.unwrap() - 20.0).abs() < 1e-5);
         let expected = (2.0 * 0.5 * 0.4 + 1e-4) / (0.25 + 0.16 + 1e-4);
         assert!((error.ssim - expected).abs() < 1e-6, "{}", error.ssim);
+    }
+
+    #[test]
+    fn the_errors_of_the_pixels_make_the_rmse() {
+        let picture: Vec<_> = (0..200).map(|i| [i as f32 / 150.0, 0.5, 0.1]).collect();
+        let reference: Vec<_> = (0..200).map(|i| [0.3, i as f32 / 90.0, 0.1]).collect();
+        let errors = pixel_errors(&picture, &reference);
+        let squares: f64 = errors.iter().map(|&e| f64::from(e).powi(2)).sum();
+        let whole = ImageError::between(&picture, &reference, 20);
+        assert!(((squares / 200.0).sqrt() - whole.rmse).abs() < 1e-7);
+        let clipped = pixel_errors(&[[0.0, 0.6, 5.0]], &[[0.0, 0.0, 1.0]])[0];
+        assert!((clipped - 0.12_f32.sqrt()).abs() < 1e-6, "{clipped}");
     }
 
     #[test]

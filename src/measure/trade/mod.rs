@@ -8,10 +8,12 @@
 mod error;
 mod front;
 mod knobs;
+mod measures;
 
-pub use error::ImageError;
+pub use error::{ImageError, pixel_errors};
 pub use front::pareto_front;
 pub use knobs::{KNOBS, Knob};
+pub use measures::{ERROR_MEASURES, ErrorMeasure};
 
 use super::MeasureError;
 use crate::primitive::Primitive;
@@ -96,19 +98,24 @@ impl Trade {
         [outcome.seconds[0], outcome.median(), outcome.seconds[last]].map(|s| s / unit)
     }
 
-    /// Whether each outcome is on the front of time and RMSE. Choices that move only the time are not
-    /// part of that trade.
+    /// Whether each outcome is on the front of time and RMSE.
     pub fn front(&self) -> Vec<bool> {
+        self.front_by(&ERROR_MEASURES[0])
+    }
+
+    /// Whether each outcome is on the front of time and this error. Choices that move only the time
+    /// are not part of that trade.
+    pub fn front_by(&self, error: &ErrorMeasure) -> Vec<bool> {
         let points: Vec<_> = self
             .outcomes
             .iter()
             .map(|outcome| {
-                let rmse = if outcome.choice.moves_image || outcome.choice.turned.is_empty() {
-                    outcome.error.rmse
+                let error = if outcome.choice.moves_image || outcome.choice.turned.is_empty() {
+                    (error.value)(outcome)
                 } else {
                     f64::NAN
                 };
-                [self.ratios(outcome)[1], rmse]
+                [self.ratios(outcome)[1], error]
             })
             .collect();
         pareto_front(&points)
@@ -183,45 +190,111 @@ pub fn trade(
     progress: &Progress,
     mut on_outcome: impl FnMut(usize, &Outcome),
 ) -> Result<Trade, MeasureError> {
-    let Some(first) = choices.first() else {
-        return Ok(Trade {
-            outcomes: Vec::new(),
-        });
-    };
-    let pool = thread_pool(first.setting.render.threads)?;
-    let size = [first.setting.render.width, first.setting.render.height];
-    let mut made = Made::default();
-    let mut outcomes: Vec<Outcome> = Vec::new();
-    let mut reference: Option<View> = None;
-    let steps = f64::from(rounds.max(1)) * choices.len() as f64;
-    for round in 0..rounds.max(1) {
-        for (place, choice) in choices.iter().enumerate() {
-            let done = f64::from(round) * choices.len() as f64 + place as f64;
-            let part = progress.part(done / steps, (done + 1.0) / steps);
-            let (scene, tree) = pool.install(|| made.get(exact, &choice.setting, &part))?;
-            let (picture, seconds) = traced(scene, tree, &choice.setting.render, &pool, &part)?;
-            if round == 0 {
-                let owners = owners(exact, choice.setting.cylinders);
-                let objects = objects(scene, tree, &choice.setting.render, &owners, &pool)?;
-                let precision = choice.setting.render.precision_for(scene).precision;
-                let bytes = scene.shapes(precision).bytes();
-                let seen = View::new(&picture, &objects, size);
-                let right = reference.get_or_insert_with(|| seen.clone());
-                outcomes.push(Outcome {
-                    choice: choice.clone(),
-                    seconds: Vec::new(),
-                    wrong_hits: seen.wrong_hits(right),
-                    error: ImageError::between(&seen.colors, &right.colors, size[0] as usize),
-                    object_bytes: bytes as u64,
-                });
-            }
-            let outcome = &mut outcomes[place];
-            let at = outcome.seconds.partition_point(|&s| s < seconds);
-            outcome.seconds.insert(at, seconds);
-            on_outcome(place, outcome);
+    let mut trading = Trading::new(exact, choices, rounds)?;
+    let turns = trading.turns() as f64;
+    for turn in 0..trading.turns() {
+        let part = progress.part(turn as f64 / turns, (turn + 1) as f64 / turns);
+        if let Some(turn) = trading.turn(&part)? {
+            on_outcome(turn.place, &trading.outcomes[turn.place]);
         }
     }
-    Ok(Trade { outcomes })
+    Ok(Trade {
+        outcomes: trading.outcomes,
+    })
+}
+
+/// A trade that is taken turn by turn. A turn that was cancelled can be taken again.
+pub struct Trading<'a> {
+    exact: &'a Scene,
+    choices: Vec<Choice>,
+    rounds: usize,
+    pool: rayon::ThreadPool,
+    made: Made,
+    reference: Option<View>,
+    outcomes: Vec<Outcome>,
+    /// Turns taken.
+    taken: usize,
+}
+
+/// What came of one turn.
+pub struct Turn {
+    /// Which of the outcomes has another time now; in the first round, which is new.
+    pub place: usize,
+    /// [`pixel_errors`] in the reference's size; `None` after the first round, where they are the same
+    /// again.
+    pub pixel_errors: Option<Vec<f32>>,
+}
+
+impl<'a> Trading<'a> {
+    /// Every choice in `rounds` rounds, at least 1, the reference first; no turn is taken yet.
+    ///
+    /// # Errors
+    /// The reference's threads cannot be had.
+    pub fn new(exact: &'a Scene, choices: Vec<Choice>, rounds: u32) -> Result<Self, MeasureError> {
+        let threads = choices.first().map_or(0, |c| c.setting.render.threads);
+        Ok(Trading {
+            exact,
+            choices,
+            rounds: rounds.max(1) as usize,
+            pool: thread_pool(threads)?,
+            made: Made::default(),
+            reference: None,
+            outcomes: Vec::new(),
+            taken: 0,
+        })
+    }
+
+    /// How many turns there are in all.
+    pub fn turns(&self) -> usize {
+        self.rounds * self.choices.len()
+    }
+
+    /// What is known so far: after the first round, every choice.
+    pub fn outcomes(&self) -> &[Outcome] {
+        &self.outcomes
+    }
+
+    /// Takes the next turn; `None` where all were taken.
+    ///
+    /// # Errors
+    /// Settings out of range, a tree beyond the memory limit, no view, or cancellation.
+    pub fn turn(&mut self, progress: &Progress) -> Result<Option<Turn>, MeasureError> {
+        if self.taken == self.turns() {
+            return Ok(None);
+        }
+        let place = self.taken % self.choices.len();
+        let choice = &self.choices[place];
+        let (made, exact) = (&mut self.made, self.exact);
+        let (scene, tree) = self
+            .pool
+            .install(|| made.get(exact, &choice.setting, progress))?;
+        let render = &choice.setting.render;
+        let (picture, seconds) = traced(scene, tree, render, &self.pool, progress)?;
+        let mut pixel_errors = None;
+        if place == self.outcomes.len() {
+            let owners = owners(self.exact, choice.setting.cylinders);
+            let objects = objects(scene, tree, render, &owners, &self.pool)?;
+            let precision = render.precision_for(scene).precision;
+            let first = &self.choices[0].setting.render;
+            let seen = View::new(&picture, &objects, [first.width, first.height]);
+            let right = self.reference.get_or_insert_with(|| seen.clone());
+            pixel_errors = Some(error::pixel_errors(&seen.colors, &right.colors));
+            self.outcomes.push(Outcome {
+                choice: choice.clone(),
+                seconds: Vec::new(),
+                wrong_hits: seen.wrong_hits(right),
+                error: ImageError::between(&seen.colors, &right.colors, first.width as usize),
+                object_bytes: scene.shapes(precision).bytes() as u64,
+            });
+        }
+        let times = &mut self.outcomes[place].seconds;
+        times.insert(times.partition_point(|&s| s < seconds), seconds);
+        self.taken += 1;
+        Ok(Some(Turn {
+            place,
+            pixel_errors,
+        }))
+    }
 }
 
 /// The scenes and trees made so far: most choices share them.

@@ -1,8 +1,11 @@
 //! Generated scenes. A generator is one file here and one line in [`BUILTINS`].
 
 mod balls;
+mod fluid;
+mod m_fluid;
 mod percent_g;
 mod rings;
+mod room;
 mod teaching;
 mod tetra;
 
@@ -28,11 +31,22 @@ pub static BUILTINS: &[Builtin] = &[
     balls::BUILTIN,
     rings::BUILTIN,
     tetra::BUILTIN,
+    fluid::BUILTIN,
+    m_fluid::BUILTIN,
+    room::BUILTIN,
     teaching::BUILTIN,
 ];
 
 /// Linear background colour of the Standard Procedural Databases.
 const SPD_BACKGROUND: Vec3 = Vec3::new(0.078, 0.361, 0.753);
+
+/// What a scene says that stands in for one that was never published.
+fn reconstruction_note(name: &str) -> String {
+    format!(
+        "A reconstruction: the scene '{name}' of the paper was never published. This one was made \
+         anew to meet its figures in Table 4 and the directions in Table 6."
+    )
+}
 
 /// Why a generator gave no scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

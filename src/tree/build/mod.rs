@@ -126,6 +126,7 @@ fn in_pool(
         settings: settings.clone(),
         depth_limit,
         depth_reached,
+        derived: Default::default(),
     })
 }
 

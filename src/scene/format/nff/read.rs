@@ -17,6 +17,8 @@ const REMARKS_LISTED: usize = 10;
 
 /// Reads a whole NFF file. The scene's name stays empty, since the bytes carry none.
 ///
+/// Comments that begin with `# Note: ` are the scene's notes.
+///
 /// Three vertices make a triangle, more a polygon. Equal materials become one, and a material that
 /// no object has is left out. Repaired, with a note for each:
 /// - no `b`: black; no `f` before an object: [`Material::default`]; no object at all: none;
@@ -456,6 +458,8 @@ impl<'a> Reader<'a> {
                 "the end of the file",
             )
         })?;
+        self.notes
+            .splice(0..0, std::mem::take(&mut self.words.notes));
         for remark in Remark::ALL {
             let count = self.remarks[remark as usize];
             if count > REMARKS_LISTED {

@@ -1,5 +1,6 @@
 //! The stream of words that a file is, with their lines.
 
+use super::write::NOTE;
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::format::ReadError;
@@ -47,9 +48,15 @@ pub(super) fn syntax(line: usize, expected: impl Display, found: impl Display) -
     }
 }
 
-/// The words of a file, one after the other, without comments.
+/// How many notes of a file are kept, and how many bytes of each.
+const MOST_NOTES: usize = 16;
+const LONGEST_NOTE: usize = 1024;
+
+/// The words of a file, one after the other, without comments; notes among the comments are kept.
 pub(super) struct Words<'a> {
     bytes: &'a [u8],
+    /// The notes passed so far.
+    pub notes: Vec<String>,
     at: usize,
     line: usize,
     taken: u32,
@@ -60,6 +67,7 @@ impl<'a> Words<'a> {
     pub(super) fn new(bytes: &'a [u8], progress: &'a Progress) -> Self {
         Words {
             bytes: bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes),
+            notes: Vec::new(),
             at: 0,
             line: 1,
             taken: 0,
@@ -74,7 +82,15 @@ impl<'a> Words<'a> {
                 b'#' => {
                     let rest = &self.bytes[self.at..];
                     let end = rest.iter().position(|b| matches!(b, b'\n' | b'\r'));
-                    self.at += end.unwrap_or(rest.len());
+                    let comment = &rest[..end.unwrap_or(rest.len())];
+                    if let Some(note) = comment.strip_prefix(NOTE.as_bytes())
+                        && self.notes.len() < MOST_NOTES
+                    {
+                        let shown = &note[..note.len().min(LONGEST_NOTE)];
+                        let text = String::from_utf8_lossy(shown);
+                        self.notes.push(text.replace(char::is_control, " "));
+                    }
+                    self.at += comment.len();
                     continue;
                 }
                 b'\n' => self.line += 1,

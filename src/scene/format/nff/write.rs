@@ -6,7 +6,10 @@ use crate::scene::{Material, SceneParts};
 use std::fmt::{self, Display};
 use std::io::{BufWriter, Write};
 
-/// Writes NFF: view, background, lights, then the objects in order, an `f` where the material
+/// How a comment begins that holds a note of the scene.
+pub(super) const NOTE: &str = "# Note: ";
+
+/// Writes NFF: notes as comments, view, background, lights, then the objects in order, an `f` where the material
 /// changes. Numbers are the shortest that read back to the same bits, so that [`super::read`] gives the
 /// same scene again. Two things it cannot give back: a polygon of three vertices comes back as a
 /// triangle, and materials come back once each in the order of their first use.
@@ -18,6 +21,9 @@ pub fn write(parts: &SceneParts, out: &mut dyn Write) -> std::io::Result<()> {
     let title = parts.name.replace(char::is_control, " ");
     writeln!(out, "# {title}")?;
     writeln!(out, "# {} objects", parts.objects.len())?;
+    for note in &parts.notes {
+        writeln!(out, "{NOTE}{}", note.replace(char::is_control, " "))?;
+    }
     let camera = &parts.camera;
     writeln!(out, "v")?;
     writeln!(out, "from {}", Point(camera.from))?;

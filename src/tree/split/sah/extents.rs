@@ -101,13 +101,15 @@ impl Extents {
         for list in self.begins.iter_mut().chain(&mut self.ends) {
             list.resize(most, 0.0);
         }
+        let begins = self.begins.each_mut().map(|list| &mut list[..most]);
+        let ends = self.ends.each_mut().map(|list| &mut list[..most]);
         let mut held = 0;
         for &object in objects {
             // Always put there and kept by a count: a branch would often be foretold wrong.
             let (is_held, extent) = source.extent(object);
             for (k, [begin, end]) in extent.into_iter().enumerate() {
-                self.begins[k][held] = begin;
-                self.ends[k][held] = end;
+                begins[k][held] = begin;
+                ends[k][held] = end;
             }
             held += usize::from(is_held);
         }

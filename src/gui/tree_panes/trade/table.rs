@@ -1,0 +1,154 @@
+//! The outcomes as rows.
+
+use crate::measure::significant;
+use crate::measure::trade::{Outcome, Trade};
+use egui::{Align, Sense};
+use egui_extras::{Column, TableBuilder};
+
+const COLUMNS: [(&str, f32, &str); 10] = [
+    (
+        "choice",
+        170.0,
+        "What is turned; all else is as at the reference",
+    ),
+    (
+        "front",
+        38.0,
+        "Whether nothing else is both faster and closer to the reference; choices that move only the \
+         time are not part of that",
+    ),
+    (
+        "time",
+        44.0,
+        "Median of the rounds, as a ratio to the reference's",
+    ),
+    (
+        "spread",
+        98.0,
+        "Least and largest time of the rounds, as ratios to the reference's median",
+    ),
+    (
+        "wrong hits",
+        70.0,
+        "Share of the pixels whose primary ray meets another object than it should",
+    ),
+    (
+        "RMSE",
+        72.0,
+        "Root of the mean squared difference on linear light, 0 to 1",
+    ),
+    (
+        "max",
+        54.0,
+        "Largest difference of any pixel and colour on linear light, 0 to 1",
+    ),
+    (
+        "PSNR",
+        58.0,
+        "Peak signal-to-noise ratio, −20 log₁₀ RMSE, in decibels",
+    ),
+    (
+        "SSIM",
+        58.0,
+        "Mean structural similarity of the luminance, at most 1 (Wang et al. 2004)",
+    ),
+    (
+        "objects",
+        70.0,
+        "Memory of the objects as intersection tests take them",
+    ),
+];
+
+/// Shows the table, scrolled to a row if asked; gives the outcome that is clicked.
+pub fn show(
+    ui: &mut egui::Ui,
+    trade: &Trade,
+    front: &[bool],
+    chosen: Option<usize>,
+    scroll: Option<usize>,
+) -> Option<usize> {
+    let height = ui.text_style_height(&egui::TextStyle::Body) + 2.0;
+    let mut clicked = None;
+    egui::ScrollArea::horizontal()
+        .id_salt("outcomes")
+        .auto_shrink(false)
+        .show(ui, |ui| {
+            ui.spacing_mut().item_spacing.x = 6.0;
+            let mut builder = TableBuilder::new(ui)
+                .striped(true)
+                .sense(Sense::click())
+                .auto_shrink(false)
+                .cell_layout(egui::Layout::left_to_right(Align::Center))
+                .animate_scrolling(false);
+            for (_, width, _) in COLUMNS {
+                builder = builder.column(Column::exact(width).clip(true));
+            }
+            if let Some(row) = scroll {
+                builder = builder.scroll_to_row(row, Some(Align::Center));
+            }
+            let header = builder.header(height, |mut header| {
+                for (title, _, about) in COLUMNS {
+                    header.col(|ui| {
+                        ui.strong(title).on_hover_text(about);
+                    });
+                }
+            });
+            header.body(|body| {
+                body.rows(height, trade.outcomes.len(), |mut row| {
+                    let place = row.index();
+                    let outcome = &trade.outcomes[place];
+                    row.set_selected(chosen == Some(place));
+                    let words = outcome.choice.words();
+                    for (column, text) in
+                        cells(trade, outcome, front[place]).into_iter().enumerate()
+                    {
+                        let (_, cell) = row.col(|ui| {
+                            let label = egui::Label::new(text).selectable(false);
+                            // A label that is cut off would take the hovering from its row.
+                            ui.add(label.truncate().sense(Sense::hover()));
+                        });
+                        // The first cell stands for the row: the others may be out of sight.
+                        if column == 0 {
+                            cell.widget_info(|| {
+                                let (name, is_chosen) =
+                                    (format!("Load {words}"), chosen == Some(place));
+                                egui::WidgetInfo::selected(
+                                    egui::Role::Button,
+                                    true,
+                                    is_chosen,
+                                    name,
+                                )
+                            });
+                        }
+                    }
+                    let response = row.response();
+                    if response
+                        .on_hover_text(format!("{words}\nClick to load these settings."))
+                        .clicked()
+                    {
+                        clicked = Some(place);
+                    }
+                });
+            });
+        });
+    clicked
+}
+
+fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 10] {
+    let [least, median, most] = trade.ratios(outcome);
+    let error = &outcome.error;
+    [
+        outcome.choice.words(),
+        if front { "front" } else { "" }.to_owned(),
+        format!("{median:.3}"),
+        format!("{least:.3}–{most:.3}"),
+        format!("{} %", significant(100.0 * outcome.wrong_hits)),
+        significant(error.rmse),
+        significant(error.max),
+        error
+            .psnr
+            .map_or("∞".to_owned(), |psnr| format!("{psnr:.1} dB")),
+        format!("{:.5}", error.ssim),
+        format!("{} KiB", outcome.object_bytes.div_ceil(1024)),
+    ]
+}

@@ -1,0 +1,104 @@
+//! The same times measured directly: tests that were made are made again, apart by kind and result;
+//! rays are walked through the tree without tests.
+
+use super::observe::each_ray;
+use crate::geometry::Ray;
+use crate::measure::MeasureError;
+use crate::primitive::{PrimitiveKind, Shape};
+use crate::progress::Progress;
+use crate::scene::Scene;
+use crate::trace::{RayKind, RenderSettings, counted_pass, thread_pool};
+use crate::tree::{BuildSettings, build};
+use cpu_time::ThreadTime;
+use std::hint::black_box;
+
+/// Times in seconds, measured in place; arrays are by [`PrimitiveKind`]. `None` where nothing of the
+/// kind was done.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct InPlace {
+    /// Of a traversed node, `T_T + T_P`: `T_TT / N_NODES`.
+    pub node: Option<f64>,
+    /// Of a test that hits, `T_I`.
+    pub hit: [Option<f64>; PrimitiveKind::ALL.len()],
+    /// Of a test that misses, `T_IUN`.
+    pub miss: [Option<f64>; PrimitiveKind::ALL.len()],
+}
+
+/// A test to be made again.
+struct Test {
+    ray: Ray,
+    object: u32,
+    t_max: f64,
+}
+
+/// So many tests of a kind and result are kept; they fit the processor's caches as those of a leaf do.
+const KEPT: usize = 4096;
+/// Of so many tests one is kept, so that they come from all of the picture.
+const EVERY: usize = 17;
+/// How often the kept tests are made; the least time counts.
+const ROUNDS: u32 = 30;
+
+/// Measures the times of a scene with one tree.
+///
+/// # Errors
+/// As [`crate::measure::measure`].
+pub fn time_in_place(
+    scene: &Scene,
+    settings: &BuildSettings,
+    render: &RenderSettings,
+    progress: &Progress,
+) -> Result<InPlace, MeasureError> {
+    let tree = build(scene, settings, progress)?;
+    let pool = thread_pool(render.threads)?;
+    let counted = counted_pass(scene, &tree, render, &pool, progress, |_| ())?;
+    let nodes: u64 = counted
+        .tallies
+        .iter()
+        .map(|t| t.inner_nodes + t.leaves)
+        .sum();
+    let mut times = InPlace {
+        node: (nodes > 0).then(|| counted.walking.as_secs_f64() / nodes as f64),
+        ..InPlace::default()
+    };
+    let kinds = PrimitiveKind::ALL.len();
+    let mut kept: Vec<Vec<Test>> = (0..2 * kinds).map(|_| Vec::new()).collect();
+    let mut seen = vec![0usize; 2 * kinds];
+    each_ray(scene, &tree, render, progress, |traced, watcher| {
+        let mut t_max = traced.ray.t_max;
+        for &(object, hit) in &watcher.tests {
+            let kind = scene.objects()[object as usize].kind() as usize;
+            let place = 2 * kind + usize::from(hit.is_some());
+            seen[place] += 1;
+            if seen[place].is_multiple_of(EVERY) && kept[place].len() < KEPT {
+                kept[place].push(Test {
+                    ray: *traced.ray,
+                    object,
+                    t_max,
+                });
+            }
+            if let Some(t) = hit.filter(|_| traced.kind != RayKind::Shadow) {
+                t_max = t_max.min(t);
+            }
+        }
+    })?;
+    for kind in 0..kinds {
+        times.miss[kind] = time(scene, &kept[2 * kind]);
+        times.hit[kind] = time(scene, &kept[2 * kind + 1]);
+        progress.check().map_err(crate::trace::RenderError::from)?;
+    }
+    Ok(times)
+}
+
+/// The time of one of these tests; `None` without any.
+fn time(scene: &Scene, tests: &[Test]) -> Option<f64> {
+    let round = || {
+        let start = ThreadTime::now();
+        for test in tests {
+            let object = &scene.objects()[test.object as usize];
+            black_box(object.intersect(black_box(&test.ray), test.t_max));
+        }
+        start.elapsed().as_secs_f64()
+    };
+    let least = (0..ROUNDS).map(|_| round()).fold(f64::INFINITY, f64::min);
+    (!tests.is_empty()).then(|| least / tests.len() as f64)
+}

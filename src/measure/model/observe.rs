@@ -1,0 +1,219 @@
+//! What rendering with one tree took, and the counts that equation (1) explains it by.
+
+use super::{Equation, Term};
+use crate::measure::MeasureError;
+use crate::primitive::{PrimitiveKind, Shapes};
+use crate::progress::Progress;
+use crate::scene::Scene;
+use crate::trace::{
+    Batch, Hit, Probe, RayKind, RayTracer, RenderError, RenderSettings, Scratch, Shading, Way,
+    any_hit, closest_hit, thread_pool, tiles, timed_pass, trace_samples,
+};
+use crate::tree::{BuildSettings, Tree, build};
+
+const KINDS: usize = PrimitiveKind::ALL.len();
+
+/// The counts of equation (1) for one tree; arrays are by [`PrimitiveKind`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Terms {
+    /// Nodes traversed, `N_NODES`.
+    pub nodes: u64,
+    /// Tests.
+    pub tests: [u64; KINDS],
+    /// Tests that hit, nearest so far or not.
+    pub hits: [u64; KINDS],
+    /// Primary and secondary rays whose nearest hit it is, `N_HPR + N_HSECR`.
+    pub nearest: [u64; KINDS],
+    /// Shadow rays that it blocks, `N_HSR`.
+    pub blocked: [u64; KINDS],
+}
+
+impl Terms {
+    /// What a term of the equation is multiplied with.
+    pub fn count(&self, term: Term, equation: Equation) -> f64 {
+        let count = match (term, equation) {
+            (Term::Constant, _) => 1,
+            (Term::Node, _) => self.nodes,
+            (Term::Hit(kind), Equation::Corrected) => self.hits[kind as usize],
+            (Term::Hit(kind), Equation::Printed) => self.nearest[kind as usize],
+            (Term::Miss(kind), Equation::Corrected) => {
+                self.tests[kind as usize] - self.hits[kind as usize]
+            }
+            (Term::Miss(kind), Equation::Printed) => {
+                let k = kind as usize;
+                self.tests[k] - self.nearest[k] - self.blocked[k]
+            }
+        };
+        count as f64
+    }
+}
+
+/// One tree with its time.
+#[derive(Clone, Debug)]
+pub struct Observation {
+    pub build: BuildSettings,
+    pub terms: Terms,
+    /// `T_TR` in seconds of CPU time: the least of some rounds.
+    pub seconds: f64,
+}
+
+/// Builds a tree, times the picture `rounds` times and counts what equation (1) needs.
+///
+/// # Errors
+/// As [`crate::measure::measure`].
+pub fn observe(
+    scene: &Scene,
+    settings: &BuildSettings,
+    render: &RenderSettings,
+    rounds: u32,
+    progress: &Progress,
+) -> Result<Observation, MeasureError> {
+    let tree = build(scene, settings, progress)?;
+    let pool = thread_pool(render.threads)?;
+    let mut seconds = f64::INFINITY;
+    for _ in 0..rounds.max(1) {
+        let pass = timed_pass(scene, &tree, render, 0, &pool, progress, |_, _| ())?;
+        seconds = seconds.min(pass.cpu.as_secs_f64());
+    }
+    Ok(Observation {
+        build: settings.clone(),
+        terms: count(scene, &tree, render, progress)?,
+        seconds,
+    })
+}
+
+fn count(
+    scene: &Scene,
+    tree: &Tree,
+    render: &RenderSettings,
+    progress: &Progress,
+) -> Result<Terms, MeasureError> {
+    let mut terms = Terms::default();
+    each_ray(scene, tree, render, progress, |ray, watcher| {
+        terms.nodes += watcher.nodes;
+        for &(object, hit) in &watcher.tests {
+            let kind = scene.objects()[object as usize].kind() as usize;
+            terms.tests[kind] += 1;
+            terms.hits[kind] += u64::from(hit.is_some());
+        }
+        if let Some(object) = watcher.answer {
+            let kind = scene.objects()[object as usize].kind() as usize;
+            if ray.kind == RayKind::Shadow {
+                terms.blocked[kind] += 1;
+            } else {
+                terms.nearest[kind] += 1;
+            }
+        }
+    })?;
+    Ok(terms)
+}
+
+/// A ray with its kind.
+pub(super) struct Traced<'a> {
+    pub kind: RayKind,
+    pub ray: &'a crate::geometry::Ray,
+}
+
+/// What one ray did.
+#[derive(Default)]
+pub(super) struct Watcher {
+    pub nodes: u64,
+    /// Objects tested in order, with where the test hit.
+    pub tests: Vec<(u32, Option<f64>)>,
+    /// The object that the ray hits, or that blocks it.
+    pub answer: Option<u32>,
+}
+
+impl Probe for Watcher {
+    fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Way) {
+        self.nodes += 1;
+    }
+
+    fn leaf(&mut self, _: u32, _: &[u32], _: [f64; 2]) {
+        self.nodes += 1;
+    }
+
+    fn test(&mut self, object: u32, hit: Option<f64>) {
+        self.tests.push((object, hit));
+    }
+}
+
+/// Traces a picture on this thread and tells of every ray.
+pub(super) fn each_ray(
+    scene: &Scene,
+    tree: &Tree,
+    render: &RenderSettings,
+    progress: &Progress,
+    tell: impl FnMut(&Traced<'_>, &Watcher),
+) -> Result<(), RenderError> {
+    let shading = Shading::new(scene, render)?;
+    let mut tracer = Telling {
+        tree,
+        shapes: shading.shapes,
+        scratch: Scratch::default(),
+        watcher: Watcher::default(),
+        tell,
+    };
+    let mut colors = Vec::new();
+    for tile in tiles(render.width, render.height) {
+        progress.check()?;
+        let pixels: Vec<_> = (0..tile.len() as u32).map(|i| tile.pixel(i)).collect();
+        trace_samples(&shading, &pixels, 0, &mut tracer, &mut colors);
+    }
+    Ok(())
+}
+
+/// The kernel that tells of every ray.
+struct Telling<'a, F> {
+    tree: &'a Tree,
+    shapes: &'a Shapes,
+    scratch: Scratch,
+    watcher: Watcher,
+    tell: F,
+}
+
+impl<F: FnMut(&Traced<'_>, &Watcher)> Telling<'_, F> {
+    fn clear(&mut self) {
+        self.watcher.nodes = 0;
+        self.watcher.tests.clear();
+        self.watcher.answer = None;
+    }
+}
+
+impl<F: FnMut(&Traced<'_>, &Watcher)> RayTracer for Telling<'_, F> {
+    fn closest_hits(&mut self, batch: Batch<'_>, hits: &mut Vec<Hit>) {
+        hits.clear();
+        for ray in batch.rays {
+            self.clear();
+            let (scratch, watcher) = (&mut self.scratch, &mut self.watcher);
+            let hit = closest_hit(self.tree, self.shapes, ray, scratch, watcher);
+            watcher.answer = hit.is_hit().then_some(hit.object);
+            (self.tell)(
+                &Traced {
+                    kind: batch.kind,
+                    ray,
+                },
+                watcher,
+            );
+            hits.push(hit);
+        }
+    }
+
+    fn any_hits(&mut self, batch: Batch<'_>, blocked: &mut Vec<bool>) {
+        blocked.clear();
+        for ray in batch.rays {
+            self.clear();
+            let (scratch, watcher) = (&mut self.scratch, &mut self.watcher);
+            let hit = any_hit(self.tree, self.shapes, ray, scratch, watcher);
+            watcher.answer = watcher.tests.last().filter(|_| hit).map(|test| test.0);
+            (self.tell)(
+                &Traced {
+                    kind: batch.kind,
+                    ray,
+                },
+                watcher,
+            );
+            blocked.push(hit);
+        }
+    }
+}

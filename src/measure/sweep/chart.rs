@@ -1,0 +1,258 @@
+//! A parameter of a sweep over the greatest depth, a curve for every method and leaf size, as PNG or
+//! SVG. The font is part of the program.
+
+use super::{Row, rule_depth};
+use crate::measure::{Parameter, Unit, parameter};
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
+use std::io::Cursor;
+use std::ops::Range;
+
+/// What is drawn.
+#[derive(Clone, Copy)]
+pub struct Chart<'a> {
+    pub rows: &'a [Row],
+    pub parameter: &'static Parameter,
+    /// Width and height in pixels.
+    pub size: (u32, u32),
+}
+
+/// Why there is no chart.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ChartError {
+    #[error("no row of the sweep has a value of {0}")]
+    Nothing(&'static str),
+    #[error("the chart could not be drawn: {0}")]
+    Drawing(String),
+}
+
+const FONT: &str = "sans-serif";
+
+/// Colours that colour-blind people can tell apart (M. Okabe and K. Ito, 2008), one a method.
+const COLORS: [RGBColor; 6] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+];
+
+/// Values that differ by more than this factor are drawn by their logarithm.
+const WIDE: f64 = 20.0;
+
+/// One line of a chart.
+struct Curve {
+    name: String,
+    color: RGBColor,
+    /// Tells the curves of one method apart, from 0.
+    mark: usize,
+    points: Vec<(f64, f64)>,
+}
+
+/// The chart as a PNG file's bytes.
+///
+/// # Errors
+/// Nothing to draw, or what the drawing library says.
+pub fn png(chart: &Chart<'_>) -> Result<Vec<u8>, ChartError> {
+    let (width, height) = chart.size;
+    let mut pixels = vec![0; width as usize * height as usize * 3];
+    {
+        let backend = BitMapBackend::with_buffer(&mut pixels, chart.size);
+        draw(chart, &backend.into_drawing_area())?;
+    }
+    let image = image::RgbImage::from_raw(width, height, pixels)
+        .ok_or_else(|| ChartError::Drawing("the picture has another size".into()))?;
+    let mut bytes = Cursor::new(Vec::new());
+    image
+        .write_to(&mut bytes, image::ImageFormat::Png)
+        .map_err(drawing)?;
+    Ok(bytes.into_inner())
+}
+
+/// The chart as an SVG file's text.
+///
+/// # Errors
+/// As [`png`].
+pub fn svg(chart: &Chart<'_>) -> Result<String, ChartError> {
+    let mut text = String::new();
+    draw(
+        chart,
+        &SVGBackend::with_string(&mut text, chart.size).into_drawing_area(),
+    )?;
+    Ok(text)
+}
+
+fn drawing(error: impl std::fmt::Display) -> ChartError {
+    ChartError::Drawing(error.to_string())
+}
+
+fn draw<B: DrawingBackend>(
+    chart: &Chart<'_>,
+    area: &DrawingArea<B, Shift>,
+) -> Result<(), ChartError> {
+    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
+        .map_err(|_| ChartError::Drawing("the font of the program is not one".into()))?;
+    let curves = curves(chart);
+    let points = || curves.iter().flat_map(|curve| &curve.points);
+    let range = |axis: fn(&(f64, f64)) -> f64| {
+        let values = || points().map(axis);
+        values().fold(f64::INFINITY, f64::min)..values().fold(f64::NEG_INFINITY, f64::max)
+    };
+    let (depths, values) = (range(|p| p.0), range(|p| p.1));
+    if depths.is_empty() && depths.start != depths.end {
+        return Err(ChartError::Nothing(chart.parameter.symbol));
+    }
+    area.fill(&WHITE).map_err(drawing)?;
+    let depths = depths.start - 0.5..depths.end + 0.5;
+    if values.start > 0.0 && values.end > WIDE * values.start {
+        let wider = values.start / 1.2..values.end * 1.2;
+        draw_on(chart, area, &curves, depths, wider.log_scale())
+    } else {
+        let room = 0.05 * (values.end - values.start).max(1e-3 * values.end.abs().max(1e-9));
+        let wider = values.start - room..values.end + room;
+        draw_on(chart, area, &curves, depths, wider)
+    }
+}
+
+/// Draws everything on an axis of values, by the logarithm or not.
+fn draw_on<B: DrawingBackend, V>(
+    chart: &Chart<'_>,
+    area: &DrawingArea<B, Shift>,
+    curves: &[Curve],
+    depths: Range<f64>,
+    values: V,
+) -> Result<(), ChartError>
+where
+    V: AsRangedCoord<Value = f64>,
+    V::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
+{
+    let p = chart.parameter;
+    let scene = chart.rows.first().map_or("", |row| &row.key.scene);
+    let mut context = ChartBuilder::on(area)
+        .caption(format!("{scene}: {} ({})", p.symbol, p.name), (FONT, 22))
+        .margin(14)
+        .x_label_area_size(44)
+        .y_label_area_size(76)
+        .build_cartesian_2d(depths.clone(), values)
+        .map_err(drawing)?;
+    context
+        .configure_mesh()
+        .x_desc("D_MAX, greatest depth")
+        .y_desc(format!("{}{}", p.symbol, p.unit.suffix()))
+        .x_label_formatter(&|depth| format!("{depth:.0}"))
+        .label_style((FONT, 15))
+        .axis_desc_style((FONT, 16))
+        .light_line_style(WHITE)
+        .draw()
+        .map_err(drawing)?;
+    for curve in curves {
+        add_curve(&mut context, curve)?;
+    }
+    let rule = chart.rows.first().and_then(rule_depth).map(f64::from);
+    if let Some(depth) = rule.filter(|depth| depths.contains(depth)) {
+        let ends = context.y_range();
+        let style = BLACK.mix(0.6).stroke_width(1);
+        context
+            .draw_series(LineSeries::new(
+                [(depth, ends.start), (depth, ends.end)],
+                style,
+            ))
+            .map_err(drawing)?
+            .label(format!("1.2 · log2 N + 2 = {depth}"))
+            .legend(move |(x, y)| PathElement::new([(x + 9, y - 6), (x + 9, y + 6)], style));
+    }
+    context
+        .configure_series_labels()
+        .background_style(WHITE.mix(0.85))
+        .border_style(BLACK.mix(0.3))
+        .label_font((FONT, 15))
+        .position(SeriesLabelPosition::UpperRight)
+        .draw()
+        .map_err(drawing)?;
+    area.present().map_err(drawing)
+}
+
+type Context<'a, B, Y> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, Y>>;
+
+/// A line with a mark at every point, and the same in the legend.
+fn add_curve<'a, B: DrawingBackend + 'a, Y: Ranged<ValueType = f64>>(
+    context: &mut Context<'a, B, Y>,
+    curve: &Curve,
+) -> Result<(), ChartError> {
+    let (color, mark) = (curve.color, curve.mark);
+    context
+        .draw_series(LineSeries::new(
+            curve.points.iter().copied(),
+            color.stroke_width(2),
+        ))
+        .map_err(drawing)?
+        .label(curve.name.clone())
+        .legend(move |(x, y)| {
+            EmptyElement::at((x, y))
+                + PathElement::new([(0, 0), (18, 0)], color.stroke_width(2))
+                + PathElement::new(outline(mark, 9), color.stroke_width(1))
+        });
+    context
+        .draw_series(curve.points.iter().map(|&at| {
+            EmptyElement::at(at) + PathElement::new(outline(mark, 0), color.stroke_width(1))
+        }))
+        .map_err(drawing)?;
+    Ok(())
+}
+
+/// The outline of a mark, in pixels from its middle, moved to the right: a square, a triangle, a
+/// diamond, a cross and so on.
+fn outline(mark: usize, right: i32) -> Vec<(i32, i32)> {
+    let shape: &[(i32, i32)] = match mark % 5 {
+        0 => &[(-3, -3), (3, -3), (3, 3), (-3, 3), (-3, -3)],
+        1 => &[(0, -4), (4, 3), (-4, 3), (0, -4)],
+        2 => &[(0, -4), (4, 0), (0, 4), (-4, 0), (0, -4)],
+        3 => &[(-3, -3), (3, 3), (0, 0), (-3, 3), (3, -3)],
+        _ => &[(0, 4), (4, -3), (-4, -3), (0, 4)],
+    };
+    shape.iter().map(|&(x, y)| (x + right, y)).collect()
+}
+
+/// A curve for every method and leaf size, in the order of rows; points by depth. Shares are drawn
+/// in per cent.
+fn curves(chart: &Chart<'_>) -> Vec<Curve> {
+    let factor = if chart.parameter.unit == Unit::Percent {
+        100.0
+    } else {
+        1.0
+    };
+    let depth = parameter("D_MAX");
+    let mut methods: Vec<&str> = Vec::new();
+    let mut curves: Vec<Curve> = Vec::new();
+    for row in chart.rows {
+        let (Some(depth), Some(value)) = (row.value(depth), row.value(chart.parameter)) else {
+            continue;
+        };
+        let method = row.key.method.as_str();
+        let place = methods.iter().position(|known| *known == method);
+        let place = place.unwrap_or_else(|| {
+            methods.push(method);
+            methods.len() - 1
+        });
+        let color = COLORS[place % COLORS.len()];
+        let name = format!("{method}, N_OILF {}", row.key.n_oilf);
+        let point = (depth, value * factor);
+        match curves.iter_mut().find(|curve| curve.name == name) {
+            Some(curve) => curve.points.push(point),
+            None => curves.push(Curve {
+                name,
+                color,
+                mark: curves.iter().filter(|curve| curve.color == color).count(),
+                points: vec![point],
+            }),
+        }
+    }
+    for curve in &mut curves {
+        curve.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+    curves
+}

@@ -1,0 +1,322 @@
+//! Rows of a sweep as lines of text: CSV or JSON lines, one line a point, in the order of points.
+
+use crate::measure::{Class, PARAMETERS, Unit};
+use serde_json::{Map, Value, json};
+use std::path::Path;
+
+/// What identifies a point beside its number. Times depend on the machine, keys do not.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Key {
+    /// The file or the generator, and how cylinders were taken.
+    pub scene: String,
+    pub method: String,
+    /// As it was asked for: a number or `auto`.
+    pub d_max: String,
+    pub n_oilf: u32,
+    /// The tree's other settings, `name=value` each.
+    pub settings: String,
+    /// What the picture was traced with.
+    pub picture: String,
+}
+
+/// A measured point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Its number in the whole sweep, from 0.
+    pub point: usize,
+    /// How many points the whole sweep has.
+    pub points: usize,
+    pub key: Key,
+    /// The values of all [`PARAMETERS`] in their order: fractions for shares, seconds for times.
+    pub values: Vec<Option<f64>>,
+}
+
+/// How rows are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    Csv,
+    JsonLines,
+}
+
+/// Why text does not hold the rows of a sweep.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RowError {
+    #[error("line 1: not the titles of a sweep by this version of the program")]
+    Titles,
+    #[error("line {line}: not a row of a sweep: {why}")]
+    Line { line: usize, why: String },
+    #[error(
+        "row {row} belongs to another sweep (other scene, settings, picture or order of points); \
+         choose another file, or the same sweep"
+    )]
+    Foreign { row: usize },
+}
+
+/// Why rows do not make one sweep.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MergeError {
+    #[error("there are no rows")]
+    Empty,
+    #[error("point {0} is of another sweep than the first row")]
+    Foreign(usize),
+    #[error("point {0} is there twice with different counts")]
+    Unequal(usize),
+}
+
+const TITLES: [&str; 8] = [
+    "point", "points", "scene", "method", "d_max", "n_oilf", "settings", "picture",
+];
+
+impl Form {
+    /// The form for a file, by its extension: `.csv`, or JSON lines for `.jsonl` and `.ndjson`.
+    pub fn for_path(path: &Path) -> Option<Form> {
+        match path.extension()?.to_ascii_lowercase().to_str()? {
+            "csv" => Some(Form::Csv),
+            "jsonl" | "ndjson" => Some(Form::JsonLines),
+            _ => None,
+        }
+    }
+}
+
+fn titles() -> impl Iterator<Item = &'static str> {
+    let symbols = PARAMETERS.iter().map(|p| p.symbol);
+    TITLES.into_iter().chain(symbols)
+}
+
+/// The line before the first row, with its end; empty for JSON lines.
+pub fn header(form: Form) -> String {
+    match form {
+        Form::Csv => csv_line(titles().map(String::from)),
+        Form::JsonLines => String::new(),
+    }
+}
+
+/// A row as a line, with its end.
+pub fn line(row: &Row, form: Form) -> String {
+    let cells = cells(row);
+    match form {
+        Form::Csv => csv_line(cells.map(|value| match value {
+            Value::Null => String::new(),
+            Value::String(text) => text,
+            number => number.to_string(),
+        })),
+        Form::JsonLines => {
+            let object: Map<_, _> = titles().map(String::from).zip(cells).collect();
+            format!("{}\n", Value::Object(object))
+        }
+    }
+}
+
+fn cells(row: &Row) -> impl Iterator<Item = Value> {
+    let key = &row.key;
+    let first = [
+        json!(row.point),
+        json!(row.points),
+        json!(key.scene),
+        json!(key.method),
+        json!(key.d_max),
+        json!(key.n_oilf),
+        json!(key.settings),
+        json!(key.picture),
+    ];
+    let values = PARAMETERS
+        .iter()
+        .zip(&row.values)
+        .map(|(p, value)| match (*value, p.unit) {
+            (None, _) => Value::Null,
+            (Some(value), Unit::Count | Unit::Bytes) => json!(value as u64),
+            (Some(value), _) => json!(value),
+        });
+    first.into_iter().chain(values)
+}
+
+fn csv_line(cells: impl Iterator<Item = String>) -> String {
+    let mut writer = csv::WriterBuilder::new()
+        .terminator(csv::Terminator::Any(b'\n'))
+        .from_writer(Vec::new());
+    let cells: Vec<String> = cells.collect();
+    writer
+        .write_record(&cells)
+        .expect("writing to memory does not fail");
+    let bytes = writer
+        .into_inner()
+        .expect("writing to memory does not fail");
+    String::from_utf8(bytes).expect("what was written is UTF-8")
+}
+
+/// The rows of a file's text, and the length in bytes of what is complete of it: the last line is
+/// left out if it has no end, because its writer was stopped in the midst of it. Text without a
+/// complete line has no rows.
+///
+/// # Errors
+/// The first line that is not one of a sweep.
+pub fn read_rows(text: &str, form: Form) -> Result<(Vec<Row>, usize), RowError> {
+    let complete = text.rfind('\n').map_or(0, |end| end + 1);
+    let text = &text[..complete];
+    let rows = match form {
+        Form::Csv => read_csv(text),
+        Form::JsonLines => read_json_lines(text),
+    }?;
+    Ok((rows, complete))
+}
+
+fn read_csv(text: &str) -> Result<Vec<Row>, RowError> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .from_reader(text.as_bytes());
+    let mut rows = Vec::new();
+    for (i, record) in reader.records().enumerate() {
+        let wrong = |why: String| RowError::Line { line: i + 1, why };
+        let record = record.map_err(|error| wrong(error.to_string()))?;
+        if i == 0 {
+            if !record.iter().eq(titles()) {
+                return Err(RowError::Titles);
+            }
+            continue;
+        }
+        let cell = |place: usize| record.get(place).map(str::to_owned);
+        let number = |place: usize| match record.get(place) {
+            Some("") => Some(None),
+            Some(text) => text.parse().ok().map(Some),
+            None => None,
+        };
+        rows.push(row(cell, number).ok_or_else(|| wrong("a cell is missing or wrong".into()))?);
+    }
+    Ok(rows)
+}
+
+fn read_json_lines(text: &str) -> Result<Vec<Row>, RowError> {
+    let titles: Vec<&str> = titles().collect();
+    let mut rows = Vec::new();
+    for (i, line) in text.lines().enumerate() {
+        let wrong = |why: String| RowError::Line { line: i + 1, why };
+        let object: Map<String, Value> =
+            serde_json::from_str(line).map_err(|error| wrong(error.to_string()))?;
+        let cell = |place: usize| match object.get(titles[place])? {
+            Value::String(text) => Some(text.clone()),
+            other => Some(other.to_string()),
+        };
+        let number = |place: usize| match object.get(titles[place])? {
+            Value::Null => Some(None),
+            value => value.as_f64().map(Some),
+        };
+        rows.push(row(cell, number).ok_or_else(|| wrong("a cell is missing or wrong".into()))?);
+    }
+    Ok(rows)
+}
+
+/// A row from its cells by place; `None` if one is missing or wrong.
+fn row(
+    cell: impl Fn(usize) -> Option<String>,
+    number: impl Fn(usize) -> Option<Option<f64>>,
+) -> Option<Row> {
+    Some(Row {
+        point: cell(0)?.parse().ok()?,
+        points: cell(1)?.parse().ok()?,
+        key: Key {
+            scene: cell(2)?,
+            method: cell(3)?,
+            d_max: cell(4)?,
+            n_oilf: cell(5)?.parse().ok()?,
+            settings: cell(6)?,
+            picture: cell(7)?,
+        },
+        values: (0..PARAMETERS.len())
+            .map(|place| number(TITLES.len() + place))
+            .collect::<Option<_>>()?,
+    })
+}
+
+/// The rows of a sweep's parts as one, in the order of points, and the points that are missing. Of
+/// a point that is there twice the first is kept, with its times; its counts must be equal.
+///
+/// # Errors
+/// No rows, rows of different sweeps, or a point with different counts.
+pub fn merge(mut rows: Vec<Row>) -> Result<(Vec<Row>, Vec<usize>), MergeError> {
+    let first = rows.first().ok_or(MergeError::Empty)?;
+    let of_sweep = |row: &Row| (row.points, row.key.scene.clone(), row.key.picture.clone());
+    let sweep = of_sweep(first);
+    let foreign = rows
+        .iter()
+        .find(|row| of_sweep(row) != sweep || row.point >= sweep.0);
+    if let Some(row) = foreign {
+        return Err(MergeError::Foreign(row.point));
+    }
+    rows.sort_by_key(|row| row.point);
+    for pair in rows.windows(2) {
+        if pair[0].point == pair[1].point && !same_but_times(&pair[0], &pair[1]) {
+            return Err(MergeError::Unequal(pair[0].point));
+        }
+    }
+    rows.dedup_by_key(|row| row.point);
+    let is_missing = |point: &usize| rows.binary_search_by_key(point, |row| row.point).is_err();
+    let missing = (0..sweep.0).filter(is_missing).collect();
+    Ok((rows, missing))
+}
+
+/// Whether two rows are of one point and agree in all that no machine changes.
+fn same_but_times(a: &Row, b: &Row) -> bool {
+    a.key == b.key
+        && PARAMETERS
+            .iter()
+            .zip(a.values.iter().zip(&b.values))
+            .filter(|(p, _)| p.class != Class::T)
+            .all(|(_, (a, b))| a == b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(point: usize, first: f64) -> Row {
+        let mut values = vec![None; PARAMETERS.len()];
+        values[0] = Some(first);
+        let time = PARAMETERS.iter().position(|p| p.unit == Unit::Seconds);
+        values[time.unwrap()] = Some(0.1 + 0.2);
+        Row {
+            point,
+            points: 3,
+            key: Key {
+                scene: "a, \"b\"".into(),
+                method: "midpoint".into(),
+                d_max: "auto".into(),
+                n_oilf: 2,
+                settings: "overlap=paper".into(),
+                picture: "8x8".into(),
+            },
+            values,
+        }
+    }
+
+    #[test]
+    fn rows_come_back_from_both_forms_and_torn_lines_are_left_out() {
+        let rows = [row(0, 1.0), row(1, 2.0)];
+        for form in [Form::Csv, Form::JsonLines] {
+            let mut text = header(form);
+            for row in &rows {
+                text += &line(row, form);
+            }
+            let whole = text.len();
+            assert_eq!(read_rows(&text, form), Ok((rows.to_vec(), whole)));
+            text += &line(&rows[0], form)[..20];
+            assert_eq!(read_rows(&text, form), Ok((rows.to_vec(), whole)));
+            assert_eq!(read_rows(&text[..5], form), Ok((vec![], 0)));
+        }
+        assert_eq!(read_rows("a,b\n", Form::Csv), Err(RowError::Titles));
+        let no_row = read_rows("{}\n", Form::JsonLines);
+        assert!(matches!(no_row, Err(RowError::Line { line: 1, .. })));
+    }
+
+    #[test]
+    fn parts_become_one_sweep_or_it_is_said_why_not() {
+        let [a, b, c] = [row(0, 1.0), row(1, 2.0), row(2, 3.0)];
+        let merged = merge(vec![c.clone(), a.clone(), c.clone()]).unwrap();
+        assert_eq!(merged, (vec![a.clone(), c], vec![1]));
+        assert_eq!(merge(vec![]), Err(MergeError::Empty));
+        let other = row(1, 5.0);
+        assert_eq!(merge(vec![b.clone(), other]), Err(MergeError::Unequal(1)));
+        let mut foreign = b;
+        foreign.key.picture = "9x9".into();
+        assert_eq!(merge(vec![a, foreign]), Err(MergeError::Foreign(1)));
+    }
+}

@@ -1,0 +1,36 @@
+//! By what number the error of an outcome can be told. A measure is one entry of [`ERROR_MEASURES`].
+
+use super::Outcome;
+
+/// One number for the error, 0 for none; the less the better.
+pub struct ErrorMeasure {
+    pub name: &'static str,
+    /// What it is and its range, in a sentence.
+    pub about: &'static str,
+    pub value: fn(&Outcome) -> f64,
+}
+
+/// All measures; the first is the default. PSNR is not among them: it orders as RMSE does.
+pub static ERROR_MEASURES: &[ErrorMeasure] = &[
+    ErrorMeasure {
+        name: "RMSE",
+        about: "Square root of the mean squared difference over all pixels and colours, on linear \
+                light, 0 to 1.",
+        value: |outcome| outcome.error.rmse,
+    },
+    ErrorMeasure {
+        name: "max",
+        about: "Largest difference of any pixel and colour, on linear light, 0 to 1.",
+        value: |outcome| outcome.error.max,
+    },
+    ErrorMeasure {
+        name: "1 − SSIM",
+        about: "One less the mean structural similarity of the luminance (Wang et al. 2004), 0 to 2.",
+        value: |outcome| 1.0 - outcome.error.ssim,
+    },
+    ErrorMeasure {
+        name: "wrong hits",
+        about: "Share of the pixels whose primary ray meets another object than it should, 0 to 1.",
+        value: |outcome| outcome.wrong_hits,
+    },
+];

@@ -1,0 +1,334 @@
+//! Batches of rays in the lanes of vectors, each lane its own ray: the kernel for speed.
+//!
+//! It walks the same tree as the plain kernel, any method's, in a form made once a tree, and gives the
+//! same hits, ray for ray and bit for bit. For that, nothing of it needs to be exact but the tests
+//! themselves, which are the plain kernel's. All before them only decides what is certain, in `f32` and with room
+//! for what that rounds, in either precision: planes are as thick as rounding may move rays and
+//! objects ([`prepare`]), and blocks of 16 objects are held against a ray at once ([`block`]). What is
+//! left, one or two objects a ray, is tested one by one.
+//!
+//! Rays of one call keep each other company: fewer than about 500 leave lanes idle.
+
+mod block;
+mod exact;
+mod prepare;
+mod ray;
+mod simd;
+mod tracer;
+mod walk;
+
+use super::{Hit, Scratch, any_hit, closest_hit};
+use crate::geometry::Ray;
+use crate::primitive::{PrimitiveKind, Shapes, UnitFrame, with_array};
+use crate::scene::Scene;
+use crate::tree::Tree;
+use block::{Block, Boxes, Spheres, Triangles};
+use exact::{Any, Closest, InArray, InBlocks, Narrow, Numbers, Objects, Wide};
+use prepare::Prepared;
+use ray::{CHUNK, LaneRays, Root};
+use simd::Waiting;
+pub use tracer::{KernelChoice, TimedKernel};
+use walk::{Tests, walk};
+
+/// What the kernel is compiled for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InstructionSet {
+    /// Sixteen lanes.
+    Avx512,
+    /// Eight lanes.
+    Avx2,
+    /// Eight lanes in plain Rust.
+    Portable,
+}
+
+impl InstructionSet {
+    pub const ALL: [InstructionSet; 3] = [
+        InstructionSet::Avx512,
+        InstructionSet::Avx2,
+        InstructionSet::Portable,
+    ];
+
+    /// As reports have it.
+    pub const fn name(self) -> &'static str {
+        ["AVX-512", "AVX2", "portable"][self as usize]
+    }
+
+    /// Whether this processor has it.
+    pub fn is_here(self) -> bool {
+        match self {
+            InstructionSet::Portable => true,
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx512 => {
+                is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("avx512bw")
+                    && is_x86_feature_detected!("bmi1")
+                    && is_x86_feature_detected!("popcnt")
+                    && is_x86_feature_detected!("fma")
+            }
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2 => {
+                is_x86_feature_detected!("avx2")
+                    && is_x86_feature_detected!("bmi1")
+                    && is_x86_feature_detected!("popcnt")
+                    && is_x86_feature_detected!("fma")
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => false,
+        }
+    }
+
+    /// The widest that this processor has.
+    pub fn best() -> InstructionSet {
+        let here = InstructionSet::ALL.into_iter().find(|set| set.is_here());
+        here.unwrap_or(InstructionSet::Portable)
+    }
+}
+
+/// A tree made ready for lanes. It holds for one scene and either precision.
+pub struct LaneTree {
+    frame: UnitFrame,
+    prepared: AnyPrepared,
+}
+
+enum AnyPrepared {
+    Triangles(Prepared<Triangles>),
+    Spheres(Prepared<Spheres>),
+    Boxes(Prepared<Boxes>),
+}
+
+impl LaneTree {
+    /// The tree of this scene ready for lanes: made when first asked for, then kept with the tree.
+    pub fn of<'a>(scene: &Scene, tree: &'a Tree) -> &'a LaneTree {
+        tree.derived(|| LaneTree::new(scene, tree))
+    }
+
+    /// # Panics
+    /// If the tree has more nodes than the form for lanes can hold, 2²⁸: 2 GiB of them.
+    fn new(scene: &Scene, tree: &Tree) -> LaneTree {
+        let objects = scene.objects();
+        let frame = UnitFrame::around(&scene.bounds());
+        let all = |kind| !objects.is_empty() && objects.iter().all(|o| o.kind() == kind);
+        let prepared = if all(PrimitiveKind::Triangle) {
+            AnyPrepared::Triangles(Prepared::new(tree, objects, &frame))
+        } else if all(PrimitiveKind::Sphere) {
+            AnyPrepared::Spheres(Prepared::new(tree, objects, &frame))
+        } else {
+            AnyPrepared::Boxes(Prepared::new(tree, objects, &frame))
+        };
+        LaneTree { frame, prepared }
+    }
+}
+
+/// Runs `$body` with `$prepared` bound to the tree there is, compiled once for every kind of block.
+macro_rules! with_prepared {
+    ($tree:expr, $prepared:ident => $body:expr) => {
+        match &$tree.prepared {
+            AnyPrepared::Triangles($prepared) => $body,
+            AnyPrepared::Spheres($prepared) => $body,
+            AnyPrepared::Boxes($prepared) => $body,
+        }
+    };
+}
+
+/// Answers batches of rays; one a thread.
+pub struct LaneKernel<'a> {
+    tree: &'a Tree,
+    lanes: &'a LaneTree,
+    shapes: &'a Shapes,
+    instructions: InstructionSet,
+    rays: Box<LaneRays>,
+    stack: Vec<Waiting>,
+    scratch: Scratch,
+}
+
+impl<'a> LaneKernel<'a> {
+    /// A kernel for this instruction set; `lanes` is of this tree and `shapes` of its scene.
+    ///
+    /// # Panics
+    /// If the processor does not have the instructions.
+    pub fn new(
+        tree: &'a Tree,
+        lanes: &'a LaneTree,
+        shapes: &'a Shapes,
+        instructions: InstructionSet,
+    ) -> Self {
+        assert!(instructions.is_here(), "no {} here", instructions.name());
+        LaneKernel {
+            tree,
+            lanes,
+            shapes,
+            instructions,
+            rays: LaneRays::new(),
+            stack: Vec::new(),
+            scratch: Scratch::default(),
+        }
+    }
+
+    /// The nearest hit of every ray; of equal distances the lower object number. `hits` has a place
+    /// for every ray, which is overwritten.
+    ///
+    /// # Panics
+    /// If it has not.
+    pub fn closest_hits(&mut self, rays: &[Ray], hits: &mut [Hit]) {
+        assert_eq!(rays.len(), hits.len());
+        hits.fill(Hit::MISS);
+        for (rays, hits) in rays.chunks(CHUNK).zip(hits.chunks_mut(CHUNK)) {
+            match (&self.lanes.prepared, self.shapes) {
+                (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
+                    self.closest_of::<Narrow, _>(InBlocks(&p.blocks), rays, hits);
+                }
+                (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
+                    self.closest_of::<Narrow, _>(InBlocks(&p.blocks), rays, hits);
+                }
+                (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
+                    self.closest_of::<Narrow, _>(InArray(objects), rays, hits);
+                }),
+                (_, Shapes::F64(arrays)) => with_array!(arrays, objects => {
+                    self.closest_of::<Wide, _>(InArray(objects), rays, hits);
+                }),
+            }
+        }
+    }
+
+    /// Whether anything lies on every ray before its end. `blocked` likewise.
+    ///
+    /// # Panics
+    /// Likewise.
+    pub fn any_hits(&mut self, rays: &[Ray], blocked: &mut [bool]) {
+        assert_eq!(rays.len(), blocked.len());
+        blocked.fill(false);
+        for (rays, blocked) in rays.chunks(CHUNK).zip(blocked.chunks_mut(CHUNK)) {
+            match (&self.lanes.prepared, self.shapes) {
+                (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
+                    self.any_of::<Narrow, _>(InBlocks(&p.blocks), rays, blocked);
+                }
+                (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
+                    self.any_of::<Narrow, _>(InBlocks(&p.blocks), rays, blocked);
+                }
+                (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
+                    self.any_of::<Narrow, _>(InArray(objects), rays, blocked);
+                }),
+                (_, Shapes::F64(arrays)) => with_array!(arrays, objects => {
+                    self.any_of::<Wide, _>(InArray(objects), rays, blocked);
+                }),
+            }
+        }
+    }
+
+    fn closest_of<N: Numbers, O: Objects>(&mut self, objects: O, rays: &[Ray], hits: &mut [Hit]) {
+        self.fill::<N>(rays);
+        for &i in &self.rays.others {
+            let (i, scratch) = (i as usize, &mut self.scratch);
+            hits[i] = closest_hit(self.tree, self.shapes, &rays[i], scratch, &mut ());
+        }
+        for &i in &self.rays.order {
+            hits[i as usize].t = N::tested(&self.rays, i as usize, rays).t_max;
+        }
+        self.walk(&mut Closest::<N, O>::new(objects, rays, hits));
+        for &i in &self.rays.order {
+            let hit = &mut hits[i as usize];
+            *hit = if hit.is_hit() {
+                let t = N::to_world(&self.rays, i as usize, hit.t);
+                Hit { t, ..*hit }
+            } else {
+                Hit::MISS
+            };
+        }
+    }
+
+    fn any_of<N: Numbers, O: Objects>(&mut self, objects: O, rays: &[Ray], blocked: &mut [bool]) {
+        self.fill::<N>(rays);
+        for &i in &self.rays.others {
+            let (i, scratch) = (i as usize, &mut self.scratch);
+            blocked[i] = any_hit(self.tree, self.shapes, &rays[i], scratch, &mut ());
+        }
+        self.walk(&mut Any::<N, O>::new(objects, rays, blocked));
+    }
+
+    fn fill<N: Numbers>(&mut self, rays: &[Ray]) {
+        let (thick, corners) = with_prepared!(self.lanes, tree => (tree.thick, &tree.corners));
+        let root = Root {
+            frame: &self.lanes.frame,
+            thick,
+            corners,
+            forward_only: N::FORWARD_ONLY,
+        };
+        // SAFETY: a kernel is only made for instructions that the processor has.
+        unsafe {
+            match self.instructions {
+                #[cfg(target_arch = "x86_64")]
+                InstructionSet::Avx512 => fill_avx512(&mut self.rays, root, rays),
+                #[cfg(target_arch = "x86_64")]
+                InstructionSet::Avx2 => fill_avx2(&mut self.rays, root, rays),
+                _ => self.rays.fill(root, rays),
+            }
+        }
+    }
+
+    fn walk(&mut self, tests: &mut dyn Tests) {
+        let (rays, stack) = (&*self.rays, &mut self.stack);
+        with_prepared!(self.lanes, tree => {
+            // SAFETY: a kernel is only made for instructions that the processor has.
+            unsafe {
+                match self.instructions {
+                    #[cfg(target_arch = "x86_64")]
+                    InstructionSet::Avx512 => walk_avx512(tree, rays, stack, tests),
+                    #[cfg(target_arch = "x86_64")]
+                    InstructionSet::Avx2 => walk_avx2(tree, rays, stack, tests),
+                    _ => walk::<simd::portable::Portable, _, 2>(tree, rays, stack, tests),
+                }
+            }
+        });
+    }
+}
+
+impl LaneTree {
+    /// Bytes that nodes and blocks take.
+    pub fn bytes(&self) -> usize {
+        with_prepared!(self, prepared => prepared.bytes())
+    }
+}
+
+/// The kernel compiled for an instruction set, all of it in functions of that set.
+#[cfg(target_arch = "x86_64")]
+macro_rules! compiled {
+    ($features:literal, $fill:ident, $walk:ident, $simd:ty, $groups:literal) => {
+        /// # Safety
+        /// The processor has these instructions.
+        #[target_feature(enable = $features)]
+        unsafe fn $fill(lane_rays: &mut LaneRays, root: Root<'_>, rays: &[Ray]) {
+            lane_rays.fill(root, rays);
+        }
+
+        /// # Safety
+        /// The processor has these instructions.
+        #[target_feature(enable = $features)]
+        unsafe fn $walk<B: Block>(
+            tree: &Prepared<B>,
+            rays: &LaneRays,
+            stack: &mut Vec<Waiting>,
+            tests: &mut dyn Tests,
+        ) {
+            // SAFETY: the caller's.
+            unsafe { walk::<$simd, B, $groups>(tree, rays, stack, tests) }
+        }
+    };
+}
+#[cfg(target_arch = "x86_64")]
+compiled!(
+    "avx512f,avx512dq,avx512vl,avx512bw,fma,bmi1,popcnt",
+    fill_avx512,
+    walk_avx512,
+    simd::avx512::Avx512,
+    3
+);
+#[cfg(target_arch = "x86_64")]
+compiled!(
+    "avx2,fma,bmi1,popcnt",
+    fill_avx2,
+    walk_avx2,
+    simd::avx2::Avx2,
+    6
+);

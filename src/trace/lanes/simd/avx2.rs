@@ -1,0 +1,242 @@
+//! Eight lanes of AVX2 with fused multiplication and addition.
+#![allow(unsafe_op_in_unsafe_fn)] // the trait's contract covers every line
+
+use super::super::prepare::Node;
+use super::{Simd, Waiting};
+use std::arch::x86_64::*;
+
+#[derive(Clone, Copy)]
+pub(in super::super) struct Avx2;
+
+#[repr(align(32))]
+struct Eight<T>([T; 8]);
+
+/// Both words of eight pairs, from one place a lane.
+#[inline(always)]
+unsafe fn gather(from: *const i64, at: __m256i) -> (__m256i, __m256i) {
+    let mut places = Eight([0_u32; 8]);
+    _mm256_store_si256(places.0.as_mut_ptr().cast(), at);
+    let at = places.0.as_ptr();
+    // Lanes 0, 1, 4, 5 and 2, 3, 6, 7, so that picking every other word puts them in order.
+    let first = _mm256_insertf128_ps::<1>(
+        _mm256_castps128_ps256(two(from, at.add(0))),
+        two(from, at.add(4)),
+    );
+    let second = _mm256_insertf128_ps::<1>(
+        _mm256_castps128_ps256(two(from, at.add(2))),
+        two(from, at.add(6)),
+    );
+    (
+        _mm256_castps_si256(_mm256_shuffle_ps::<0b10_00_10_00>(first, second)),
+        _mm256_castps_si256(_mm256_shuffle_ps::<0b11_01_11_01>(first, second)),
+    )
+}
+
+#[inline(always)]
+unsafe fn two(from: *const i64, at: *const u32) -> __m128 {
+    let low = _mm_load_sd(from.add(*at as usize).cast());
+    _mm_castpd_ps(_mm_loadh_pd(low, from.add(*at.add(1) as usize).cast()))
+}
+
+/// Writes the entries of two lanes, four apart.
+#[inline(always)]
+unsafe fn write_two(to: *mut Waiting, at: *const u32, entries: __m256d) {
+    let entries = _mm256_castpd_ps(entries);
+    _mm_store_ps(to.add(*at as usize).cast(), _mm256_castps256_ps128(entries));
+    let second = _mm256_extractf128_ps::<1>(entries);
+    _mm_store_ps(to.add(*at.add(4) as usize).cast(), second);
+}
+
+/// Reads the entries of two lanes, four apart.
+#[inline(always)]
+unsafe fn read_two(from: *const Waiting, at: *const u32) -> __m256 {
+    let first = _mm_load_ps(from.add(*at as usize).cast());
+    let second = _mm_load_ps(from.add(*at.add(4) as usize).cast());
+    _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(first), second)
+}
+
+impl Simd for Avx2 {
+    const LANES: usize = 8;
+    type F = __m256;
+    type U = __m256i;
+    type M = __m256i;
+
+    #[inline(always)]
+    unsafe fn splat(x: f32) -> __m256 {
+        _mm256_set1_ps(x)
+    }
+    #[inline(always)]
+    unsafe fn load(from: *const f32) -> __m256 {
+        _mm256_loadu_ps(from)
+    }
+    #[inline(always)]
+    unsafe fn add(a: __m256, b: __m256) -> __m256 {
+        _mm256_add_ps(a, b)
+    }
+    #[inline(always)]
+    unsafe fn sub(a: __m256, b: __m256) -> __m256 {
+        _mm256_sub_ps(a, b)
+    }
+    #[inline(always)]
+    unsafe fn mul(a: __m256, b: __m256) -> __m256 {
+        _mm256_mul_ps(a, b)
+    }
+    #[inline(always)]
+    unsafe fn div(a: __m256, b: __m256) -> __m256 {
+        _mm256_div_ps(a, b)
+    }
+    #[inline(always)]
+    unsafe fn mul_add(a: __m256, b: __m256, c: __m256) -> __m256 {
+        _mm256_fmadd_ps(a, b, c)
+    }
+    #[inline(always)]
+    unsafe fn sub_mul(c: __m256, a: __m256, b: __m256) -> __m256 {
+        _mm256_fnmadd_ps(a, b, c)
+    }
+    #[inline(always)]
+    unsafe fn min(a: __m256, b: __m256) -> __m256 {
+        _mm256_min_ps(a, b)
+    }
+    #[inline(always)]
+    unsafe fn max(a: __m256, b: __m256) -> __m256 {
+        _mm256_max_ps(a, b)
+    }
+    #[inline(always)]
+    unsafe fn abs(a: __m256) -> __m256 {
+        _mm256_andnot_ps(_mm256_set1_ps(-0.0), a)
+    }
+    #[inline(always)]
+    unsafe fn lt(a: __m256, b: __m256) -> __m256i {
+        _mm256_castps_si256(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b))
+    }
+    #[inline(always)]
+    unsafe fn le(a: __m256, b: __m256) -> __m256i {
+        _mm256_castps_si256(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b))
+    }
+    #[inline(always)]
+    unsafe fn select(mask: __m256i, a: __m256, b: __m256) -> __m256 {
+        _mm256_blendv_ps(b, a, _mm256_castsi256_ps(mask))
+    }
+
+    #[inline(always)]
+    unsafe fn splat_u(x: u32) -> __m256i {
+        _mm256_set1_epi32(x as i32)
+    }
+    #[inline(always)]
+    unsafe fn load_u(from: *const u32) -> __m256i {
+        _mm256_loadu_si256(from.cast())
+    }
+    #[inline(always)]
+    unsafe fn store_u(to: *mut u32, x: __m256i) {
+        _mm256_storeu_si256(to.cast(), x);
+    }
+    #[inline(always)]
+    unsafe fn add_u(a: __m256i, b: __m256i) -> __m256i {
+        _mm256_add_epi32(a, b)
+    }
+    #[inline(always)]
+    unsafe fn sub_u(a: __m256i, b: __m256i) -> __m256i {
+        _mm256_sub_epi32(a, b)
+    }
+    #[inline(always)]
+    unsafe fn xor_u(a: __m256i, b: __m256i) -> __m256i {
+        _mm256_xor_si256(a, b)
+    }
+    #[inline(always)]
+    unsafe fn shr_u<const BITS: u32>(a: __m256i) -> __m256i {
+        _mm256_srl_epi32(a, _mm_cvtsi32_si128(BITS as i32))
+    }
+    #[inline(always)]
+    unsafe fn shl_by_u(a: __m256i, by: __m256i) -> __m256i {
+        _mm256_sllv_epi32(a, by)
+    }
+    #[inline(always)]
+    unsafe fn test_u(a: __m256i, b: __m256i) -> __m256i {
+        let none = _mm256_cmpeq_epi32(_mm256_and_si256(a, b), _mm256_setzero_si256());
+        _mm256_xor_si256(none, _mm256_set1_epi32(-1))
+    }
+    #[inline(always)]
+    unsafe fn eq_u(a: __m256i, b: __m256i) -> __m256i {
+        _mm256_cmpeq_epi32(a, b)
+    }
+    #[inline(always)]
+    unsafe fn select_u(mask: __m256i, a: __m256i, b: __m256i) -> __m256i {
+        _mm256_blendv_epi8(b, a, mask)
+    }
+    #[inline(always)]
+    unsafe fn bits_of(a: __m256) -> __m256i {
+        _mm256_castps_si256(a)
+    }
+    #[inline(always)]
+    unsafe fn from_bits(a: __m256i) -> __m256 {
+        _mm256_castsi256_ps(a)
+    }
+
+    #[inline(always)]
+    unsafe fn bits(mask: __m256i) -> u32 {
+        _mm256_movemask_ps(_mm256_castsi256_ps(mask)) as u32
+    }
+    #[inline(always)]
+    unsafe fn mask(bits: u32) -> __m256i {
+        let one_a_lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+        let bits = _mm256_and_si256(_mm256_set1_epi32(bits as i32), one_a_lane);
+        _mm256_cmpeq_epi32(bits, one_a_lane)
+    }
+    #[inline(always)]
+    unsafe fn and(a: __m256i, b: __m256i) -> __m256i {
+        _mm256_and_si256(a, b)
+    }
+    #[inline(always)]
+    unsafe fn or(a: __m256i, b: __m256i) -> __m256i {
+        _mm256_or_si256(a, b)
+    }
+    #[inline(always)]
+    unsafe fn and_not(a: __m256i, b: __m256i) -> __m256i {
+        _mm256_andnot_si256(b, a)
+    }
+
+    #[inline(always)]
+    unsafe fn nodes(nodes: *const Node, at: __m256i) -> (__m256i, __m256i) {
+        gather(nodes.cast(), at)
+    }
+
+    #[inline(always)]
+    unsafe fn push(
+        stack: *mut Waiting,
+        at: __m256i,
+        node: __m256i,
+        t_enter: __m256,
+        t_exit: __m256,
+    ) {
+        let mut places = Eight([0_u32; 8]);
+        _mm256_store_si256(places.0.as_mut_ptr().cast(), at);
+        let at = places.0.as_ptr();
+        let node = _mm256_castsi256_ps(node);
+        let low = _mm256_castps_pd(_mm256_unpacklo_ps(node, t_enter));
+        let high = _mm256_castps_pd(_mm256_unpackhi_ps(node, t_enter));
+        let exit_low = _mm256_castps_pd(_mm256_unpacklo_ps(t_exit, t_exit));
+        let exit_high = _mm256_castps_pd(_mm256_unpackhi_ps(t_exit, t_exit));
+        write_two(stack, at, _mm256_unpacklo_pd(low, exit_low));
+        write_two(stack, at.add(1), _mm256_unpackhi_pd(low, exit_low));
+        write_two(stack, at.add(2), _mm256_unpacklo_pd(high, exit_high));
+        write_two(stack, at.add(3), _mm256_unpackhi_pd(high, exit_high));
+    }
+
+    #[inline(always)]
+    unsafe fn pop(stack: *const Waiting, at: __m256i) -> (__m256i, __m256, __m256) {
+        let mut places = Eight([0_u32; 8]);
+        _mm256_store_si256(places.0.as_mut_ptr().cast(), at);
+        let at = places.0.as_ptr();
+        let (a, b) = (read_two(stack, at), read_two(stack, at.add(1)));
+        let (c, d) = (read_two(stack, at.add(2)), read_two(stack, at.add(3)));
+        let low = _mm256_castps_pd(_mm256_unpacklo_ps(a, b));
+        let high = _mm256_castps_pd(_mm256_unpackhi_ps(a, b));
+        let other_low = _mm256_castps_pd(_mm256_unpacklo_ps(c, d));
+        let other_high = _mm256_castps_pd(_mm256_unpackhi_ps(c, d));
+        (
+            _mm256_castpd_si256(_mm256_unpacklo_pd(low, other_low)),
+            _mm256_castpd_ps(_mm256_unpackhi_pd(low, other_low)),
+            _mm256_castpd_ps(_mm256_unpacklo_pd(high, other_high)),
+        )
+    }
+}

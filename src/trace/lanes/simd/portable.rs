@@ -1,0 +1,202 @@
+//! Eight lanes in plain Rust, for processors without a path of their own.
+
+use super::super::prepare::Node;
+use super::{Simd, Waiting};
+
+#[derive(Clone, Copy)]
+pub(in super::super) struct Portable;
+
+const LANES: usize = 8;
+
+#[inline(always)]
+fn map<A: Copy, B: Copy, C>(a: [A; LANES], b: [B; LANES], f: impl Fn(A, B) -> C) -> [C; LANES] {
+    std::array::from_fn(|k| f(a[k], b[k]))
+}
+
+#[inline(always)]
+fn ask<A: Copy>(a: [A; LANES], b: [A; LANES], f: impl Fn(A, A) -> bool) -> u32 {
+    (0..LANES).fold(0, |mask, k| mask | u32::from(f(a[k], b[k])) << k)
+}
+
+#[inline(always)]
+fn pick<A: Copy>(mask: u32, a: [A; LANES], b: [A; LANES]) -> [A; LANES] {
+    std::array::from_fn(|k| if mask >> k & 1 == 1 { a[k] } else { b[k] })
+}
+
+impl Simd for Portable {
+    const LANES: usize = LANES;
+    type F = [f32; LANES];
+    type U = [u32; LANES];
+    type M = u32;
+
+    #[inline(always)]
+    unsafe fn splat(x: f32) -> Self::F {
+        [x; LANES]
+    }
+    #[inline(always)]
+    unsafe fn load(from: *const f32) -> Self::F {
+        // SAFETY: there are as many elements as lanes.
+        unsafe { from.cast::<Self::F>().read_unaligned() }
+    }
+    #[inline(always)]
+    unsafe fn add(a: Self::F, b: Self::F) -> Self::F {
+        map(a, b, |a, b| a + b)
+    }
+    #[inline(always)]
+    unsafe fn sub(a: Self::F, b: Self::F) -> Self::F {
+        map(a, b, |a, b| a - b)
+    }
+    #[inline(always)]
+    unsafe fn mul(a: Self::F, b: Self::F) -> Self::F {
+        map(a, b, |a, b| a * b)
+    }
+    #[inline(always)]
+    unsafe fn div(a: Self::F, b: Self::F) -> Self::F {
+        map(a, b, |a, b| a / b)
+    }
+    #[inline(always)]
+    unsafe fn mul_add(a: Self::F, b: Self::F, c: Self::F) -> Self::F {
+        std::array::from_fn(|k| a[k] * b[k] + c[k])
+    }
+    #[inline(always)]
+    unsafe fn sub_mul(c: Self::F, a: Self::F, b: Self::F) -> Self::F {
+        std::array::from_fn(|k| c[k] - a[k] * b[k])
+    }
+    #[inline(always)]
+    unsafe fn min(a: Self::F, b: Self::F) -> Self::F {
+        map(a, b, |a, b| if a < b { a } else { b })
+    }
+    #[inline(always)]
+    unsafe fn max(a: Self::F, b: Self::F) -> Self::F {
+        map(a, b, |a, b| if a > b { a } else { b })
+    }
+    #[inline(always)]
+    unsafe fn abs(a: Self::F) -> Self::F {
+        a.map(f32::abs)
+    }
+    #[inline(always)]
+    unsafe fn lt(a: Self::F, b: Self::F) -> u32 {
+        ask(a, b, |a, b| a < b)
+    }
+    #[inline(always)]
+    unsafe fn le(a: Self::F, b: Self::F) -> u32 {
+        ask(a, b, |a, b| a <= b)
+    }
+    #[inline(always)]
+    unsafe fn select(mask: u32, a: Self::F, b: Self::F) -> Self::F {
+        pick(mask, a, b)
+    }
+
+    #[inline(always)]
+    unsafe fn splat_u(x: u32) -> Self::U {
+        [x; LANES]
+    }
+    #[inline(always)]
+    unsafe fn load_u(from: *const u32) -> Self::U {
+        // SAFETY: there are as many elements as lanes.
+        unsafe { from.cast::<Self::U>().read_unaligned() }
+    }
+    #[inline(always)]
+    unsafe fn store_u(to: *mut u32, x: Self::U) {
+        // SAFETY: as above.
+        unsafe { to.cast::<Self::U>().write_unaligned(x) }
+    }
+    #[inline(always)]
+    unsafe fn add_u(a: Self::U, b: Self::U) -> Self::U {
+        map(a, b, u32::wrapping_add)
+    }
+    #[inline(always)]
+    unsafe fn sub_u(a: Self::U, b: Self::U) -> Self::U {
+        map(a, b, u32::wrapping_sub)
+    }
+    #[inline(always)]
+    unsafe fn xor_u(a: Self::U, b: Self::U) -> Self::U {
+        map(a, b, |a, b| a ^ b)
+    }
+    #[inline(always)]
+    unsafe fn shr_u<const BITS: u32>(a: Self::U) -> Self::U {
+        a.map(|a| a >> BITS)
+    }
+    #[inline(always)]
+    unsafe fn shl_by_u(a: Self::U, by: Self::U) -> Self::U {
+        map(a, by, |a, by| a << by)
+    }
+    #[inline(always)]
+    unsafe fn test_u(a: Self::U, b: Self::U) -> u32 {
+        ask(a, b, |a, b| a & b != 0)
+    }
+    #[inline(always)]
+    unsafe fn eq_u(a: Self::U, b: Self::U) -> u32 {
+        ask(a, b, |a, b| a == b)
+    }
+    #[inline(always)]
+    unsafe fn select_u(mask: u32, a: Self::U, b: Self::U) -> Self::U {
+        pick(mask, a, b)
+    }
+    #[inline(always)]
+    unsafe fn bits_of(a: Self::F) -> Self::U {
+        a.map(f32::to_bits)
+    }
+    #[inline(always)]
+    unsafe fn from_bits(a: Self::U) -> Self::F {
+        a.map(f32::from_bits)
+    }
+
+    #[inline(always)]
+    unsafe fn bits(mask: u32) -> u32 {
+        mask
+    }
+    #[inline(always)]
+    unsafe fn mask(bits: u32) -> u32 {
+        bits
+    }
+    #[inline(always)]
+    unsafe fn and(a: u32, b: u32) -> u32 {
+        a & b
+    }
+    #[inline(always)]
+    unsafe fn or(a: u32, b: u32) -> u32 {
+        a | b
+    }
+    #[inline(always)]
+    unsafe fn and_not(a: u32, b: u32) -> u32 {
+        a & !b
+    }
+
+    #[inline(always)]
+    unsafe fn nodes(nodes: *const Node, at: Self::U) -> (Self::U, Self::U) {
+        // SAFETY: the places are those of nodes.
+        let nodes = at.map(|at| unsafe { *nodes.add(at as usize) });
+        (nodes.map(|n| n.payload), nodes.map(|n| n.word))
+    }
+
+    #[inline(always)]
+    unsafe fn push(
+        stack: *mut Waiting,
+        at: Self::U,
+        node: Self::U,
+        t_enter: Self::F,
+        t_exit: Self::F,
+    ) {
+        for k in 0..LANES {
+            let waiting = Waiting {
+                node: node[k],
+                t_enter: t_enter[k],
+                t_exit: t_exit[k],
+            };
+            // SAFETY: the places are within the lanes' stacks.
+            unsafe { *stack.add(at[k] as usize) = waiting };
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn pop(stack: *const Waiting, at: Self::U) -> (Self::U, Self::F, Self::F) {
+        // SAFETY: as above.
+        let waiting = at.map(|at| unsafe { *stack.add(at as usize) });
+        (
+            waiting.map(|w| w.node),
+            waiting.map(|w| w.t_enter),
+            waiting.map(|w| w.t_exit),
+        )
+    }
+}

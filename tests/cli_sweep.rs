@@ -1,0 +1,159 @@
+//! `bspscope sweep`, `merge` and `model`, as a user meets them.
+
+use bspscope::measure::{Class, PARAMETERS};
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+/// The program in an empty folder of its own.
+struct Program(tempfile::TempDir);
+
+impl Program {
+    fn new() -> Self {
+        Program(tempfile::tempdir().unwrap())
+    }
+
+    fn file(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn run(&self, arguments: &str) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_bspscope"))
+            .args(arguments.split_whitespace())
+            .current_dir(self.0.path())
+            .output()
+            .unwrap()
+    }
+
+    /// Runs a command that must end with this exit code; gives what it wrote, errors at the end.
+    fn ends(&self, code: i32, arguments: &str) -> String {
+        let output = self.run(arguments);
+        let text = [output.stdout, output.stderr].concat();
+        let text = String::from_utf8(text).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments}: {text}");
+        text
+    }
+
+    fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.file(name)).unwrap()
+    }
+
+    /// The cells of a file of rows, those that depend on the machine left empty.
+    fn counts(&self, name: &str) -> Vec<Vec<String>> {
+        let times: Vec<_> = PARAMETERS
+            .iter()
+            .filter(|p| p.class == Class::T)
+            .map(|p| p.symbol)
+            .collect();
+        assert!(times.len() > 3);
+        let mut reader = csv::Reader::from_path(self.file(name)).unwrap();
+        let titles = reader.headers().unwrap().clone();
+        let cell = |(title, cell): (&str, &str)| {
+            let is_time = times.contains(&title);
+            if is_time { String::new() } else { cell.into() }
+        };
+        reader
+            .records()
+            .map(|row| titles.iter().zip(&row.unwrap()).map(cell).collect())
+            .collect()
+    }
+}
+
+const GRID: &str = "balls:2 --d-max 3..5,auto --n-oilf 1,2 --resolution 16x12";
+
+#[test]
+fn a_sweep_that_was_broken_off_resumes_to_the_same_file_but_for_times() {
+    let program = Program::new();
+    let text = program.ends(0, &format!("sweep {GRID} -o whole.csv"));
+    assert!(text.contains("midpoint: least T_TR at D_MAX"), "{text}");
+    assert!(text.contains("sah-cut: least T_TR at D_MAX"), "{text}");
+    let whole = program.read("whole.csv");
+    assert_eq!(whole.lines().count(), 1 + 2 * 2 * 4);
+    // Broken off in the midst of the sixth row, of the first one, and of the titles.
+    let ends: Vec<usize> = whole.match_indices('\n').map(|(i, _)| i + 1).collect();
+    for length in [ends[5] + 30, ends[0] + 3, 10, ends[16]] {
+        std::fs::write(program.file("part.csv"), &whole[..length]).unwrap();
+        program.ends(0, &format!("sweep {GRID} -o part.csv"));
+        assert_eq!(program.counts("part.csv"), program.counts("whole.csv"));
+        // Rows that were whole are as they were, with their times.
+        let kept = ends.iter().rev().find(|end| **end <= length).unwrap_or(&0);
+        assert_eq!(program.read("part.csv")[..*kept], whole[..*kept]);
+    }
+    let error = program.ends(2, &format!("sweep {GRID} --d-arec 1 -o whole.csv"));
+    assert!(error.contains("another sweep"), "{error}");
+    assert_eq!(program.read("whole.csv"), whole);
+}
+
+#[test]
+fn shards_merge_to_the_whole_and_missing_points_are_told() {
+    let program = Program::new();
+    program.ends(0, &format!("sweep {GRID} -o whole.csv"));
+    for i in 1..=3 {
+        program.ends(0, &format!("sweep {GRID} --shard {i}/3 -o part-{i}.jsonl"));
+    }
+    program.ends(
+        0,
+        "merge part-3.jsonl part-1.jsonl part-2.jsonl -o merged.csv",
+    );
+    assert_eq!(program.counts("merged.csv"), program.counts("whole.csv"));
+    let text = program.ends(1, "merge part-1.jsonl part-3.jsonl -o two.csv");
+    assert!(
+        text.contains("missing points, from 0: 1 4 7 10 13"),
+        "{text}"
+    );
+    program.ends(
+        0,
+        "sweep tetra:2 --d-max 3 --n-oilf 1 --resolution 8x8 -o other.csv",
+    );
+    let text = program.ends(2, "merge whole.csv other.csv -o wrong.csv");
+    assert!(text.contains("of another sweep"), "{text}");
+    assert!(!program.file("wrong.csv").exists());
+}
+
+#[test]
+fn charts_are_pictures_with_a_curve_for_every_method_and_leaf_size() {
+    let program = Program::new();
+    program.ends(
+        0,
+        &format!("sweep {GRID} -o a.csv --show N_AT --chart a.svg --chart a.png"),
+    );
+    let svg = program.read("a.svg");
+    for words in [
+        "midpoint, N_OILF 1",
+        "sah-cut, N_OILF 2",
+        "D_MAX",
+        "nodes per ray",
+    ] {
+        assert!(svg.contains(words), "{words}");
+    }
+    let png = image::open(program.file("a.png")).unwrap().to_rgb8();
+    assert_eq!(png.dimensions(), (960, 600));
+    let colors: std::collections::BTreeSet<_> = png.pixels().map(|p| p.0).collect();
+    assert!(colors.contains(&[0, 114, 178]) && colors.contains(&[213, 94, 0]));
+    let error = program.ends(2, &format!("sweep {GRID} -o a.csv --chart a.gif"));
+    assert!(error.contains(".png or .svg"), "{error}");
+    let error = program.ends(2, &format!("sweep {GRID} -o a.txt"));
+    assert!(error.contains(".csv or .jsonl"), "{error}");
+}
+
+#[test]
+fn a_model_tells_times_by_both_ways() {
+    let program = Program::new();
+    let options = "model teaching --resolution 24x24 --rounds 1";
+    let text = program.ends(0, &format!("{options} --format json"));
+    let models: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let model = &models[0];
+    let terms = model["seconds"].as_array().unwrap();
+    let named = |name: &str| terms.iter().find(|t| t["term"] == name).unwrap();
+    assert!(named("T_T + T_P")["in_place"].as_f64() > Some(0.0));
+    for kind in ["sphere", "triangle", "polygon", "cone"] {
+        let time = named(&format!("T_IUN {kind}"))["in_place"].as_f64();
+        assert!(time > Some(0.0), "{kind}");
+    }
+    let is_time = |t: &serde_json::Value| t["regression"].as_f64().is_none_or(|s| s >= 0.0);
+    assert!(terms.iter().all(is_time));
+    assert_eq!(model["left_out"]["trees"], 8);
+    let notes = model["notes"].to_string();
+    assert!(notes.contains("only occur as a sum"), "{notes}");
+    let text = program.ends(0, &format!("{options} --equation printed"));
+    assert!(text.contains("equation (1) as printed"), "{text}");
+}
