@@ -17,6 +17,8 @@ mod ours;
 mod rays;
 #[path = "peers/scenes.rs"]
 mod scenes;
+#[path = "peers/terrain.rs"]
+mod terrain;
 
 use bspscope::trace::{Hit, LaneTree};
 use clap::Parser;

@@ -1,12 +1,12 @@
 //! The build driver at its limits: empty scenes, depth 0, memory, cancellation, settings.
 
 use bspscope::geometry::Vec3;
-use bspscope::primitive::{Primitive, Sphere};
+use bspscope::primitive::{Primitive, Sphere, Triangle};
 use bspscope::progress::Progress;
 use bspscope::scene::{Scene, SceneRequest, load};
 use bspscope::tree::{
-    BuildError, BuildSettings, MaxDepth, Method, NodeKind, SettingsError, StopReason, Tree, build,
-    validate,
+    BuildError, BuildSettings, Constants, MaxDepth, Method, NodeKind, OverlapRule, SettingsError,
+    StopReason, Tree, TreeIndex, build, validate,
 };
 
 fn scene(source: &str) -> Scene {
@@ -108,6 +108,36 @@ fn automatic_depth_follows_the_number_of_objects() {
     let settings = with("midpoint", |s| s.d_max = MaxDepth::Automatic);
     let tree = build(&tetra, &settings, &Progress::new()).unwrap();
     assert_eq!(tree.depth_limit(), 16);
+}
+
+#[test]
+fn clipped_objects_make_another_tree_with_fewer_expected_tests() {
+    // Long and slanted ones, so that most of what their bounds hold is empty.
+    let mut parts = scene("tetra:1").parts().clone();
+    parts.objects = (0..300)
+        .map(|i| {
+            let [x, y] = [i % 20, i / 20].map(|k| f64::from(k) * 0.1);
+            let corners = [
+                [x, y, 0.0],
+                [x + 0.5, y + 0.6, 1.0],
+                [x + 0.6, y + 0.5, 1.0],
+            ];
+            let triangle = Triangle::new(corners.map(Vec3::from), None).unwrap();
+            Primitive::Triangle(triangle)
+        })
+        .collect();
+    parts.material_of = vec![0; parts.objects.len()];
+    let slanted = Scene::new(parts);
+    let [loose, clipped] = [0.0, 1.0].map(|clip| {
+        let settings = with("sah", |s| {
+            s.overlap = OverlapRule::Exact;
+            s.constants = Constants::from([("clip".into(), clip), ("block".into(), 1.0)]);
+        });
+        let tree = build(&slanted, &settings, &Progress::new()).unwrap();
+        validate(&slanted, &tree).unwrap();
+        TreeIndex::new(&tree, slanted.objects().len()).of(0).tests
+    });
+    assert!(clipped < 0.99 * loose, "{clipped} against {loose}");
 }
 
 #[test]

@@ -154,6 +154,38 @@ fn every_tree_is_valid() {
 }
 
 #[test]
+fn trees_do_not_depend_on_the_number_of_threads() {
+    let pools = [1, 2, 7].map(|threads| thread_pool(threads).unwrap());
+    let check = |scene: &Scene, settings: &BuildSettings| {
+        let [one, others @ ..] = pools.each_ref().map(|pool| {
+            pool.install(|| build(scene, settings, &Progress::new()))
+                .unwrap()
+        });
+        for other in others {
+            let name = (scene.name(), settings);
+            assert!(one.nodes() == other.nodes(), "{name:?}");
+            assert!(one.references() == other.references(), "{name:?}");
+            assert_eq!(one.depth_reached(), other.depth_reached(), "{name:?}");
+        }
+    };
+    // The files are small: this one is shared out among threads many times over.
+    let many = load(&SceneRequest::parse("balls:5"), &Progress::new()).unwrap();
+    assert!(many.objects().len() > 60_000);
+    for method in Method::all() {
+        check(&many, &BuildSettings::for_method(method));
+        for path in scene_files() {
+            for overlap in OverlapRule::ALL {
+                let settings = BuildSettings {
+                    overlap,
+                    ..BuildSettings::for_method(method)
+                };
+                check(&open(&path), &settings);
+            }
+        }
+    }
+}
+
+#[test]
 fn every_method_gives_the_same_picture() {
     for path in scene_files() {
         let scene = open(&path);

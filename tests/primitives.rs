@@ -149,6 +149,67 @@ fn check_tightness(shape: &impl Shape, points: impl Iterator<Item = Vec3>, toler
     assert!((around.hi - bounds.hi).abs().max_element() < tolerance);
 }
 
+/// The bounds of an object's part within a cell hold every one of its points there, and reach no
+/// further than some of its points, of which there must be many.
+fn check_bounds_within(shape: &impl Shape, points: &[Vec3], random: &mut Random) {
+    let bounds = shape.bounds();
+    let size = bounds.size().max_element();
+    let mut met = 0;
+    for _ in 0..200 {
+        let half = size * random.within(0.1, 0.5);
+        let cell = cube(random.point(&bounds), half);
+        let within: Vec<Vec3> = points
+            .iter()
+            .copied()
+            .filter(|&p| cell.contains(p))
+            .collect();
+        let Some(part) = shape.bounds_within(&cell) else {
+            assert!(within.is_empty(), "{within:?} in {cell:?}");
+            continue;
+        };
+        assert!(cell.contains(part.lo) && cell.contains(part.hi));
+        let held = part.enlarged(1e-9 * size);
+        assert!(within.iter().all(|&p| held.contains(p)));
+        if within.len() > 1000 {
+            let tight = Aabb::around(within).enlarged(0.1 * size);
+            assert!(
+                tight.contains(part.lo) && tight.contains(part.hi),
+                "{part:?}"
+            );
+            met += 1;
+        }
+    }
+    assert!(met > 10, "{met}");
+}
+
+#[test]
+fn bounds_within_a_cell_are_those_of_the_part() {
+    let mut random = Random(5);
+    let mut weights = Vec::new();
+    while weights.len() < 20_000 {
+        let w = random.point(&Aabb::new(Vec3::ZERO, Vec3::ONE));
+        weights.push(w / w.element_sum());
+    }
+    let corners = [
+        Vec3::new(0.1, 0.0, 0.3),
+        Vec3::new(2.0, 1.0, -0.4),
+        Vec3::new(0.4, 1.8, 0.9),
+    ];
+    let points: Vec<Vec3> = weights
+        .iter()
+        .map(|w| corners[0] * w.x + corners[1] * w.y + corners[2] * w.z)
+        .collect();
+    let triangle = Triangle::new(corners, None).unwrap();
+    check_bounds_within(&triangle, &points, &mut random);
+    let polygon = Polygon::new(corners.to_vec(), None).unwrap();
+    check_bounds_within(&polygon, &points, &mut random);
+    let center = Vec3::new(0.3, -2.0, 5.0);
+    let ball: Vec<Vec3> = (0..20_000)
+        .map(|_| center + 1.5 * random.unit() * random.within(0.0, 1.0).cbrt())
+        .collect();
+    check_bounds_within(&Sphere::new(center, 1.5).unwrap(), &ball, &mut random);
+}
+
 fn spheres() -> Vec<Sphere> {
     [
         (Vec3::ZERO, 1.0),

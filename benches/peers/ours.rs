@@ -9,13 +9,15 @@ use bspscope::trace::{
 };
 use bspscope::tree::{BuildSettings, MaxDepth, Method, Tree, build as build_tree};
 
-/// The tree that all our kernels walk.
+/// The tree that all our kernels walk, built on one thread as the others' are.
 pub fn build(scene: &Scene) -> Tree {
     let settings = BuildSettings {
         d_max: MaxDepth::Fixed(MaxDepth::LIMIT),
         ..BuildSettings::for_method(Method::named("sah").expect("a method"))
     };
-    build_tree(scene, &settings, &Progress::new()).expect("a tree")
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let build = || build_tree(scene, &settings, &Progress::new());
+    pool.expect("a thread").install(build).expect("a tree")
 }
 
 /// All kernels; the first is the plain one in `f64`.

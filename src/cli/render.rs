@@ -23,9 +23,10 @@ pub fn run(args: &RenderArgs) -> Result<Outcome> {
     };
     // A wrong size is told before a tree is built for it.
     render.view()?;
+    let pool = thread_pool(render.threads)?;
     let tree = bar::with_bar(
         &format!("{}: building the tree", scene.name()),
-        |progress| build(&scene, &settings, progress),
+        |progress| pool.install(|| build(&scene, &settings, progress)),
     )?;
     let bytes = match args.heat.show {
         Some(shown) => heat::encoded(&scene, &tree, &render, shown.0, &args.heat, format)?,

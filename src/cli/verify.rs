@@ -76,7 +76,7 @@ fn findings_of(text: &str, builds: &[BuildSettings], args: &VerifyArgs) -> Resul
         let method = settings.method;
         let stage = |what: &str| format!("{}, {}: {what}", scene.name(), method.name);
         let tree = bar::with_bar(&stage("building the tree"), |progress| {
-            build(&scene, settings, progress)
+            pool.install(|| build(&scene, settings, progress))
         })?;
         let (sample, answers) = match &mut expected {
             Some(expected) => expected,

@@ -9,6 +9,7 @@ use crate::trace::{
 };
 use crate::tree::{BuildError, BuildSettings, MaxDepth, Tree, build};
 use cpu_time::ThreadTime;
+use rayon::ThreadPool;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -40,13 +41,18 @@ pub struct Times {
 }
 
 impl Times {
-    /// Times a task that runs on the calling thread alone.
-    pub fn of<R>(task: impl FnOnce() -> R) -> (R, Times) {
-        let (cpu, wall) = (ThreadTime::now(), Instant::now());
-        let result = task();
+    /// Runs a task in a pool of threads that has nothing else to do. CPU time is that of all of them.
+    pub fn of<R: Send>(pool: &ThreadPool, task: impl FnOnce() -> R + Send) -> (R, Times) {
+        let cpu = || -> Duration {
+            let clocks = pool.broadcast(|_| ThreadTime::now().as_duration());
+            clocks.iter().sum()
+        };
+        let (cpu_before, wall) = (cpu(), Instant::now());
+        let result = pool.install(task);
+        let wall = wall.elapsed();
         let times = Times {
-            cpu: cpu.elapsed(),
-            wall: wall.elapsed(),
+            cpu: cpu().saturating_sub(cpu_before),
+            wall,
         };
         (result, times)
     }
@@ -158,10 +164,10 @@ pub fn measure(
     render_settings: &RenderSettings,
     progress: &Progress,
 ) -> Result<Measured, MeasureError> {
-    let (tree, building) = Times::of(|| build(scene, build_settings, progress));
+    let pool = thread_pool(render_settings.threads)?;
+    let (tree, building) = Times::of(&pool, || build(scene, build_settings, progress));
     let tree = tree?;
     let mut measurement = Measurement::of_tree(scene, &tree, building, render_settings);
-    let pool = thread_pool(render_settings.threads)?;
     let picture = Mutex::new(Picture::new(render_settings.width, render_settings.height));
     measurement.rendering = Some(timed_pass(
         scene,

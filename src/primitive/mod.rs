@@ -3,6 +3,7 @@
 //! All of them are surfaces without thickness that are seen from both sides. For the overlap with
 //! a cell, spheres, cylinders and cones count as solid bodies, as in the paper's method 1.
 
+mod clip;
 mod cone;
 mod gjk;
 mod numeric;
@@ -38,6 +39,13 @@ pub trait Shape: Send + Sync {
 
     /// Whether the object shares a point with a closed cell. Where rounding leaves it open: `true`.
     fn overlaps(&self, cell: &Aabb) -> bool;
+
+    /// Bounds of the object's part within a closed cell, as near as arithmetic tells; `None` if there
+    /// is none. Kinds that do not say better: the bounds cut off at the cell.
+    fn bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
+        let part = self.bounds().intersection(cell);
+        (!part.is_empty()).then_some(part)
+    }
 
     /// The smallest `t` in `[ray.t_min, t_max]` at which the ray meets the surface; `None` if none.
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64>;
@@ -166,6 +174,10 @@ impl Shape for Primitive {
 
     fn overlaps(&self, cell: &Aabb) -> bool {
         each_kind!(self, shape => shape.overlaps(cell))
+    }
+
+    fn bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
+        each_kind!(self, shape => shape.bounds_within(cell))
     }
 
     #[inline]

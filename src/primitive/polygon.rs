@@ -1,5 +1,6 @@
 //! Simple polygons, convex or not.
 
+use super::clip::bounds_of_outline;
 use super::numeric::{self, Shear};
 use super::{Shape, ShapeError, SurfacePoint};
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
@@ -356,6 +357,10 @@ impl Shape for Polygon {
             from
         };
         is_inside(&self.outline, project(cut, self.axis), slack).unwrap_or(true)
+    }
+
+    fn bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
+        bounds_of_outline(&self.vertices, cell)
     }
 
     /// Where the ray meets the plane, inside or on the outline. A ray in the plane has no hit.

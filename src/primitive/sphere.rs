@@ -38,6 +38,17 @@ impl Shape for Sphere {
         nearest.distance_squared(self.center) <= self.radius * self.radius
     }
 
+    /// The solid ball's: along an axis it reaches as far as at the point of the cell that is nearest
+    /// to its centre in the other two.
+    fn bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
+        let away = self.center.clamp(cell.lo, cell.hi) - self.center;
+        let away = away * away;
+        let squared = self.radius * self.radius - Vec3::splat(away.element_sum()) + away;
+        let reach = squared.max(Vec3::ZERO).map(f64::sqrt);
+        let part = Aabb::new(self.center - reach, self.center + reach).intersection(cell);
+        (away.element_sum() <= self.radius * self.radius && !part.is_empty()).then_some(part)
+    }
+
     /// After Haines, Günther and Akenine-Möller, "Precision improvements for ray/sphere
     /// intersection" (Ray Tracing Gems, 2019, ch. 7): the discriminant comes from the centre's
     /// offset from the ray, not from a difference of squares of the distance, which would leave

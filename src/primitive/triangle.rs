@@ -1,5 +1,6 @@
 //! Triangles, with or without vertex normals.
 
+use super::clip::bounds_of_outline;
 use super::numeric::{self, Shear};
 use super::{Shape, ShapeError, SurfacePoint};
 use crate::geometry::{Aabb, Ray, Vec3};
@@ -117,6 +118,10 @@ impl Shape for Triangle {
             && ![(a, b), (b, c), (c, a)]
                 .into_iter()
                 .any(|(from, to)| numeric::edge_separates(from, to, vertices, cell))
+    }
+
+    fn bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
+        bounds_of_outline(&self.vertices, cell)
     }
 
     /// After Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2(1), 2013).

@@ -7,6 +7,9 @@
 
 use crate::geometry::{Aabb, Axis, Vec3};
 
+/// The lower and upper end of an object by axis, each as the nearest storable plane.
+pub type ObjectPlanes = [[f32; 2]; 3];
+
 /// Maps between the world and the coordinates of a root cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
@@ -76,7 +79,7 @@ impl Frame {
 
     /// The storable planes nearest to the lower and upper ends of a box, by axis.
     #[inline]
-    pub fn planes_around(&self, bounds: &Aabb) -> [[f32; 2]; 3] {
+    pub fn planes_around(&self, bounds: &Aabb) -> ObjectPlanes {
         let lo = self.point_to_local(bounds.lo).as_vec3();
         let hi = self.point_to_local(bounds.hi).as_vec3();
         std::array::from_fn(|k| [lo[k], hi[k]])
@@ -105,12 +108,14 @@ impl Frame {
 /// Whether a box does more than touch a cell from outside; both are given by their planes. A flat box
 /// in the plane between two cells is inside both.
 #[inline]
-pub fn is_inside(planes: &[[f32; 2]; 3], cell: &[[f32; 2]; 3]) -> bool {
-    (0..3).all(|k| {
+pub fn is_inside(planes: &ObjectPlanes, cell: &[[f32; 2]; 3]) -> bool {
+    // Without branches: which objects only touch is hard to foresee.
+    let mut only_touches = false;
+    for k in 0..3 {
         let ([lo, hi], [cell_lo, cell_hi]) = (planes[k], cell[k]);
-        let only_touches = (hi <= cell_lo && lo < cell_lo) || (lo >= cell_hi && hi > cell_hi);
-        !only_touches
-    })
+        only_touches |= (hi <= cell_lo) & (lo < cell_lo) | (lo >= cell_hi) & (hi > cell_hi);
+    }
+    !only_touches
 }
 
 #[cfg(test)]

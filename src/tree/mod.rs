@@ -18,7 +18,7 @@ mod validate;
 pub use build::{BuildError, build};
 pub use cost::{CostCurve, NodeCost, SplitCost};
 pub use find::{Field, Order, Query};
-pub use frame::{Frame, is_inside};
+pub use frame::{Frame, ObjectPlanes, is_inside};
 pub use index::{NodeFacts, TreeIndex};
 pub use moment::Moment;
 pub use node::{Node, NodeKind, StopReason};

@@ -108,6 +108,22 @@ impl Node {
         }
     }
 
+    /// The node of a part of the tree that is put behind so many nodes and references.
+    pub(super) fn moved(self, nodes: u32, references: u32) -> Self {
+        if self.is_leaf() {
+            Node {
+                payload: self.payload + references,
+                ..self
+            }
+        } else {
+            debug_assert!(((self.word >> 2) + nodes) < Self::MAX_NODES as u32);
+            Node {
+                word: self.word + (nodes << 2),
+                ..self
+            }
+        }
+    }
+
     #[inline]
     pub(crate) fn is_leaf(self) -> bool {
         self.word & 3 == LEAF

@@ -344,7 +344,8 @@ impl Kept {
             |built: &Built| Arc::ptr_eq(&built.scene, scene) && built.known.build == request.build;
         if !self.trees.0.iter().any(fits) {
             reporter.stage(Stage::Building, progress);
-            let (tree, building) = Times::of(|| build(scene, &request.build, progress));
+            let pool = self.pool(render.threads)?;
+            let (tree, building) = Times::of(&pool, || build(scene, &request.build, progress));
             let tree = Arc::new(tree?);
             self.trees.put(Built {
                 scene: Arc::clone(scene),

@@ -264,7 +264,10 @@ impl<'a> Trading<'a> {
         }
         let place = self.taken % self.choices.len();
         let choice = &self.choices[place];
-        let (scene, tree) = self.made.get(self.exact, &choice.setting, progress)?;
+        let (made, exact) = (&mut self.made, self.exact);
+        let (scene, tree) = self
+            .pool
+            .install(|| made.get(exact, &choice.setting, progress))?;
         let render = &choice.setting.render;
         let (picture, seconds) = traced(scene, tree, render, &self.pool, progress)?;
         let mut pixel_errors = None;

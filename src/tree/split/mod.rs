@@ -6,8 +6,10 @@ mod object_median;
 mod sah;
 mod sah_cut;
 
-use super::{BuildSettings, Frame, OverlapRule, StopReason};
+use super::{BuildSettings, Frame, ObjectPlanes, OverlapRule, StopReason};
 use crate::geometry::{Aabb, Axis};
+use crate::primitive::Primitive;
+use crate::progress::Progress;
 
 /// All build methods.
 pub static SPLIT_RULES: &[MethodInfo] = &[
@@ -100,8 +102,14 @@ pub struct Cell<'a> {
     pub depth_limit: u32,
     /// Numbers of its objects, ascending.
     pub objects: &'a [u32],
-    /// Bounds of all objects of the scene, by number.
+    /// All objects of the scene, by number.
+    pub primitives: &'a [Primitive],
+    /// Their bounds.
     pub object_bounds: &'a [Aabb],
+    /// Their bounds as planes.
+    pub object_planes: &'a [ObjectPlanes],
+    /// Rules that take long look at it and decide anything once the build is cancelled.
+    pub progress: &'a Progress,
 }
 
 impl Cell<'_> {

@@ -1,0 +1,342 @@
+//! The one build driver: termination, distribution of objects, threads, memory, cancellation.
+//!
+//! Large cells are split into tasks, each of which builds a subtree in arrays of its own; they are put
+//! together in depth-first order. The tree is the same for any number of threads.
+
+mod limits;
+mod overlap;
+mod part;
+
+use super::split::{Cell, Decision, SplitRule};
+use super::{BuildSettings, Frame, Node, ObjectPlanes, SettingsError, StopReason, Tree};
+use crate::geometry::{Aabb, Axis};
+use crate::primitive::{Primitive, Shape};
+use crate::progress::{Cancelled, Progress};
+use crate::scene::Scene;
+use limits::Limits;
+use overlap::{HalfCell, Overlap, Side};
+use part::Part;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Why there is no tree.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BuildError {
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    #[error(
+        "the tree needs more than the memory limit of {} MiB: stopped at depth {depth} after \
+         {nodes} nodes and {references} references; lower D_MAX, raise N_OILF or the limit",
+        .limit >> 20
+    )]
+    MemoryLimit {
+        /// Bytes.
+        limit: u64,
+        depth: u32,
+        /// About how many there were; how many exactly depends on the order in which threads work.
+        nodes: usize,
+        references: usize,
+    },
+    #[error("the scene has {0} objects; a tree can hold {most}", most = Node::MAX_LEAF - 1)]
+    TooManyObjects(usize),
+}
+
+/// Builds the tree of a scene on the threads of the pool that it is called in (`rayon`), or of the
+/// global pool. The same scene and settings give the same tree, always.
+///
+/// A scene without objects gives a tree of one empty leaf.
+///
+/// # Errors
+/// Settings out of range, cancellation, or a tree that would not fit the memory limit.
+pub fn build(
+    scene: &Scene,
+    settings: &BuildSettings,
+    progress: &Progress,
+) -> Result<Tree, BuildError> {
+    settings.check()?;
+    let objects = scene.objects();
+    if objects.len() >= Node::MAX_LEAF {
+        return Err(BuildError::TooManyObjects(objects.len()));
+    }
+    // Entered once, and not for every cell.
+    rayon::scope(|_| in_pool(scene, settings, progress))
+}
+
+fn in_pool(
+    scene: &Scene,
+    settings: &BuildSettings,
+    progress: &Progress,
+) -> Result<Tree, BuildError> {
+    let objects = scene.objects();
+    let frame = Frame::around(&scene.bounds(), settings.root_margin);
+    let depth_limit = settings.d_max.resolve(objects.len());
+    let rule = (settings.method.rule)(settings);
+    let limits = Limits::new(settings.memory_limit, objects.len());
+    limits.wait(0, objects.len())?;
+    let (mut bounds, mut planes) = (Vec::new(), Vec::new());
+    objects
+        .par_iter()
+        .with_min_len(CHUNK)
+        .map(|object| {
+            if progress.is_cancelled() {
+                return (Aabb::EMPTY, ObjectPlanes::default());
+            }
+            let bounds = object.bounds();
+            (bounds, frame.planes_around(&bounds))
+        })
+        .unzip_into_vecs(&mut bounds, &mut planes);
+    progress.check()?;
+    let driver = Driver {
+        overlap: Overlap::new(settings, objects, &bounds, &planes, frame.slack()),
+        frame: &frame,
+        rule: rule.as_ref(),
+        settings,
+        depth_limit,
+        progress,
+        objects,
+        bounds: &bounds,
+        planes: &planes,
+        limits,
+        done: AtomicU64::new(0),
+    };
+    let place = Place {
+        bounds: frame.cell(),
+        local: [[-1.0, 1.0]; 3],
+        depth: 0,
+        waiting: objects.len(),
+    };
+    let all: Vec<u32> = (0..objects.len() as u32).collect();
+    let mut part = Part::default();
+    driver.cell(&mut part, &all, &place)?;
+    part.finish(&driver.limits)?;
+    let Part {
+        mut nodes,
+        mut references,
+        depth_reached,
+        ..
+    } = part;
+    nodes.shrink_to_fit();
+    references.shrink_to_fit();
+    Ok(Tree {
+        nodes,
+        references,
+        frame,
+        settings: settings.clone(),
+        depth_limit,
+        depth_reached,
+        derived: Default::default(),
+    })
+}
+
+/// So many objects are treated between two looks at whether the build was cancelled.
+const CHUNK: usize = 1 << 14;
+
+/// A cell in the coordinates of the root cell: lower and upper end by axis.
+type Local = [[f32; 2]; 3];
+
+/// Where a cell lies.
+#[derive(Clone, Copy)]
+struct Place {
+    bounds: Aabb,
+    local: Local,
+    depth: u32,
+    /// Objects in the lists of the cells from the root to this one.
+    waiting: usize,
+}
+
+struct Driver<'a> {
+    overlap: Overlap<'a>,
+    frame: &'a Frame,
+    rule: &'a dyn SplitRule,
+    settings: &'a BuildSettings,
+    depth_limit: u32,
+    progress: &'a Progress,
+    objects: &'a [Primitive],
+    bounds: &'a [Aabb],
+    planes: &'a [ObjectPlanes],
+    limits: Limits,
+    /// Share of the work that is done, where every level counts half as much as the one above; the
+    /// bits of an `f64`.
+    done: AtomicU64,
+}
+
+/// Cells with more objects are split into tasks.
+const TASK: usize = 1 << 12;
+
+/// Cells with more objects look every time whether the build was cancelled.
+const LARGE: usize = 1 << 8;
+
+impl Driver<'_> {
+    /// Builds the subtree of a cell with these objects.
+    fn cell(&self, part: &mut Part, objects: &[u32], place: &Place) -> Result<(), BuildError> {
+        if objects.len() > LARGE || part.nodes.len().is_multiple_of(64) {
+            self.progress.check()?;
+        }
+        match self.decide(objects, place) {
+            Decision::Leaf(stop) => self.leaf(part, objects, place.depth, stop),
+            Decision::Split { axis, plane } => {
+                self.split(part, objects, place, axis, [plane, plane])
+            }
+            Decision::Cut { axis, slab } => self.split(part, objects, place, axis, slab),
+        }
+    }
+
+    fn decide(&self, objects: &[u32], place: &Place) -> Decision {
+        if objects.is_empty() {
+            return Decision::Leaf(StopReason::Empty);
+        }
+        if objects.len() <= self.settings.n_oilf as usize {
+            return Decision::Leaf(StopReason::FewObjects);
+        }
+        if place.depth >= self.depth_limit {
+            return Decision::Leaf(StopReason::MaxDepth);
+        }
+        let cell = Cell {
+            frame: self.frame,
+            bounds: place.bounds,
+            local: place.local,
+            depth: place.depth,
+            depth_limit: self.depth_limit,
+            objects,
+            primitives: self.objects,
+            object_bounds: self.bounds,
+            object_planes: self.planes,
+            progress: self.progress,
+        };
+        match self.rule.decide(&cell) {
+            Decision::Split { axis, plane } if !cell.divides(axis, plane) => {
+                Decision::Leaf(StopReason::TooThin)
+            }
+            decision => {
+                if let Decision::Cut { axis, slab } = decision {
+                    debug_assert!(slab.iter().all(|&p| cell.divides(axis, p)) && slab[0] < slab[1]);
+                }
+                decision
+            }
+        }
+    }
+
+    fn leaf(
+        &self,
+        part: &mut Part,
+        objects: &[u32],
+        depth: u32,
+        stop: StopReason,
+    ) -> Result<(), BuildError> {
+        part.leaf(&self.limits, objects, depth, stop)?;
+        if part.nodes.len().is_multiple_of(64) {
+            self.tell(part);
+        }
+        Ok(())
+    }
+
+    /// Says how much is done.
+    fn tell(&self, part: &mut Part) {
+        let more = std::mem::take(&mut part.done);
+        let add = |bits| Some((f64::from_bits(bits) + more).to_bits());
+        let before = self
+            .done
+            .fetch_update(Ordering::Relaxed, Ordering::Relaxed, add)
+            .unwrap_or_else(|bits| bits);
+        self.progress.set(f64::from_bits(before) + more);
+    }
+
+    /// Below | empty | above, where the empty slab between two planes is left out if they are one.
+    /// A slab takes one more inner node, but no level of depth of its own.
+    fn split(
+        &self,
+        part: &mut Part,
+        objects: &[u32],
+        place: &Place,
+        axis: Axis,
+        slab: [f32; 2],
+    ) -> Result<(), BuildError> {
+        let [below, above] = self.parts(place, objects.len(), axis, slab);
+        self.limits.wait(place.depth, below.1.waiting)?;
+        let outer = part.inner(&self.limits, place.depth)?;
+        let apart = objects.len() > TASK && rayon::current_num_threads() > 1;
+        let built = if apart {
+            let (below, above) = rayon::join(
+                || self.apart(objects, &below),
+                || self.apart(objects, &above),
+            );
+            part.append(below?);
+            Some(above?)
+        } else {
+            self.child(part, objects, &below)?;
+            None
+        };
+        part.close(outer, axis, slab[0]);
+        if slab[0] < slab[1] {
+            let inner = part.inner(&self.limits, place.depth)?;
+            self.leaf(part, &[], place.depth + 1, StopReason::CutOut)?;
+            part.close(inner, axis, slab[1]);
+        }
+        match built {
+            Some(above) => part.append(above),
+            None => self.child(part, objects, &above)?,
+        }
+        Ok(())
+    }
+
+    /// The parts of a cell with so many objects below and above a slab.
+    fn parts(
+        &self,
+        place: &Place,
+        objects: usize,
+        axis: Axis,
+        slab: [f32; 2],
+    ) -> [(HalfCell, Place); 2] {
+        let [first, second] = slab.map(|plane| self.frame.to_world(axis, f64::from(plane)));
+        let (below, rest) = place.bounds.split(axis, first);
+        let (_, above) = rest.split(axis, second);
+        let part = |bounds, side, plane| {
+            let mut local = place.local;
+            local[axis.index()][if side == Side::Below { 1 } else { 0 }] = plane;
+            let place = Place {
+                bounds,
+                local,
+                depth: place.depth + 1,
+                waiting: place.waiting + objects,
+            };
+            (HalfCell::new(self.frame, bounds, side, axis, plane), place)
+        };
+        [
+            part(below, Side::Below, slab[0]),
+            part(above, Side::Above, slab[1]),
+        ]
+    }
+
+    /// Takes over from the parent's objects those of a child and builds it.
+    fn child(
+        &self,
+        part: &mut Part,
+        objects: &[u32],
+        (half, place): &(HalfCell, Place),
+    ) -> Result<(), BuildError> {
+        let mut own = part.spare.pop().unwrap_or_default();
+        own.clear();
+        for chunk in objects.chunks(CHUNK) {
+            if objects.len() > CHUNK {
+                self.progress.check()?;
+            }
+            self.overlap.select(half, chunk, &mut own);
+        }
+        self.cell(part, &own, place)?;
+        part.spare.push(own);
+        Ok(())
+    }
+
+    /// The same in arrays of its own.
+    fn apart(&self, objects: &[u32], child: &(HalfCell, Place)) -> Result<Part, BuildError> {
+        let mut part = Part::default();
+        self.child(&mut part, objects, child)?;
+        part.finish(&self.limits)?;
+        self.tell(&mut part);
+        // What waits to be put together holds only what it needs.
+        part.spare = Vec::new();
+        Ok(part)
+    }
+}

@@ -1,0 +1,104 @@
+//! The limits of bins as planes, for cells with many objects.
+
+use super::extents::{Extents, Room, Source};
+use super::grid::{BINS, Grid};
+use super::{Cell, Plane};
+use crate::geometry::Axis;
+use rayon::prelude::*;
+
+/// How many objects begin and end in every bin of every axis.
+pub(super) struct Bins {
+    grids: [Grid; 3],
+    counts: Counts,
+}
+
+#[derive(Clone)]
+struct Counts {
+    objects: usize,
+    begins: [[u32; BINS]; 3],
+    ends: [[u32; BINS]; 3],
+}
+
+/// Objects that a thread takes at once.
+const CHUNK: usize = 1 << 14;
+
+/// Objects whose extents are held at once.
+const HELD: usize = 1 << 9;
+
+impl Bins {
+    /// Those of a cell's objects; incomplete if the build is cancelled meanwhile.
+    pub(super) fn of(cell: &Cell<'_>, clip: bool) -> Self {
+        let grids = Axis::ALL.map(|axis| Grid::new(cell.local[axis.index()], BINS));
+        let source = Source::new(cell, clip);
+        let count = |objects: &[u32]| {
+            let mut counts = Counts::default();
+            if !cell.progress.is_cancelled() {
+                let (mut extents, mut room) = (Extents::default(), Room::default());
+                for objects in objects.chunks(HELD) {
+                    extents.fill(&source, objects);
+                    counts.add(&grids, &extents, &mut room);
+                }
+            }
+            counts
+        };
+        let counts = cell
+            .objects
+            .par_chunks(CHUNK)
+            .map(count)
+            .reduce(Counts::default, Counts::plus);
+        Bins { grids, counts }
+    }
+
+    /// Objects that do more than touch the cell from outside.
+    pub(super) fn objects(&self) -> usize {
+        self.counts.objects
+    }
+
+    /// The limits between bins, ascending.
+    pub(super) fn planes(&self, axis: Axis) -> impl Iterator<Item = Plane> + '_ {
+        let k = axis.index();
+        let (mut begun, mut ended) = (0, 0);
+        (1..self.grids[k].bins()).map(move |bin| {
+            begun += self.counts.begins[k][bin - 1] as usize;
+            ended += self.counts.ends[k][bin - 1] as usize;
+            Plane {
+                at: self.grids[k].limit(bin),
+                below: begun,
+                above: self.counts.objects - ended,
+            }
+        })
+    }
+}
+
+impl Default for Counts {
+    fn default() -> Self {
+        Counts {
+            objects: 0,
+            begins: [[0; BINS]; 3],
+            ends: [[0; BINS]; 3],
+        }
+    }
+}
+
+impl Counts {
+    fn add(&mut self, grids: &[Grid; 3], extents: &Extents, room: &mut Room) {
+        self.objects += extents.objects();
+        for axis in Axis::ALL {
+            let (k, along) = (axis.index(), extents.along(axis));
+            grids[k].bins_of(along.begins, &mut room.begin_bins);
+            grids[k].bins_of(along.ends, &mut room.end_bins);
+            for (&begin, &end) in room.begin_bins.iter().zip(&room.end_bins) {
+                self.begins[k][usize::from(begin) % BINS] += 1;
+                self.ends[k][usize::from(end) % BINS] += 1;
+            }
+        }
+    }
+
+    fn plus(mut self, other: Self) -> Self {
+        self.objects += other.objects;
+        let mine = self.begins.iter_mut().chain(&mut self.ends).flatten();
+        let others = other.begins.iter().chain(&other.ends).flatten();
+        mine.zip(others).for_each(|(mine, other)| *mine += other);
+        self
+    }
+}

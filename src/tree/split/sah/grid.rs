@@ -1,0 +1,90 @@
+//! Equally wide bins along an axis.
+
+use super::Extent;
+
+/// The most bins of a grid.
+pub(super) const BINS: usize = 64;
+
+/// Bins from one end of a cell to the other.
+#[derive(Clone, Copy)]
+pub(super) struct Grid {
+    lo: f32,
+    /// Width of a bin in units of the plane's coordinate, and bins a unit.
+    width: f32,
+    scale: f32,
+    last: f32,
+}
+
+impl Grid {
+    /// About so many bins, from 1 to [`BINS`]; a single one where a cell is so thin that the limits
+    /// of more might not be told apart.
+    pub(super) fn new([lo, hi]: Extent, bins: usize) -> Self {
+        let width = (hi - lo) / bins as f32;
+        let thick = width > 16.0 * f32::EPSILON * lo.abs().max(hi.abs());
+        let (width, bins) = if thick { (width, bins) } else { (hi - lo, 1) };
+        Grid {
+            lo,
+            width,
+            scale: 1.0 / width,
+            last: (bins - 1) as f32,
+        }
+    }
+
+    /// The lower limit of a bin.
+    #[inline]
+    pub(super) fn limit(&self, bin: usize) -> f32 {
+        self.lo + self.width * bin as f32
+    }
+
+    pub(super) fn bins(&self) -> usize {
+        self.last as usize + 1
+    }
+
+    /// The bins whose limits, as rounded, hold planes between them: these lie at or above the lower
+    /// and below the upper one, but for the ends of the cell. Free of branches and of conversions, so
+    /// that it becomes vector instructions.
+    pub(super) fn bins_of(&self, planes: &[f32], bins: &mut Vec<u8>) {
+        /// Above it an `f32` has no fraction: to add it rounds, and leaves the integer in the bits.
+        const INTEGERS: f32 = (1 << 23) as f32;
+        bins.resize(planes.len(), 0);
+        for (bin, &at) in bins.iter_mut().zip(planes) {
+            let guess = (at - self.lo) * self.scale - 0.5;
+            let guess = if guess > 0.0 { guess } else { 0.0 };
+            let guess = if guess < self.last { guess } else { self.last };
+            let bits = guess + INTEGERS;
+            let guess = bits - INTEGERS;
+            let too_high = (at < self.lo + self.width * guess) & (guess > 0.0);
+            let too_low = (at >= self.lo + self.width * (guess + 1.0)) & (guess < self.last);
+            let guessed = (bits.to_bits() & (BINS as u32 - 1)) as i32;
+            *bin = (guessed + i32::from(too_low) - i32::from(too_high)) as u8;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_hold_planes_between_them_however_thin_the_cell() {
+        let thin = [0.5_f32, 0.5_f32.next_up().next_up()];
+        for ends in [[-1.0, 1.0], [0.1, 0.30001], thin] {
+            for bins in [1, 7, BINS] {
+                let grid = Grid::new(ends, bins);
+                let planes: Vec<f32> = (0..=1000)
+                    .map(|step| ends[0] + (ends[1] - ends[0]) * (step as f32 / 1000.0))
+                    .chain((1..bins).map(|bin| grid.limit(bin).min(ends[1])))
+                    .collect();
+                let mut found = Vec::new();
+                grid.bins_of(&planes, &mut found);
+                for (&at, &bin) in planes.iter().zip(&found) {
+                    let bin = usize::from(bin);
+                    let last = bin + 1 == grid.bins();
+                    assert!(bin < grid.bins());
+                    assert!(bin == 0 || grid.limit(bin) <= at);
+                    assert!(last || at < grid.limit(bin + 1));
+                }
+            }
+        }
+    }
+}
