@@ -1,27 +1,26 @@
-//! The paper's method 1: the middle of the cell, axes in cyclic order; or along the longest axis.
+//! The paper's method 1: the middle of the cell, axes in cyclic order.
 
-use super::axis_order::{AxisOrder, LONGEST_AXIS};
 use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
+use crate::geometry::Axis;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "midpoint",
     title: "Midpoint, axes in turn (method 1)",
-    about: "Splits every cell in the middle, with axes in cyclic order x, y, z, or along its longest \
-            axis.",
+    about: "Splits every cell in the middle, with axes in cyclic order x, y, z.",
     source: "A. S. Glassner, Space subdivision for fast ray tracing, 1984; K. Sung and P. Shirley, \
              Ray tracing with the BSP tree, Graphics Gems III, 1992; the paper's method 1",
     paper: Some(1),
     paper_spheres_exactly: true,
     structure: Structure::Bintree,
-    constants: &[LONGEST_AXIS],
-    rule: |settings| Box::new(Midpoint(AxisOrder::new(settings))),
+    constants: &[],
+    rule: |settings| Box::new(Midpoint(settings.first_axis)),
 };
 
-struct Midpoint(AxisOrder);
+struct Midpoint(Axis);
 
 impl SplitRule for Midpoint {
     fn decide(&self, cell: &Cell<'_>) -> Decision {
-        let axis = self.0.axis(cell);
+        let axis = Axis::from_index(self.0.index() + cell.depth as usize);
         Decision::Split {
             axis,
             plane: cell.midpoint(axis),

@@ -1,8 +1,8 @@
 //! Build methods. A method is one file here and one line in [`SPLIT_RULES`].
 
-mod axis_order;
 mod grid;
 mod midpoint;
+mod midpoint_longest;
 mod none;
 mod object_median;
 mod octree;
@@ -24,6 +24,7 @@ pub static SPLIT_RULES: &[MethodInfo] = &[
     sah_auto::METHOD,
     sah_sampled::METHOD,
     sah::METHOD,
+    midpoint_longest::METHOD,
     object_median::METHOD,
     octree::METHOD,
     grid::METHOD,
