@@ -14,7 +14,7 @@
 //! | [`progress`] | how long tasks tell how far they are and are told to stop | |
 //! | [`primitive`] | sphere, triangle, polygon, cylinder and cone: bounds, overlap with a cell, intersection in `f64` or on objects packed in `f32` | a variant of [`primitive::Primitive`] |
 //! | [`scene`] | objects, materials, lights, camera; what the scene requires | |
-//! | [`scene::format`] | readers and writers of files | a line in [`scene::format::FORMATS`] |
+//! | [`scene::format`] | readers and writers of files: NFF, OBJ, PLY, glTF, STL; the load report | a line in [`scene::format::FORMATS`] |
 //! | [`scene::builtin`] | generated scenes | a line in [`scene::builtin::BUILTINS`] |
 //! | [`tree`] | 8-byte nodes, the one build driver, moments of the build, validation | |
 //! | [`tree::split`] | where a method splits a cell | a line in [`tree::split::SPLIT_RULES`] |

@@ -10,6 +10,7 @@ use crate::measure::{PARAMETERS, Parameter, parameter};
 use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
 use crate::scene::builtin::BUILTINS;
+use crate::scene::format::FORMATS;
 use crate::scene::{Cylinders, Sampling};
 use crate::trace::{KernelChoice, PrecisionChoice};
 use crate::tree::{BuildSettings, MaxDepth, Method, OverlapRule};
@@ -362,10 +363,11 @@ pub struct ProbeArgs {
     pub output: Option<PathBuf>,
 }
 
-/// Write a scene, generated or read, as a scene file
+/// Write a scene, generated or read, as a scene file (NFF)
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope generate balls:4 -o balls.nff\n\
-    bspscope generate rings --cylinders polygons:10 > rings.nff"))]
+    bspscope generate rings --cylinders polygons:10 > rings.nff\n\
+    bspscope generate model.glb -o model.nff"))]
 pub struct GenerateArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
@@ -600,7 +602,7 @@ pub struct PictureArgs {
     pub resolution: [u32; 2],
 }
 
-/// Examples, and the scenes that can be generated.
+/// Examples, the scenes that can be generated, and the files that can be read.
 fn help(examples: &str) -> String {
     let mut text = "Examples:".to_owned();
     for example in examples.lines() {
@@ -617,6 +619,11 @@ fn help(examples: &str) -> String {
             builtin.default_size,
             builtin.about
         );
+    }
+    text += "\n\nScene files, told by their content where the extension does not fit:";
+    for format in FORMATS {
+        let extensions = format.extensions.join(", .");
+        text += &format!("\n  .{extensions}\n      {}", format.about);
     }
     text
 }

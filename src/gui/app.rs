@@ -15,6 +15,7 @@ use super::view3d::View3d;
 use super::walk::Go;
 use super::{StartOptions, build_bar, help, top_bar, walk_bar};
 use crate::overlay::COLORINGS;
+use crate::scene::format::names;
 use crate::tree::{BuildSettings, MaxDepth, Method};
 
 /// The window.
@@ -315,7 +316,7 @@ fn drop_hint(ctx: &egui::Context) {
     painter.text(
         rect.center(),
         egui::Align2::CENTER_CENTER,
-        "Drop the file to open its scene",
+        format!("Drop the file to open its scene\n{}", names()),
         egui::FontId::proportional(26.0),
         egui::Color32::WHITE,
     );
