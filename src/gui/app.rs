@@ -299,7 +299,7 @@ impl eframe::App for App {
         }
         self.state.send();
         self.panes.picture.heat.make_way(&self.state);
-        self.state.trading.make_way(self.state.work.is_none());
+        self.state.make_way();
         self.keep_layout(&ctx);
     }
 
