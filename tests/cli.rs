@@ -557,6 +557,53 @@ fn a_comparison_is_made_under_equal_conditions_or_refused() {
 }
 
 #[test]
+fn what_rays_did_is_told_kind_by_kind_in_every_form() {
+    let program = Program::new();
+    let compare =
+        "compare balls:2 --a method=midpoint --b method=sah-cut --resolution 16x16 --format";
+    let json = program.json(&format!("{compare} json --per-kind"));
+    let tests = &json["per_kind"]["primary"]["tests"];
+    let of_runs: Vec<_> = (0..2)
+        .map(|run| &json["runs"][run]["parameters"]["N_PRIT"])
+        .collect();
+    assert_eq!(
+        tests["values"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .collect::<Vec<_>>(),
+        of_runs
+    );
+    let [a, b] = [0, 1].map(|run: usize| tests["values"][run].as_f64().unwrap());
+    assert_eq!(tests["second_to_first"].as_f64(), Some(b / a));
+    assert_eq!(json["per_kind"]["shadow"]["rays"]["second_to_first"], 1.0);
+    // No ray is refracted.
+    assert!(json["per_kind"].get("refracted").is_none());
+    let csv = program.done(&format!("{compare} csv --per-kind"));
+    assert!(
+        csv.contains(&format!("sah-cut,tests,tests,primary,R,count,{b}\n")),
+        "{csv}"
+    );
+    assert!(
+        csv.contains(&format!("2/1,tests,tests,primary,R,ratio,{}\n", b / a)),
+        "{csv}"
+    );
+    for (form, title) in [
+        ("text", "\nShadow rays\n"),
+        ("markdown", "\n## Shadow rays\n"),
+        ("latex", "\n% Shadow rays\n"),
+    ] {
+        let text = program.done(&format!("{compare} {form} --per-kind"));
+        assert!(
+            text.contains(title) && text.contains("nodes of a ray, most"),
+            "{text}"
+        );
+        assert!(!text.contains("Refracted rays"), "{text}");
+        assert!(!program.done(&format!("{compare} {form}")).contains(title));
+    }
+}
+
+#[test]
 fn trade_writes_every_form_and_takes_only_what_is_asked_for() {
     let program = Program::new();
     let options = "trade rings:1 --resolution 24x16 --samples 4 --rounds 1";

@@ -100,7 +100,8 @@ pub struct MeasureArgs {
 /// with exit code 1. Else all parameters of both, with the second relative to the first.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope compare balls --a method=midpoint --b method=sah-cut\n\
-    bspscope compare rings --a method=sah-cut --b method=sah-cut,gap-fraction=0.05 --format json"))]
+    bspscope compare rings --a method=sah-cut --b method=sah-cut,gap-fraction=0.05 --format json\n\
+    bspscope compare balls --a method=midpoint --b method=sah --per-kind"))]
 pub struct CompareArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
@@ -111,6 +112,10 @@ pub struct CompareArgs {
     /// The second tree, likewise
     #[arg(long, value_name = "SETTINGS", help_heading = "Tree")]
     pub b: BuildSettings,
+    /// Tell what rays did kind by kind, too: primary, shadow, reflected and refracted ones, all
+    /// together, a ray on average, and the ray with the most
+    #[arg(long, help_heading = "Output")]
+    pub per_kind: bool,
     #[command(flatten)]
     pub trace: TraceArgs,
     #[command(flatten)]

@@ -341,7 +341,7 @@ impl eframe::App for App {
         }
         self.state.send();
         self.panes.picture.heat.make_way(&self.state);
-        self.state.trading.make_way(self.state.work.is_none());
+        self.state.make_way();
         if !self.lessons.is_on() {
             self.keep_layout(&ctx);
         }

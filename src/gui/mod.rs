@@ -5,8 +5,9 @@
 //! actions, which keys, help and the command [`palette`] share. [`panels`] are one file and one line
 //! each; the panes are [`picture_pane`], [`view3d`] and [`tree_panes`], which share what [`inspect`]
 //! knows of the tree. [`comparing`] is what two trees side by side need; [`build_bar`] goes through
-//! the build of a tree; [`trading`] takes what accuracy costs in the background; [`lessons`]
-//! guides through it all.
+//! the build of a tree. Long measurements take [`turns`] in the background: [`trading`] what accuracy
+//! costs, [`modelling`] what the terms of equation (1) take, [`sweeping`] a grid of settings.
+//! [`lessons`] guides through it all.
 
 mod app;
 mod background;
@@ -23,11 +24,13 @@ mod judging;
 mod kept;
 mod layout;
 mod lessons;
+mod modelling;
 mod palette;
 mod panels;
 mod picture_marks;
 mod picture_pane;
 mod picture_pass;
+mod picture_region;
 mod recent;
 mod rows;
 mod scale_bar;
@@ -40,6 +43,7 @@ mod symbol;
 mod top_bar;
 mod trading;
 mod tree_panes;
+mod turns;
 mod view3d;
 mod visits;
 mod walk;

@@ -12,10 +12,11 @@ pub enum Scope {
     Leaves,
     Cost,
     Trade,
+    Time,
 }
 
 impl Scope {
-    pub const ALL: [Scope; 7] = [
+    pub const ALL: [Scope; 8] = [
         Scope::Window,
         Scope::Picture,
         Scope::View3d,
@@ -23,6 +24,7 @@ impl Scope {
         Scope::Leaves,
         Scope::Cost,
         Scope::Trade,
+        Scope::Time,
     ];
 
     pub const fn title(self) -> &'static str {
@@ -34,6 +36,7 @@ impl Scope {
             Scope::Leaves => "Pointer over the leaf histograms",
             Scope::Cost => "Pointer over the split cost",
             Scope::Trade => "Pointer over the trade",
+            Scope::Time => "Pointer over the time by term",
         }
     }
 }
@@ -147,6 +150,10 @@ pub enum Action {
     PreviousOutcome,
     NextError,
     ErrorMap,
+    MeasureTimes,
+    NextExtent,
+    NextTimes,
+    ClearRegion,
     FoldLegend,
     /// Done with the mouse; listed for the help window alone.
     Mouse,
@@ -232,6 +239,8 @@ shortcuts! {
     Picture PickRight NONE [ArrowRight] "Right" "Pick the pixel to the right";
     Picture PickUp NONE [ArrowUp] "Up" "Pick the pixel above";
     Picture PickDown NONE [ArrowDown] "Down" "Pick the pixel below";
+    Picture Mouse NONE [] "Shift+drag" "Mark a region, whose time by term the pane Time shows";
+    Picture ClearRegion SHIFT [Delete] "Shift+Delete" "Mark no region";
     Picture Unpick NONE [Delete] "Delete" "Pick no pixel";
     Picture OutlineSelection NONE [S] "S" "Outline the selected cell and object in the picture, or not";
     Picture PreviousHeatmap SHIFT [H] "Shift+H" "Show the heatmap before";
@@ -297,6 +306,9 @@ shortcuts! {
     Trade NextOutcome NONE [ArrowDown] "Down" "Load the settings of the next outcome";
     Trade NextError NONE [E] "E" "Another measure of the error";
     Trade ErrorMap NONE [M] "M" "Beside the plot the table of outcomes, or the chosen one's error of every pixel";
+    Time MeasureTimes NONE [Enter] "Enter" "Measure what nodes and tests take; Esc ends it";
+    Time NextExtent NONE [W] "W" "Time of the whole picture, the marked region or the picked pixel";
+    Time NextTimes NONE [C] "C" "Times of the terms by regression or in place";
 }
 
 /// Flying and flipping go on while a key is held; all else happens once.

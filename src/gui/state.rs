@@ -7,6 +7,7 @@ use super::StartOptions;
 use super::comparing::{Comparing, Verdict, Which};
 use super::inspect::Inspect;
 use super::judging::Judging;
+use super::modelling::Modelling;
 use super::panels::paper::Experiment;
 use super::selection::Selection;
 use super::trading::Trading;
@@ -55,6 +56,8 @@ pub struct State {
     pub experiment: Experiment,
     /// What accuracy costs.
     pub trading: Trading,
+    /// What the terms of equation (1) take.
+    pub modelling: Modelling,
 }
 
 /// The tree of a comparison that is not in front.
@@ -195,6 +198,7 @@ impl State {
             judging: Judging::default(),
             experiment: Experiment::default(),
             trading: Trading::default(),
+            modelling: Modelling::default(),
         }
     }
 
@@ -356,7 +360,25 @@ impl State {
             self.stopped = true;
         }
         self.inspect.visits.cancel();
-        self.trading.cancel();
+        self.trading.turns.cancel();
+        self.modelling.turns.cancel();
+    }
+
+    /// Which long measurement is on its way, in words: nothing else may take times meanwhile.
+    pub fn measuring(&self) -> Option<&'static str> {
+        [
+            (self.trading.turns.is_running(), "the trade"),
+            (self.modelling.turns.is_running(), "the time model"),
+        ]
+        .into_iter()
+        .find_map(|(runs, name)| runs.then_some(name))
+    }
+
+    /// Lets long measurements go on, one at a time, while the worker rests.
+    pub fn make_way(&self) {
+        let rests = self.work.is_none();
+        let rests = self.trading.turns.make_way(rests);
+        self.modelling.turns.make_way(rests);
     }
 
     /// Whether what is shown was made with other settings than the widgets say.
