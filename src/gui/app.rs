@@ -209,6 +209,8 @@ impl App {
             .size_range(widths)
             .show_collapsible(ui, &mut bar.shown, |ui| {
                 if hidden {
+                    // The bar keeps its width.
+                    ui.set_width(ui.available_width());
                     ui.weak(HIDDEN);
                 } else {
                     panels::show(ui, side, state, unfolded);

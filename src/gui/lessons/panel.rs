@@ -120,7 +120,9 @@ fn step(
                 return;
             };
             ui.separator();
+            ui.add_space(4.0);
             ui.add(egui::Label::new(RichText::new(&question.ask).strong()).wrap());
+            ui.add_space(4.0);
             if running.asks() {
                 ask(running, &question, ui, &mut asked);
             } else if let Some(verdict) = &running.now().verdict {
@@ -197,6 +199,7 @@ fn ask(running: &mut Running, question: &Question, ui: &mut egui::Ui, asked: &mu
         running.now().figures.is_some(),
         running.prediction().is_some(),
     );
+    ui.add_space(4.0);
     let reveal = ui.add_enabled(ready && predicted, egui::Button::new("Reveal"));
     let about = match (predicted, ready) {
         (false, _) => "Make your prediction first.",
@@ -250,9 +253,6 @@ fn way(running: &Running, ui: &mut egui::Ui, asked: &mut Option<Asked>) {
             .clicked()
         {
             *asked = Some(Asked::Next);
-        }
-        if running.asks() {
-            ui.weak("Figures are hidden until your prediction.");
         }
     });
     ui.add_space(4.0);
