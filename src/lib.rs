@@ -69,6 +69,7 @@
 #![allow(rustdoc::private_intra_doc_links)]
 
 pub mod cli;
+pub mod files;
 pub mod geometry;
 #[cfg(feature = "gui")]
 pub mod gui;
@@ -82,3 +83,4 @@ pub mod scene;
 pub mod trace;
 pub mod tree;
 pub mod worker;
+pub mod workspace;

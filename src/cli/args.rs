@@ -1,6 +1,6 @@
 //! The arguments as they are typed; [`super::resolve`] makes settings of them.
 
-use crate::geometry::Axis;
+use crate::geometry::{Axis, Vec3};
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, heatmap};
 use crate::measure::model::Equation;
 use crate::measure::paper::{self, PaperScene};
@@ -634,6 +634,26 @@ pub struct TraceArgs {
     /// Threads; 0 takes as many as the machine has cores
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub threads: usize,
+    #[command(flatten)]
+    pub camera: CameraArgs,
+}
+
+/// A camera in place of the scene's own; what is not given stays the scene's.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Camera")]
+pub struct CameraArgs {
+    /// The eye, in place of the scene's
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    pub from: Option<Vec3>,
+    /// The point that is looked at, in place of the scene's
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    pub at: Option<Vec3>,
+    /// Up, in place of the scene's
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    pub up: Option<Vec3>,
+    /// The full vertical angle of view, in place of the scene's
+    #[arg(long, value_name = "DEGREES")]
+    pub angle: Option<f64>,
 }
 
 #[derive(Debug, Args)]
@@ -782,6 +802,14 @@ fn share(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a number from 0 to 1".into())
 }
 
+fn point(text: &str) -> Result<Vec3, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, z]) => Ok(Vec3::new(x, y, z)),
+        _ => Err("expected three numbers, such as 0,-4,1.5".into()),
+    }
+}
+
 fn pixel(text: &str) -> Result<[i64; 2], String> {
     text.split_once(',')
         .and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]))
@@ -858,5 +886,79 @@ mod tests {
         let mut render = crate::cli::resolve::render(camera, &args.trace, &args.picture);
         render.threads = 0;
         assert_eq!(render, crate::trace::RenderSettings::for_camera(camera));
+    }
+
+    #[test]
+    fn a_copied_command_measures_with_the_same_settings() {
+        use crate::cli::resolve;
+        use crate::scene::{Camera, SceneSource};
+        use crate::trace::RenderSettings;
+        use crate::workspace::{PictureSettings, TreeSettings, measure_command};
+
+        let scene_camera = crate::scene::builtin::generate("teaching", None)
+            .unwrap()
+            .camera;
+        let plain = TreeSettings {
+            cylinders: Cylinders::Exact,
+            build: BuildSettings::default(),
+            picture: PictureSettings::of(&RenderSettings::for_camera(scene_camera)),
+        };
+        let mut other = plain.clone();
+        other.cylinders = Cylinders::Polygons(10);
+        other.build = BuildSettings::for_method(Method::named("sah-cut").unwrap());
+        other.build.d_max = MaxDepth::Automatic;
+        other.build.n_oilf = 3;
+        other.build.root_margin = 1.0 / 3.0;
+        other.build.first_axis = Axis::Z;
+        other
+            .build
+            .constants
+            .insert("gap-fraction".into(), 0.1 + 0.2);
+        other.build.memory_limit = 123 << 20;
+        let picture = &mut other.picture;
+        picture.resolution = [640, 360];
+        (picture.d_arec, picture.cut_off, picture.threads) = (0, 0.01, 7);
+        picture.sampling = Sampling::Corner;
+        let moved = Camera {
+            from: Vec3::new(-1.0 / 3.0, -2e-9, 3e20),
+            at: Vec3::new(-0.5, 0.0, 7.0),
+            up: Vec3::new(0.0, -1.0, 0.0),
+            angle: 12.3,
+            ..scene_camera
+        };
+        let mut all = vec![plain.clone(), other];
+        let with = |change: &dyn Fn(&mut TreeSettings)| {
+            let mut settings = plain.clone();
+            change(&mut settings);
+            settings
+        };
+        all.extend(Method::all().map(|m| with(&|s| s.build = BuildSettings::for_method(m))));
+        all.extend(OverlapRule::ALL.map(|rule| with(&|s| s.build.overlap = rule)));
+        all.extend(PrecisionChoice::ALL.map(|p| with(&|s| s.picture.precision = p)));
+        all.extend(KernelChoice::ALL.map(|kernel| with(&|s| s.picture.kernel = kernel)));
+        let sources = [
+            SceneSource::parse("balls:3"),
+            SceneSource::File("/not/there/it's -- a \"scene\" $HOME.nff".into()),
+        ];
+        for settings in &all {
+            for (source, camera) in sources.iter().zip([None, Some(moved)]) {
+                let line = measure_command(source, camera.as_ref(), settings);
+                let words = shell_words::split(&line).unwrap();
+                let Some(Command::Measure(args)) = Arguments::parse_from(words).command else {
+                    panic!("not a measurement: {line}");
+                };
+                assert_eq!(SceneSource::parse(&args.scene.scene), *source, "{line}");
+                assert_eq!(args.scene.cylinders.cylinders, settings.cylinders, "{line}");
+                let builds = resolve::builds(&args.methods.method, &args.build).unwrap();
+                assert_eq!(builds, std::slice::from_ref(&settings.build), "{line}");
+                let mut render = resolve::render(scene_camera, &args.trace, &args.picture);
+                render.threads = args.trace.threads;
+                let expected = settings.picture.with(camera.unwrap_or(scene_camera));
+                assert_eq!(render, expected, "{line}");
+            }
+        }
+        let line = measure_command(&sources[0], None, &plain);
+        let expected = "bspscope measure balls:3 --method midpoint --resolution 512x512 --d-arec 4";
+        assert_eq!(line, expected);
     }
 }

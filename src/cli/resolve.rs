@@ -1,6 +1,6 @@
 //! What the arguments come to: a scene, settings, a writer.
 
-use super::args::{BuildArgs, CylinderArgs, PictureArgs, TraceArgs};
+use super::args::{BuildArgs, CameraArgs, CylinderArgs, PictureArgs, TraceArgs};
 use super::bar;
 use crate::report::Writer;
 use crate::scene::format::{FORMATS, FormatError};
@@ -82,8 +82,19 @@ pub fn builds(methods: &[Method], args: &BuildArgs) -> Result<Vec<BuildSettings>
     Ok(builds)
 }
 
-/// Render settings for a camera, with the number of threads that is really used.
-pub fn render(camera: Camera, trace: &TraceArgs, picture: &PictureArgs) -> RenderSettings {
+/// The scene's camera, but for what was asked for.
+fn camera(scene: Camera, asked: &CameraArgs) -> Camera {
+    Camera {
+        from: asked.from.unwrap_or(scene.from),
+        at: asked.at.unwrap_or(scene.at),
+        up: asked.up.unwrap_or(scene.up),
+        angle: asked.angle.unwrap_or(scene.angle),
+        ..scene
+    }
+}
+
+/// Render settings for the scene's camera, or the one asked for, with the number of threads that is really used.
+pub fn render(scene: Camera, trace: &TraceArgs, picture: &PictureArgs) -> RenderSettings {
     let [width, height] = picture.resolution;
     RenderSettings {
         width,
@@ -97,7 +108,7 @@ pub fn render(camera: Camera, trace: &TraceArgs, picture: &PictureArgs) -> Rende
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             threads => threads,
         },
-        ..RenderSettings::for_camera(camera)
+        ..RenderSettings::for_camera(camera(scene, &trace.camera))
     }
 }
 

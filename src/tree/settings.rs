@@ -82,8 +82,7 @@ impl<'de> Deserialize<'de> for Method {
 }
 
 /// The greatest depth allowed, `D_MAX`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaxDepth {
     Fixed(u32),
     /// 1.2 · log₂ `N_O` + 2, rounded to the nearest integer (V. Havran, "Heuristic ray shooting
@@ -128,6 +127,32 @@ impl std::fmt::Display for MaxDepth {
             MaxDepth::Fixed(depth) => write!(f, "{depth}"),
             MaxDepth::Automatic => f.write_str("auto"),
         }
+    }
+}
+
+/// A number, or `"auto"`.
+impl Serialize for MaxDepth {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            MaxDepth::Fixed(depth) => serializer.serialize_u32(*depth),
+            MaxDepth::Automatic => serializer.collect_str(self),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for MaxDepth {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Written {
+            Number(i64),
+            Text(String),
+        }
+        let text = match Written::deserialize(deserializer)? {
+            Written::Number(number) => number.to_string(),
+            Written::Text(text) => text,
+        };
+        text.parse().map_err(serde::de::Error::custom)
     }
 }
 
