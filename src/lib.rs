@@ -16,9 +16,9 @@
 //! | [`scene`] | objects, materials, lights, camera; what the scene requires | |
 //! | [`scene::format`] | readers and writers of files: NFF, OBJ, PLY, glTF, STL; the load report | a line in [`scene::format::FORMATS`] |
 //! | [`scene::builtin`] | generated scenes | a line in [`scene::builtin::BUILTINS`] |
-//! | [`tree`] | 8-byte nodes, the one build driver, moments of the build, validation | |
+//! | [`tree`] | 8-byte nodes, the one build driver, voxels of grids, moments of the build, validation | |
 //! | [`tree::split`] | where a method splits a cell | a line in [`tree::split::SPLIT_RULES`] |
-//! | [`trace`] | traversal in two precisions, timed and counting kernels, plain or in lanes of vectors, shading, passes over a picture, visits of nodes | |
+//! | [`trace`] | traversal of trees and grids in two precisions, timed and counting kernels, plain or in lanes of vectors, shading, passes over a picture, visits of nodes | |
 //! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ, figures of each kind of ray; trees against testing every object | an entry of [`measure::PARAMETERS`] or [`measure::RAY_FIGURES`] |
 //! | [`measure::model`] | the time model of equation (1): by regression and in place | |
 //! | [`measure::sweep`] | the parameters over a grid of settings: rows, shards, charts | |

@@ -474,6 +474,24 @@ fn methods_lists_every_method_and_setting() {
 }
 
 #[test]
+fn a_grid_shows_no_value_where_a_parameter_does_not_apply() {
+    let program = Program::new();
+    let text =
+        program.done("compare balls:1 --a method=midpoint --b method=grid --resolution 20x20");
+    for symbol in ["D_MAX", "N_OILF", "D_REACH", "N_IN", "N_INODES"] {
+        let row = text
+            .lines()
+            .find(|line| line.trim_start().starts_with(&format!("{symbol} ")));
+        let row: Vec<_> = row.unwrap().split_whitespace().collect();
+        assert!(row.contains(&"–"), "{row:?}");
+    }
+    assert!(
+        text.contains("grid: D_MAX and N_OILF do not apply"),
+        "{text}"
+    );
+}
+
+#[test]
 fn verify_checks_every_kind_of_ray() {
     let program = Program::new();
     let text = program.done("verify teaching --rays 1000");
