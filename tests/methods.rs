@@ -378,7 +378,7 @@ fn octree_and_grid_have_all_of_delta_and_lambda_and_may_be_compared() {
             let value = |m| (parameter(symbol).value)(m);
             let values = [value(sides[0].0), value(sides[1].0)];
             assert!(values[1].is_some(), "{symbol} of {method}");
-            assert!(change(parameter(symbol), values[0], values[1]).is_some());
+            assert!(change(parameter(symbol).unit, values[0], values[1]).is_some());
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::measure::{PARAMETERS, Parameter, parameter};
 use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
 use crate::scene::builtin::BUILTINS;
+use crate::scene::format::FORMATS;
 use crate::scene::{Cylinders, Sampling};
 use crate::trace::{KernelChoice, PrecisionChoice};
 use crate::tree::{BuildSettings, MaxDepth, Method, OverlapRule};
@@ -51,12 +52,16 @@ pub enum Command {
     Verify(VerifyArgs),
     Stability(StabilityArgs),
     Trade(TradeArgs),
+    Lesson(LessonArgs),
 }
 
 #[derive(Debug, Args)]
 pub struct WindowArgs {
     /// Scene to open: a file, or a generator with an optional size (NAME or NAME:SIZE)
     pub scene: Option<String>,
+    /// Open with a lesson: its name (see 'bspscope lesson list'), or a file
+    #[arg(long, value_name = "LESSON")]
+    pub lesson: Option<String>,
     #[command(flatten)]
     pub cylinders: CylinderArgs,
     #[command(flatten)]
@@ -103,10 +108,10 @@ pub struct CompareArgs {
     pub scene: SceneArgs,
     /// The first tree: method=NAME, and any of d-max, n-oilf, overlap, root-margin, first-axis and
     /// the method's own settings, separated by commas
-    #[arg(long, value_name = "SETTINGS", value_parser = tree_settings, help_heading = "Tree")]
+    #[arg(long, value_name = "SETTINGS", help_heading = "Tree")]
     pub a: BuildSettings,
     /// The second tree, likewise
-    #[arg(long, value_name = "SETTINGS", value_parser = tree_settings, help_heading = "Tree")]
+    #[arg(long, value_name = "SETTINGS", help_heading = "Tree")]
     pub b: BuildSettings,
     /// Tell what rays did kind by kind, too: primary, shadow, reflected and refracted ones, all
     /// together, a ray on average, and the ray with the most
@@ -367,10 +372,11 @@ pub struct ProbeArgs {
     pub output: Option<PathBuf>,
 }
 
-/// Write a scene, generated or read, as a scene file
+/// Write a scene, generated or read, as a scene file (NFF)
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope generate balls:4 -o balls.nff\n\
-    bspscope generate rings --cylinders polygons:10 > rings.nff"))]
+    bspscope generate rings --cylinders polygons:10 > rings.nff\n\
+    bspscope generate model.glb -o model.nff"))]
 pub struct GenerateArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
@@ -499,6 +505,40 @@ pub enum TradeFormat {
     Csv,
 }
 
+/// List, check and print the lessons: guided tours that ask for a prediction, then tell
+///
+/// They are taken in the window; Ctrl+J there lists them.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  bspscope lesson list\n  bspscope lesson check\n  \
+    bspscope lesson check mine.md\n  bspscope lesson show one-ray"
+)]
+pub struct LessonArgs {
+    #[command(subcommand)]
+    pub command: LessonCommand,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum LessonCommand {
+    /// List the lessons that come with the program
+    List,
+    /// Measure what lessons look at, and check that what they say holds
+    ///
+    /// Everything expected is a count, the same on every machine. What does not hold is told with
+    /// file, line and reason, with exit code 1; a file that is no lesson has exit code 2.
+    Check {
+        /// Names of lessons, or files [default: all that come with the program]
+        #[arg(value_name = "LESSON")]
+        lessons: Vec<String>,
+    },
+    /// Print a lesson with its figures and answers as they are on this machine, in Markdown
+    Show {
+        /// Name of a lesson, or a file
+        #[arg(value_name = "LESSON")]
+        lesson: String,
+    },
+}
+
 #[derive(Debug, Args)]
 pub struct SceneArgs {
     /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
@@ -625,7 +665,7 @@ pub struct PictureArgs {
     pub resolution: [u32; 2],
 }
 
-/// Examples, and the scenes that can be generated.
+/// Examples, the scenes that can be generated, and the files that can be read.
 fn help(examples: &str) -> String {
     let mut text = "Examples:".to_owned();
     for example in examples.lines() {
@@ -642,6 +682,11 @@ fn help(examples: &str) -> String {
             builtin.default_size,
             builtin.about
         );
+    }
+    text += "\n\nScene files, told by their content where the extension does not fit:";
+    for format in FORMATS {
+        let extensions = format.extensions.join(", .");
+        text += &format!("\n  .{extensions}\n      {}", format.about);
     }
     text
 }
@@ -805,43 +850,6 @@ fn constant(text: &str) -> Result<(String, f64), String> {
     text.split_once('=')
         .and_then(|(name, value)| Some((name.to_owned(), value.parse().ok()?)))
         .ok_or_else(|| "expected NAME=VALUE with a number, such as gap-fraction=0.05".into())
-}
-
-/// The settings of a tree, such as `method=sah-cut,d-max=16,gap-fraction=0.1`.
-fn tree_settings(text: &str) -> Result<BuildSettings, String> {
-    let pairs: Vec<(&str, &str)> = text
-        .split(',')
-        .map(|pair| {
-            pair.split_once('=')
-                .map(|(name, value)| (name.trim(), value.trim()))
-                .ok_or_else(|| format!("expected NAME=VALUE, found '{pair}'"))
-        })
-        .collect::<Result<_, _>>()?;
-    let method = pairs.iter().find(|(name, _)| *name == "method");
-    let (_, method) = method.ok_or("expected method=NAME among the settings")?;
-    let mut settings = BuildSettings::for_method(in_words(method.parse())?);
-    for (name, value) in pairs {
-        match name {
-            "method" => {}
-            "d-max" => settings.d_max = in_words(value.parse())?,
-            "n-oilf" => settings.n_oilf = in_words(value.parse())?,
-            "overlap" => settings.overlap = in_words(value.parse())?,
-            "root-margin" => settings.root_margin = in_words(value.parse())?,
-            "first-axis" => settings.first_axis = in_words(value.parse())?,
-            _ => {
-                let number = value
-                    .parse()
-                    .map_err(|_| format!("{name}: expected a number, found '{value}'"))?;
-                settings.constants.insert(name.to_owned(), number);
-            }
-        }
-    }
-    in_words(settings.check())?;
-    Ok(settings)
-}
-
-fn in_words<T, E: ToString>(result: Result<T, E>) -> Result<T, String> {
-    result.map_err(|error| error.to_string())
 }
 
 #[cfg(test)]

@@ -38,6 +38,8 @@ fn open(args: &WindowArgs) -> Result<Option<String>> {
         source: SceneSource::parse(scene_text(args)),
         cylinders: args.cylinders.cylinders,
     };
+    let lesson = args.lesson.as_deref().map(crate::lesson::Lesson::open);
+    start.lesson = lesson.transpose()?;
     match crate::gui::run(start) {
         Ok(()) => Ok(None),
         Err(GuiError::NoDisplay(why)) => Ok(Some(format!("no display ({why})"))),

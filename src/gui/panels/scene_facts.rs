@@ -54,6 +54,10 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
 
 /// What the reader found, left out, changed and made up.
 fn load_report(ui: &mut egui::Ui, notes: &[Note]) {
+    if notes.iter().any(|note| note.kind == NoteKind::Read) {
+        ui.add_space(4.0);
+        ui.strong("Load report");
+    }
     for kind in NoteKind::ALL {
         let of_kind = notes.iter().filter(|note| note.kind == kind);
         let texts: Vec<_> = of_kind.map(|note| note.text.clone()).collect();
