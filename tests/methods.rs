@@ -254,8 +254,8 @@ fn a_grid_is_equal_voxels_as_many_as_its_density_asks() {
         let mut found = 0;
         for (cell, stop, count) in leaves(&tree) {
             found += 1;
-            for k in 0..3 {
-                assert!((cell.bounds.size()[k] / size[k] - 1.0).abs() < 1e-4);
+            for (found, size) in cell.bounds.size().to_array().into_iter().zip(size) {
+                assert!((found / size - 1.0).abs() < 1e-4);
             }
             let expected = if count == 0 {
                 StopReason::Empty
