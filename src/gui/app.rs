@@ -1,8 +1,10 @@
 //! Puts the window together: bars, panels and panes, and what the window's own keys do.
 
+use super::exporting::{Export, Exports, Shown};
 use super::files::Files;
 use super::kept::KeptFile;
 use super::layout::{self, Layout, Pane};
+use super::notices::Notices;
 use super::palette::{Command, Palette};
 use super::panels::{self, Side};
 use super::picture_pane::PicturePane;
@@ -13,9 +15,12 @@ use super::status::StatusLine;
 use super::tree_panes::TreePanes;
 use super::view3d::View3d;
 use super::walk::Go;
-use super::{StartOptions, build_bar, help, top_bar, walk_bar};
+use super::workspaces::Workspaces;
+use super::{StartOptions, build_bar, help, keep, top_bar, walk_bar};
 use crate::overlay::COLORINGS;
+use crate::scene::SceneSource;
 use crate::tree::{BuildSettings, MaxDepth, Method};
+use crate::workspace::{Arrangement, Workspace};
 
 /// The window.
 pub struct App {
@@ -31,6 +36,7 @@ pub struct App {
     status: StatusLine,
     help_open: bool,
     palette: Palette,
+    exports: Exports,
 }
 
 struct Panes {
@@ -43,6 +49,8 @@ impl App {
     /// Makes the window's contents and asks for the first scene.
     pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Self {
         let recent = Recent::kept(KeptFile::new(&start, "recent.json"));
+        let mut notices = Notices::default();
+        let (workspaces, workspace) = Workspaces::new(&start, &cc.egui_ctx, &mut notices);
         let layout_file = KeptFile::new(&start, layout::FILE);
         let layout: Option<Layout> = layout_file.read();
         if let Some(dark) = layout.as_ref().and_then(|layout| layout.dark) {
@@ -53,9 +61,9 @@ impl App {
         let largest = cc.egui_ctx.input(|i| i.max_texture_side) as u32;
         start.render.width = start.render.width.min(largest);
         start.render.height = start.render.height.min(largest);
-        App {
+        let mut app = App {
             state: State::new(&start, &cc.egui_ctx),
-            files: Files::new(recent),
+            files: Files::new(recent, workspaces),
             panes: Panes {
                 picture: PicturePane::default(),
                 view3d: View3d::new(cc.wgpu_render_state.as_ref(), start.render.camera),
@@ -68,6 +76,39 @@ impl App {
             status: StatusLine::default(),
             help_open: false,
             palette: Palette::default(),
+            exports: Exports::default(),
+        };
+        app.state.notices = notices;
+        if let Some(workspace) = workspace {
+            app.restore(&workspace, &cc.egui_ctx);
+        }
+        app
+    }
+
+    /// All that is shown, as a workspace.
+    fn workspace(&self) -> Workspace {
+        let mut workspace = self.state.workspace();
+        workspace.view.heatmap = self.panes.picture.heat.kept();
+        workspace.view.view3d = self.panes.view3d.kept();
+        workspace.layout = serde_json::to_value(&self.layout).ok();
+        workspace
+    }
+
+    /// Shows what a workspace says. A layout that is not known leaves panes and bars as they are.
+    fn restore(&mut self, workspace: &Workspace, ctx: &egui::Context) {
+        let largest = ctx.input(|i| i.max_texture_side) as u32;
+        self.state.restore(workspace, largest);
+        let view = &workspace.view;
+        let differences = workspace.b.is_some() && view.arrangement == Arrangement::Difference;
+        self.panes.picture.heat.restore(&view.heatmap, differences);
+        self.panes.view3d.restore(&view.view3d);
+        let layout = workspace.layout.clone();
+        if let Some(layout) = layout.and_then(|value| serde_json::from_value(value).ok()) {
+            self.layout = layout;
+            self.layout_is_new = false;
+            if let Some(dark) = self.layout.dark {
+                top_bar::set_theme(ctx, dark);
+            }
         }
     }
 
@@ -79,11 +120,25 @@ impl App {
             Action::Help => self.help_open ^= true,
             Action::Palette => self.palette.toggle(self.files.recent.sources()),
             Action::Open => self.files.open_dialog(ctx),
+            Action::SaveWorkspace => {
+                let workspace = self.workspace();
+                self.files.workspaces.save(workspace, ctx);
+            }
+            Action::SaveWorkspaceAs => {
+                let workspace = self.workspace();
+                self.files.workspaces.ask(&workspace);
+            }
+            Action::CopyCommand => {
+                let command = keep::command(state);
+                state.notices.say(format!("Copied: {command}"));
+                ctx.copy_text(command);
+            }
             Action::Path => self.files.focus_path(),
             Action::Reload => state.reload(),
             Action::Cancel => {
                 let closed = self.palette.close() || std::mem::take(&mut self.help_open);
-                if !closed && state.failure.take().is_none() && !state.inspect.undo() {
+                let message = closed || state.failure.take().is_some() || state.notices.close();
+                if !message && !state.inspect.undo() {
                     state.cancel();
                 }
             }
@@ -138,7 +193,10 @@ impl App {
             Action::PreviousRay => state.next_ray(-1),
             Action::NextRay => state.next_ray(1),
             Action::SceneCamera => state.wanted.own_camera = false,
-            action => build_bar::act(action, state, ctx.input(|i| i.time)),
+            action => match Export::of(action) {
+                Some(export) => self.export(|exports, shown| exports.ask(export, shown, ctx)),
+                None => build_bar::act(action, state, ctx.input(|i| i.time)),
+            },
         }
     }
 
@@ -154,7 +212,7 @@ impl App {
             Command::Method(method) => {
                 top_bar::choose_method(&mut self.state.wanted.build, method);
             }
-            Command::Open(scene) => self.state.open(scene),
+            Command::Open(source) => self.files.open(source, ctx, &mut self.state),
             Command::Heatmap(heatmap) => {
                 self.layout.show(Pane::Picture);
                 self.panes.picture.heat.show(heatmap);
@@ -213,6 +271,34 @@ impl App {
         }
     }
 
+    /// Does something about exports, with what they are made of.
+    fn export(&mut self, act: impl FnOnce(&mut Exports, &mut Shown<'_>)) {
+        let mut shown = Shown {
+            state: &mut self.state,
+            heat: &self.panes.picture.heat,
+            view3d: &self.panes.view3d,
+        };
+        act(&mut self.exports, &mut shown);
+    }
+
+    /// Asks where to save the workspace, while that was asked for.
+    fn save_workspace_as(&mut self, ctx: &egui::Context) {
+        let mut workspaces = std::mem::take(&mut self.files.workspaces);
+        if let Some(path) = workspaces.show(ctx, || self.workspace()) {
+            self.files.recent.add(SceneSource::File(path));
+        }
+        self.files.workspaces = workspaces;
+    }
+
+    /// Keeps what is shown for the next start, once there is something.
+    fn keep_session(&mut self, now: f64, at_once: bool) {
+        if self.state.current.is_some() {
+            let mut workspaces = std::mem::take(&mut self.files.workspaces);
+            workspaces.keep(now, at_once, || self.workspace());
+            self.files.workspaces = workspaces;
+        }
+    }
+
     /// Why something failed, until it is closed; over the panes, so that nothing moves.
     fn message(&mut self, ctx: &egui::Context) {
         let Some(failure) = &self.state.failure else {
@@ -250,6 +336,10 @@ impl eframe::App for App {
             self.files.recent.add(source);
         }
         self.files.receive(ctx, &mut self.state);
+        if let Some((path, workspace)) = self.files.workspaces.receive(&mut self.state, ctx) {
+            self.restore(&workspace, ctx);
+            self.files.recent.add(SceneSource::File(path));
+        }
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
@@ -264,6 +354,7 @@ impl eframe::App for App {
         for action in pressed(&ctx, Scope::Window, true) {
             self.act(action, &ctx);
         }
+        self.state.restore_selection();
         self.state.follow_rays(&ctx);
         self.state
             .judge_rays(self.panes.picture.heat.is_timing(), &ctx);
@@ -289,6 +380,9 @@ impl eframe::App for App {
                 self.layout.tiles.ui(&mut behavior, ui);
             });
         self.message(&ctx);
+        self.state.notices.show(&ctx);
+        self.save_workspace_as(&ctx);
+        self.export(|exports, shown| exports.show(shown, &ctx));
         help::show(&ctx, &mut self.help_open);
         if let Some(command) = self.palette.show(&ctx) {
             self.run(command, &ctx);
@@ -300,10 +394,12 @@ impl eframe::App for App {
         self.panes.picture.heat.make_way(&self.state);
         self.state.trading.make_way(self.state.work.is_none());
         self.keep_layout(&ctx);
+        self.keep_session(ctx.input(|i| i.time), false);
     }
 
     fn on_exit(&mut self) {
         self.layout_file.write(&self.layout);
+        self.keep_session(0.0, true);
     }
 }
 
@@ -315,7 +411,7 @@ fn drop_hint(ctx: &egui::Context) {
     painter.text(
         rect.center(),
         egui::Align2::CENTER_CENTER,
-        "Drop the file to open its scene",
+        "Drop the file to open it",
         egui::FontId::proportional(26.0),
         egui::Color32::WHITE,
     );

@@ -5,7 +5,8 @@
 //! actions, which keys, help and the command [`palette`] share. [`panels`] are one file and one line
 //! each; the panes are [`picture_pane`], [`view3d`] and [`tree_panes`], which share what [`inspect`]
 //! knows of the tree. [`comparing`] is what two trees side by side need; [`build_bar`] goes through
-//! the build of a tree; [`trading`] takes what accuracy costs in the background.
+//! the build of a tree; [`keep`] and [`workspaces`] save what is shown and bring it
+//! back; [`exporting`] writes it for other programs; [`trading`] takes what accuracy costs in the background.
 
 mod app;
 mod background;
@@ -13,13 +14,16 @@ mod build_bar;
 mod build_view;
 mod compare_bar;
 mod comparing;
+mod exporting;
 mod files;
 mod heat;
 mod help;
 mod inspect;
 mod judging;
+mod keep;
 mod kept;
 mod layout;
+mod notices;
 mod palette;
 mod panels;
 mod picture_marks;
@@ -27,6 +31,7 @@ mod picture_pane;
 mod picture_pass;
 mod recent;
 mod rows;
+mod save_as;
 mod scale_bar;
 mod selection;
 mod shortcuts;
@@ -41,6 +46,7 @@ mod view3d;
 mod visits;
 mod walk;
 mod walk_bar;
+mod workspaces;
 
 pub use app::App;
 pub use shortcuts::{Action, SHORTCUTS, Scope, Shortcut};
@@ -49,6 +55,7 @@ use crate::geometry::Vec3;
 use crate::scene::{Camera, SceneRequest};
 use crate::trace::RenderSettings;
 use crate::tree::BuildSettings;
+use crate::workspace::Workspace;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -76,6 +83,10 @@ pub struct StartOptions {
     pub own_camera: bool,
     /// Whether recent scenes and the window's layout are read from and kept in the settings folder.
     pub remember: bool,
+    /// A workspace to open, with its path; it takes the place of scene and settings above.
+    pub workspace: Option<(PathBuf, Workspace)>,
+    /// Whether to go on where the last session ended, if that was kept.
+    pub last_session: bool,
     /// The settings folder; `None` for the one that the system has for the user.
     pub settings_folder: Option<PathBuf>,
 }
@@ -98,6 +109,8 @@ impl Default for StartOptions {
             render: RenderSettings::for_camera(camera),
             own_camera: false,
             remember: true,
+            workspace: None,
+            last_session: false,
             settings_folder: None,
         }
     }

@@ -44,6 +44,15 @@ pub enum Action {
     Help,
     Palette,
     Open,
+    SaveWorkspace,
+    SaveWorkspaceAs,
+    CopyCommand,
+    ExportPicture,
+    ExportHeatmap,
+    ExportView3d,
+    ExportFigures,
+    ExportLeaves,
+    ExportPage,
     Path,
     Reload,
     Cancel,
@@ -89,6 +98,7 @@ pub enum Action {
     PickUp,
     PickDown,
     Unpick,
+    Pin,
     NextView,
     Flip,
     WipeLeft,
@@ -161,12 +171,12 @@ pub struct Shortcut {
 }
 
 macro_rules! shortcuts {
-    ($( $scope:ident $action:ident $modifiers:ident [$($key:ident)*] $text:literal $about:literal; )*) => {
+    ($( $scope:ident $action:ident $modifiers:ident $(+ $more:ident)? [$($key:ident)*] $text:literal $about:literal; )*) => {
         /// Every shortcut.
         pub static SHORTCUTS: &[Shortcut] = &[$( Shortcut {
             action: Action::$action,
             scope: Scope::$scope,
-            modifiers: Modifiers::$modifiers,
+            modifiers: Modifiers::$modifiers$(.plus(Modifiers::$more))?,
             keys: &[$(Key::$key),*],
             text: $text,
             about: $about,
@@ -177,7 +187,16 @@ macro_rules! shortcuts {
 shortcuts! {
     Window Help NONE [Questionmark F1] "? or F1" "Show or hide the list of shortcuts";
     Window Palette COMMAND [K P] "Ctrl+K or Ctrl+P" "Search for a command and do it";
-    Window Open COMMAND [O] "Ctrl+O" "Open a scene file";
+    Window Open COMMAND [O] "Ctrl+O" "Open a scene or a workspace";
+    Window SaveWorkspaceAs COMMAND+SHIFT [S] "Ctrl+Shift+S" "Save the workspace under another name";
+    Window SaveWorkspace COMMAND [S] "Ctrl+S" "Save the workspace: scene, settings, camera, panes, selection, notes";
+    Window CopyCommand COMMAND+SHIFT [C] "Ctrl+Shift+C" "Copy settings and camera as a command";
+    Window ExportPicture ALT [Num1] "Alt+1" "Export the picture: PNG or EXR";
+    Window ExportHeatmap ALT [Num2] "Alt+2" "Export the heatmap: PNG with its legend, or EXR";
+    Window ExportView3d ALT [Num3] "Alt+3" "Export the 3D view: PNG";
+    Window ExportFigures ALT [Num4] "Alt+4" "Export the figures: text, JSON, CSV, Markdown, LaTeX";
+    Window ExportLeaves ALT [Num5] "Alt+5" "Export the leaf boxes shown: OBJ or PLY";
+    Window ExportPage ALT [Num6] "Alt+6" "Export a report: one HTML file";
     Window Path COMMAND [L] "Ctrl+L" "Type a path or a generator's name";
     Window Reload NONE [F5] "F5" "Read the scene's file again";
     Window Cancel NONE [Escape] "Esc" "Close a message, or cancel what is being worked on";
@@ -216,7 +235,7 @@ shortcuts! {
     Window BuildLast ALT [End] "Alt+End" "Last moment of the build: the finished tree";
     Window PlayBuild ALT [P] "Alt+P" "Play the build, or pause it";
     Window BuildByNode ALT [N] "Alt+N" "Go through the build by nodes or by depths";
-    Window Mouse NONE [] "Drop a file" "Open it";
+    Window Mouse NONE [] "Drop a file" "Open it, a scene or a workspace";
     Picture Mouse NONE [] "Click" "Name the object in a pixel and follow its ray";
     Picture Mouse NONE [] "Wheel" "Zoom to the pointer";
     Picture Mouse NONE [] "Right-drag" "Move the picture";
@@ -225,6 +244,7 @@ shortcuts! {
     Picture PickUp NONE [ArrowUp] "Up" "Pick the pixel above";
     Picture PickDown NONE [ArrowDown] "Down" "Pick the pixel below";
     Picture Unpick NONE [Delete] "Delete" "Pick no pixel";
+    Picture Pin NONE [P] "P" "Pin the picked pixel to come back to it, or unpin it";
     Picture OutlineSelection NONE [S] "S" "Outline the selected cell and object in the picture, or not";
     Picture PreviousHeatmap SHIFT [H] "Shift+H" "Show the heatmap before";
     Picture NextHeatmap NONE [H] "H" "Show the next heatmap";
@@ -361,7 +381,10 @@ fn keys(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
             .iter()
             .filter(|s| s.scope == scope)
             .filter(|s| !focused || s.modifiers != Modifiers::NONE)
-            .filter(|s| !typing || matches!(s.action, Action::Open | Action::Palette))
+            .filter(|s| {
+                use Action::{Open, Palette, SaveWorkspace, SaveWorkspaceAs};
+                !typing || matches!(s.action, Open | Palette | SaveWorkspace | SaveWorkspaceAs)
+            })
             .filter(|s| {
                 s.keys.iter().any(|&key| {
                     if is_held(s.action) {

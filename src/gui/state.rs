@@ -7,6 +7,8 @@ use super::StartOptions;
 use super::comparing::{Comparing, Verdict, Which};
 use super::inspect::Inspect;
 use super::judging::Judging;
+use super::keep::Restoring;
+use super::notices::Notices;
 use super::panels::paper::Experiment;
 use super::selection::Selection;
 use super::trading::Trading;
@@ -55,6 +57,14 @@ pub struct State {
     pub experiment: Experiment,
     /// What accuracy costs.
     pub trading: Trading,
+    /// What the user wrote down.
+    pub notes: String,
+    /// Pixels marked to come back to.
+    pub pinned: Vec<[u32; 2]>,
+    /// What is to be selected again, until it is.
+    pub restoring: Option<Restoring>,
+    /// What was done, for a moment.
+    pub notices: Notices,
 }
 
 /// The tree of a comparison that is not in front.
@@ -75,9 +85,9 @@ impl Other {
 
 /// What is wanted of A and, while two trees are compared, of B.
 #[derive(Clone, PartialEq)]
-struct Wanted {
-    a: Request,
-    b: Option<Request>,
+pub(super) struct Wanted {
+    pub(super) a: Request,
+    pub(super) b: Option<Request>,
 }
 
 /// A request that failed.
@@ -195,6 +205,10 @@ impl State {
             judging: Judging::default(),
             experiment: Experiment::default(),
             trading: Trading::default(),
+            notes: String::new(),
+            pinned: Vec::new(),
+            restoring: None,
+            notices: Notices::default(),
         }
     }
 
@@ -221,7 +235,7 @@ impl State {
         }
     }
 
-    fn all_wanted(&self) -> Wanted {
+    pub(super) fn all_wanted(&self) -> Wanted {
         let front = self.wanted.clone();
         match &self.other {
             None => Wanted { a: front, b: None },
@@ -232,7 +246,7 @@ impl State {
         }
     }
 
-    fn want(&mut self, Wanted { a, b }: Wanted) {
+    pub(super) fn want(&mut self, Wanted { a, b }: Wanted) {
         if self.other.is_some() != b.is_some() {
             self.show(Which::A);
             self.compare_or_not();
@@ -424,6 +438,7 @@ impl State {
     fn fail(&mut self, which: Which, why: String) {
         let loading = matches!(self.work, Some((Stage::Loading, _)));
         self.work = None;
+        self.restoring = None;
         if which != self.which {
             let what = format!("Tree {} could not be shown", which.name());
             self.failure = Some(Failure { what, why });
