@@ -11,6 +11,7 @@ use crate::measure::{PARAMETERS, Parameter, parameter};
 use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
 use crate::scene::builtin::BUILTINS;
+use crate::scene::format::FORMATS;
 use crate::scene::{Cylinders, Sampling};
 use crate::trace::{KernelChoice, PrecisionChoice};
 use crate::tree::{BuildSettings, MaxDepth, Method, OverlapRule};
@@ -55,6 +56,7 @@ pub enum Command {
     Verify(VerifyArgs),
     Stability(StabilityArgs),
     Trade(TradeArgs),
+    Lesson(LessonArgs),
 }
 
 /// Open the window; the same as no command
@@ -63,6 +65,9 @@ pub struct WindowArgs {
     /// What to open: a scene file, a generator with an optional size (NAME or NAME:SIZE), or a
     /// workspace (.bspscope) [default: where the last session ended]
     pub scene: Option<String>,
+    /// Open with a lesson: its name (see 'bspscope lesson list'), or a file
+    #[arg(long, value_name = "LESSON")]
+    pub lesson: Option<String>,
     #[command(flatten)]
     pub cylinders: CylinderArgs,
     #[command(flatten)]
@@ -102,17 +107,22 @@ pub struct MeasureArgs {
 /// with exit code 1. Else all parameters of both, with the second relative to the first.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope compare balls --a method=midpoint --b method=sah-cut\n\
-    bspscope compare rings --a method=sah-cut --b method=sah-cut,gap-fraction=0.05 --format json"))]
+    bspscope compare rings --a method=sah-cut --b method=sah-cut,gap-fraction=0.05 --format json\n\
+    bspscope compare balls --a method=midpoint --b method=sah --per-kind"))]
 pub struct CompareArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
     /// The first tree: method=NAME, and any of d-max, n-oilf, overlap, root-margin, first-axis and
     /// the method's own settings, separated by commas
-    #[arg(long, value_name = "SETTINGS", value_parser = tree_settings, help_heading = "Tree")]
+    #[arg(long, value_name = "SETTINGS", help_heading = "Tree")]
     pub a: BuildSettings,
     /// The second tree, likewise
-    #[arg(long, value_name = "SETTINGS", value_parser = tree_settings, help_heading = "Tree")]
+    #[arg(long, value_name = "SETTINGS", help_heading = "Tree")]
     pub b: BuildSettings,
+    /// Tell what rays did kind by kind, too: primary, shadow, reflected and refracted ones, all
+    /// together, a ray on average, and the ray with the most
+    #[arg(long, help_heading = "Output")]
+    pub per_kind: bool,
     #[command(flatten)]
     pub trace: TraceArgs,
     #[command(flatten)]
@@ -428,10 +438,11 @@ pub enum LeavesShown {
     Empty,
 }
 
-/// Write a scene, generated or read, as a scene file
+/// Write a scene, generated or read, as a scene file (NFF)
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope generate balls:4 -o balls.nff\n\
-    bspscope generate rings --cylinders polygons:10 > rings.nff"))]
+    bspscope generate rings --cylinders polygons:10 > rings.nff\n\
+    bspscope generate model.glb -o model.nff"))]
 pub struct GenerateArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
@@ -558,6 +569,40 @@ pub enum TradeFormat {
     Text,
     Json,
     Csv,
+}
+
+/// List, check and print the lessons: guided tours that ask for a prediction, then tell
+///
+/// They are taken in the window; Ctrl+J there lists them.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  bspscope lesson list\n  bspscope lesson check\n  \
+    bspscope lesson check mine.md\n  bspscope lesson show one-ray"
+)]
+pub struct LessonArgs {
+    #[command(subcommand)]
+    pub command: LessonCommand,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum LessonCommand {
+    /// List the lessons that come with the program
+    List,
+    /// Measure what lessons look at, and check that what they say holds
+    ///
+    /// Everything expected is a count, the same on every machine. What does not hold is told with
+    /// file, line and reason, with exit code 1; a file that is no lesson has exit code 2.
+    Check {
+        /// Names of lessons, or files [default: all that come with the program]
+        #[arg(value_name = "LESSON")]
+        lessons: Vec<String>,
+    },
+    /// Print a lesson with its figures and answers as they are on this machine, in Markdown
+    Show {
+        /// Name of a lesson, or a file
+        #[arg(value_name = "LESSON")]
+        lesson: String,
+    },
 }
 
 #[derive(Debug, Args)]
@@ -701,7 +746,7 @@ impl CameraArgs {
     }
 }
 
-/// Examples, and the scenes that can be generated.
+/// Examples, the scenes that can be generated, and the files that can be read.
 fn help(examples: &str) -> String {
     let mut text = "Examples:".to_owned();
     for example in examples.lines() {
@@ -718,6 +763,11 @@ fn help(examples: &str) -> String {
             builtin.default_size,
             builtin.about
         );
+    }
+    text += "\n\nScene files, told by their content where the extension does not fit:";
+    for format in FORMATS {
+        let extensions = format.extensions.join(", .");
+        text += &format!("\n  .{extensions}\n      {}", format.about);
     }
     text
 }
@@ -888,43 +938,6 @@ fn constant(text: &str) -> Result<(String, f64), String> {
         .ok_or_else(|| "expected NAME=VALUE with a number, such as gap-fraction=0.05".into())
 }
 
-/// The settings of a tree, such as `method=sah-cut,d-max=16,gap-fraction=0.1`.
-fn tree_settings(text: &str) -> Result<BuildSettings, String> {
-    let pairs: Vec<(&str, &str)> = text
-        .split(',')
-        .map(|pair| {
-            pair.split_once('=')
-                .map(|(name, value)| (name.trim(), value.trim()))
-                .ok_or_else(|| format!("expected NAME=VALUE, found '{pair}'"))
-        })
-        .collect::<Result<_, _>>()?;
-    let method = pairs.iter().find(|(name, _)| *name == "method");
-    let (_, method) = method.ok_or("expected method=NAME among the settings")?;
-    let mut settings = BuildSettings::for_method(in_words(method.parse())?);
-    for (name, value) in pairs {
-        match name {
-            "method" => {}
-            "d-max" => settings.d_max = in_words(value.parse())?,
-            "n-oilf" => settings.n_oilf = in_words(value.parse())?,
-            "overlap" => settings.overlap = in_words(value.parse())?,
-            "root-margin" => settings.root_margin = in_words(value.parse())?,
-            "first-axis" => settings.first_axis = in_words(value.parse())?,
-            _ => {
-                let number = value
-                    .parse()
-                    .map_err(|_| format!("{name}: expected a number, found '{value}'"))?;
-                settings.constants.insert(name.to_owned(), number);
-            }
-        }
-    }
-    in_words(settings.check())?;
-    Ok(settings)
-}
-
-fn in_words<T, E: ToString>(result: Result<T, E>) -> Result<T, String> {
-    result.map_err(|error| error.to_string())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -1030,7 +1043,7 @@ mod tests {
                 assert_eq!(SceneSource::parse(&args.scene.scene), *source, "{line}");
                 assert_eq!(args.scene.cylinders.cylinders, settings.cylinders, "{line}");
                 let builds = resolve::builds(&args.methods.method, &args.build).unwrap();
-                assert_eq!(builds, [settings.build.clone()], "{line}");
+                assert_eq!(builds, std::slice::from_ref(&settings.build), "{line}");
                 let mut render = resolve::render(scene_camera, &args.trace, &args.picture);
                 render.threads = args.trace.threads;
                 let expected = settings.picture.with(camera.unwrap_or(scene_camera));

@@ -60,6 +60,7 @@ fn workspace(args: &WindowArgs) -> Result<Option<(PathBuf, Workspace)>> {
 fn is_plain(args: &WindowArgs) -> bool {
     let WindowArgs {
         scene: _,
+        lesson: _,
         cylinders,
         methods,
         build,
@@ -94,8 +95,10 @@ fn open(args: &WindowArgs, workspace: Option<(PathBuf, Workspace)>) -> Result<Op
         source: SceneSource::parse(scene_text(args)),
         cylinders: args.cylinders.cylinders,
     };
-    start.last_session = args.scene.is_none() && is_plain(args);
+    start.last_session = args.scene.is_none() && args.lesson.is_none() && is_plain(args);
     start.workspace = workspace;
+    let lesson = args.lesson.as_deref().map(crate::lesson::Lesson::open);
+    start.lesson = lesson.transpose()?;
     match crate::gui::run(start) {
         Ok(()) => Ok(None),
         Err(GuiError::NoDisplay(why)) => Ok(Some(format!("no display ({why})"))),

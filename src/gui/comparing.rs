@@ -18,6 +18,8 @@ pub struct Comparing {
     pub asks_for_pixels: bool,
     /// Whether all parameters are listed, or Δ and Λ alone.
     pub all_parameters: bool,
+    /// Whether what rays did is listed kind by kind, too.
+    pub per_kind: bool,
     verdict: Latest<[u64; 2], Verdict>,
 }
 
@@ -29,6 +31,7 @@ impl Default for Comparing {
             flipped: false,
             asks_for_pixels: false,
             all_parameters: false,
+            per_kind: false,
             verdict: Latest::default(),
         }
     }

@@ -8,7 +8,7 @@ use super::state::State;
 use super::workspaces::Workspaces;
 use crate::scene::SceneSource;
 use crate::scene::builtin::BUILTINS;
-use crate::scene::format::FORMATS;
+use crate::scene::format::{FORMATS, names};
 use crate::workspace::{EXTENSION, Workspace};
 use std::path::PathBuf;
 
@@ -41,13 +41,9 @@ impl Files {
             return;
         }
         self.dialog = Some(Task::start(ctx, || {
-            let all: Vec<_> = FORMATS.iter().flat_map(|f| f.extensions).copied().collect();
-            let mut dialog = rfd::FileDialog::new()
-                .set_title("Open a scene or a workspace")
-                .add_filter("Scenes and workspaces", &[&all[..], &[EXTENSION]].concat())
-                .add_filter("Workspaces", &[EXTENSION]);
-            for format in FORMATS {
-                dialog = dialog.add_filter(format.name.to_uppercase(), format.extensions);
+            let mut dialog = rfd::FileDialog::new().set_title("Open a scene or a workspace");
+            for (name, extensions) in filters() {
+                dialog = dialog.add_filter(name, &extensions);
             }
             dialog.add_filter("All files", &["*"]).pick_file()
         }));
@@ -120,7 +116,10 @@ impl Files {
         .on_hover_text("Scenes and workspaces opened lately");
         if ui
             .add_enabled(self.dialog.is_none(), egui::Button::new("Open…"))
-            .on_hover_text(tip("Open a scene or a workspace.", Action::Open))
+            .on_hover_text(tip(
+                &format!("Open a scene ({}) or a workspace.", names()),
+                Action::Open,
+            ))
             .clicked()
         {
             self.open_dialog(ui.ctx());
@@ -132,8 +131,11 @@ impl Files {
             .desired_width(170.0);
         let field = ui.add(field).accessible_name("Path of a scene");
         let field = field.on_hover_text(tip(
-            "A file's path (scene or workspace), or a generator's name with or without a size, such as balls:3; \
-             then Enter.",
+            &format!(
+                "The path of a scene ({}) or a workspace, or a generator's name with or without a size, such as \
+                 balls:3; then Enter.",
+                names()
+            ),
             Action::Path,
         ));
         if std::mem::take(&mut self.focus_path) {
@@ -214,4 +216,34 @@ fn save_menu(ui: &mut egui::Ui) {
     .on_hover_text(
         "Scene, settings, camera, panes, selection and notes in a file, or as a command",
     );
+}
+
+/// What the dialog can be narrowed to: all scenes and workspaces, workspaces, then each format.
+fn filters() -> Vec<(String, Vec<&'static str>)> {
+    let scenes = FORMATS.iter().flat_map(|f| f.extensions).copied();
+    let all = scenes.chain([EXTENSION]).collect();
+    let workspaces = ("Workspaces".to_owned(), vec![EXTENSION]);
+    let each = FORMATS.iter().map(|format| {
+        let name = format!("{}: {}", format.name.to_uppercase(), format.about);
+        (name, format.extensions.to_vec())
+    });
+    [("Scenes and workspaces".to_owned(), all), workspaces]
+        .into_iter()
+        .chain(each)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_filter_shows_files_of_every_format() {
+        let filters = filters();
+        assert_eq!(filters.len(), FORMATS.len() + 2);
+        for extension in ["nff", "obj", "ply", "gltf", "glb", "stl", EXTENSION] {
+            assert!(filters[0].1.contains(&extension));
+            assert!(filters[1..].iter().any(|(_, e)| e.contains(&extension)));
+        }
+    }
 }

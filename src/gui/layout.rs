@@ -56,6 +56,7 @@ impl Pane {
             Scope::Leaves => Some(Pane::Tree(TreePane::Histograms)),
             Scope::Cost => Some(Pane::Tree(TreePane::Cost)),
             Scope::Trade => Some(Pane::Tree(TreePane::Trade)),
+            Scope::Time => Some(Pane::Tree(TreePane::Time)),
         }
     }
 }

@@ -5,6 +5,7 @@ use super::compare_bar;
 use super::comparing::{View, Which};
 use super::heat::HeatView;
 use super::picture_marks::PictureMarks;
+use super::picture_region;
 use super::shortcuts::{Action, Scope, pressed};
 use super::state::{Current, Fresh, State};
 use crate::trace::{Picture, Tile};
@@ -25,6 +26,8 @@ pub struct PicturePane {
     offset: Vec2,
     /// The pixel under the pointer.
     pub hovered: Option<[u32; 2]>,
+    /// Where a region is being dragged from.
+    region_from: Option<Pos2>,
     pub heat: HeatView,
     marks: PictureMarks,
 }
@@ -198,6 +201,9 @@ impl PicturePane {
         if let (true, Some(current)) = (in_front, &state.current) {
             self.marks.paint(&painter, rect, current, &state.inspect);
         }
+        if let Some(region) = state.modelling.region {
+            picture_region::frame(&painter, rect, picture, region);
+        }
         pins(&painter, rect, picture, &state.pinned);
         if let Some([x, y]) = picked
             && x < picture[0]
@@ -276,7 +282,22 @@ impl PicturePane {
         {
             self.offset += response.drag_delta();
         }
-        let is_wipe = state.other.is_some() && state.comparing.view == View::Wipe;
+        let shift = ui.input(|i| i.modifiers.shift);
+        if response.drag_started_by(egui::PointerButton::Primary) {
+            self.region_from = ui.input(|i| i.pointer.press_origin()).filter(|_| shift);
+        }
+        if let (Some(from), Some(to)) = (self.region_from, response.interact_pointer_pos())
+            && response.dragged_by(egui::PointerButton::Primary)
+        {
+            let parts = self.parts(response.rect, state);
+            if let Some(part) = parts.iter().find(|part| part.clip.contains(from)) {
+                let rect = self.place(part.pane, picture);
+                state.modelling.region = Some(picture_region::between(rect, picture, from, to));
+            }
+        }
+        let is_wipe = self.region_from.is_none()
+            && state.other.is_some()
+            && state.comparing.view == View::Wipe;
         if is_wipe
             && response.dragged_by(egui::PointerButton::Primary)
             && let Some(pointer) = response.interact_pointer_pos()
@@ -317,6 +338,7 @@ impl PicturePane {
                     self.offset = Vec2::ZERO;
                 }
                 Action::Unpick => current.unpick(),
+                Action::ClearRegion => state.modelling.region = None,
                 Action::Pin => state.pin_or_unpin(),
                 Action::PickLeft => step(current, -1, 0),
                 Action::PickRight => step(current, 1, 0),

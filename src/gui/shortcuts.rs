@@ -12,10 +12,11 @@ pub enum Scope {
     Leaves,
     Cost,
     Trade,
+    Time,
 }
 
 impl Scope {
-    pub const ALL: [Scope; 7] = [
+    pub const ALL: [Scope; 8] = [
         Scope::Window,
         Scope::Picture,
         Scope::View3d,
@@ -23,6 +24,7 @@ impl Scope {
         Scope::Leaves,
         Scope::Cost,
         Scope::Trade,
+        Scope::Time,
     ];
 
     pub const fn title(self) -> &'static str {
@@ -34,6 +36,7 @@ impl Scope {
             Scope::Leaves => "Pointer over the leaf histograms",
             Scope::Cost => "Pointer over the split cost",
             Scope::Trade => "Pointer over the trade",
+            Scope::Time => "Pointer over the time by term",
         }
     }
 }
@@ -72,6 +75,10 @@ pub enum Action {
     Compare,
     OtherTree,
     Paper,
+    Lessons,
+    LessonReveal,
+    LessonNext,
+    LessonBack,
     Theme,
     LeftBar,
     RightBar,
@@ -153,6 +160,10 @@ pub enum Action {
     PreviousOutcome,
     NextError,
     ErrorMap,
+    MeasureTimes,
+    NextExtent,
+    NextTimes,
+    ClearRegion,
     FoldLegend,
     /// Done with the mouse; listed for the help window alone.
     Mouse,
@@ -216,6 +227,10 @@ shortcuts! {
     Window Compare COMMAND [E] "Ctrl+E" "Compare with another tree, B, or end that";
     Window OtherTree NONE [J] "J" "Bring the other of two compared trees to the front";
     Window Paper COMMAND [U] "Ctrl+U" "Repeat the paper's experiment, or cancel that";
+    Window Lessons COMMAND [J] "Ctrl+J" "List the lessons, or leave the one that is taken";
+    Window LessonReveal ALT [Enter] "Alt+Enter" "Lesson: show the figures after your prediction";
+    Window LessonNext ALT [PageDown] "Alt+Page down" "Lesson: the next step";
+    Window LessonBack ALT [PageUp] "Alt+Page up" "Lesson: the step before";
     Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
     Window LeftBar COMMAND [B] "Ctrl+B" "Show or hide the bar on the left";
     Window RightBar COMMAND [I] "Ctrl+I" "Show or hide the bar on the right";
@@ -243,6 +258,8 @@ shortcuts! {
     Picture PickRight NONE [ArrowRight] "Right" "Pick the pixel to the right";
     Picture PickUp NONE [ArrowUp] "Up" "Pick the pixel above";
     Picture PickDown NONE [ArrowDown] "Down" "Pick the pixel below";
+    Picture Mouse NONE [] "Shift+drag" "Mark a region, whose time by term the pane Time shows";
+    Picture ClearRegion SHIFT [Delete] "Shift+Delete" "Mark no region";
     Picture Unpick NONE [Delete] "Delete" "Pick no pixel";
     Picture Pin NONE [P] "P" "Pin the picked pixel to come back to it, or unpin it";
     Picture OutlineSelection NONE [S] "S" "Outline the selected cell and object in the picture, or not";
@@ -309,6 +326,9 @@ shortcuts! {
     Trade NextOutcome NONE [ArrowDown] "Down" "Load the settings of the next outcome";
     Trade NextError NONE [E] "E" "Another measure of the error";
     Trade ErrorMap NONE [M] "M" "Beside the plot the table of outcomes, or the chosen one's error of every pixel";
+    Time MeasureTimes NONE [Enter] "Enter" "Measure what nodes and tests take; Esc ends it";
+    Time NextExtent NONE [W] "W" "Time of the whole picture, the marked region or the picked pixel";
+    Time NextTimes NONE [C] "C" "Times of the terms by regression or in place";
 }
 
 /// Flying and flipping go on while a key is held; all else happens once.
@@ -317,6 +337,22 @@ fn is_held(action: Action) -> bool {
     matches!(
         action,
         Flip | FlyForward | FlyBack | FlyLeft | FlyRight | FlyUp | FlyDown
+    )
+}
+
+/// Whether keys do it while text is typed: they are none that edit it.
+fn goes_while_typing(action: Action) -> bool {
+    use Action::{LessonBack, LessonNext, LessonReveal, Lessons, Open, Palette};
+    use Action::{SaveWorkspace, SaveWorkspaceAs};
+    matches!(
+        action,
+        Open | Palette
+            | Lessons
+            | LessonReveal
+            | LessonNext
+            | LessonBack
+            | SaveWorkspace
+            | SaveWorkspaceAs
     )
 }
 
@@ -381,10 +417,7 @@ fn keys(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
             .iter()
             .filter(|s| s.scope == scope)
             .filter(|s| !focused || s.modifiers != Modifiers::NONE)
-            .filter(|s| {
-                use Action::{Open, Palette, SaveWorkspace, SaveWorkspaceAs};
-                !typing || matches!(s.action, Open | Palette | SaveWorkspace | SaveWorkspaceAs)
-            })
+            .filter(|s| !typing || goes_while_typing(s.action))
             .filter(|s| {
                 s.keys.iter().any(|&key| {
                     if is_held(s.action) {

@@ -8,6 +8,7 @@ use super::comparing::{Comparing, Verdict, Which};
 use super::inspect::Inspect;
 use super::judging::Judging;
 use super::keep::Restoring;
+use super::modelling::Modelling;
 use super::notices::Notices;
 use super::panels::paper::Experiment;
 use super::selection::Selection;
@@ -57,6 +58,8 @@ pub struct State {
     pub experiment: Experiment,
     /// What accuracy costs.
     pub trading: Trading,
+    /// What the terms of equation (1) take.
+    pub modelling: Modelling,
     /// What the user wrote down.
     pub notes: String,
     /// Pixels marked to come back to.
@@ -85,9 +88,9 @@ impl Other {
 
 /// What is wanted of A and, while two trees are compared, of B.
 #[derive(Clone, PartialEq)]
-pub(super) struct Wanted {
-    pub(super) a: Request,
-    pub(super) b: Option<Request>,
+pub struct Wanted {
+    pub a: Request,
+    pub b: Option<Request>,
 }
 
 /// A request that failed.
@@ -205,6 +208,7 @@ impl State {
             judging: Judging::default(),
             experiment: Experiment::default(),
             trading: Trading::default(),
+            modelling: Modelling::default(),
             notes: String::new(),
             pinned: Vec::new(),
             restoring: None,
@@ -235,7 +239,8 @@ impl State {
         }
     }
 
-    pub(super) fn all_wanted(&self) -> Wanted {
+    /// What is wanted of both trees.
+    pub fn all_wanted(&self) -> Wanted {
         let front = self.wanted.clone();
         match &self.other {
             None => Wanted { a: front, b: None },
@@ -246,7 +251,8 @@ impl State {
         }
     }
 
-    pub(super) fn want(&mut self, Wanted { a, b }: Wanted) {
+    /// Wants this; begins or ends a comparison where that takes it.
+    pub fn want(&mut self, Wanted { a, b }: Wanted) {
         if self.other.is_some() != b.is_some() {
             self.show(Which::A);
             self.compare_or_not();
@@ -368,7 +374,25 @@ impl State {
             self.stopped = true;
         }
         self.inspect.visits.cancel();
-        self.trading.cancel();
+        self.trading.turns.cancel();
+        self.modelling.turns.cancel();
+    }
+
+    /// Which long measurement is on its way, in words: nothing else may take times meanwhile.
+    pub fn measuring(&self) -> Option<&'static str> {
+        [
+            (self.trading.turns.is_running(), "the trade"),
+            (self.modelling.turns.is_running(), "the time model"),
+        ]
+        .into_iter()
+        .find_map(|(runs, name)| runs.then_some(name))
+    }
+
+    /// Lets long measurements go on, one at a time, while the worker rests.
+    pub fn make_way(&self) {
+        let rests = self.work.is_none();
+        let rests = self.trading.turns.make_way(rests);
+        self.modelling.turns.make_way(rests);
     }
 
     /// Whether what is shown was made with other settings than the widgets say.

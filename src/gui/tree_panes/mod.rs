@@ -1,5 +1,5 @@
 //! The panes about the tree: its outline, histograms of its leaves, its shape, the cost of splitting
-//! the selected node, and what accuracy costs. A pane is one file and one line in [`TreePane::ALL`].
+//! the selected node, what accuracy costs, and where the time goes. A pane is one file and one line in [`TreePane::ALL`].
 
 mod cost;
 mod find_bar;
@@ -7,6 +7,7 @@ mod histograms;
 mod icicle;
 mod outline;
 mod rows;
+mod time;
 mod trade;
 
 use super::state::State;
@@ -19,15 +20,17 @@ pub enum TreePane {
     Icicle,
     Cost,
     Trade,
+    Time,
 }
 
 impl TreePane {
-    pub const ALL: [TreePane; 5] = [
+    pub const ALL: [TreePane; 6] = [
         TreePane::Outline,
         TreePane::Histograms,
         TreePane::Icicle,
         TreePane::Cost,
         TreePane::Trade,
+        TreePane::Time,
     ];
 
     /// What its tab says.
@@ -38,6 +41,7 @@ impl TreePane {
             TreePane::Icicle => "Icicle",
             TreePane::Cost => "Split cost",
             TreePane::Trade => "Trade",
+            TreePane::Time => "Time",
         }
     }
 }
@@ -50,6 +54,7 @@ pub struct TreePanes {
     icicle: icicle::Icicle,
     cost: cost::CostPane,
     trade: trade::TradePane,
+    time: time::TimePane,
 }
 
 impl TreePanes {
@@ -64,6 +69,7 @@ impl TreePanes {
             TreePane::Icicle => self.icicle.ui(ui, state),
             TreePane::Cost => self.cost.ui(ui, state),
             TreePane::Trade => self.trade.ui(ui, state),
+            TreePane::Time => self.time.ui(ui, state),
         }
     }
 }

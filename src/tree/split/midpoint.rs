@@ -1,25 +1,27 @@
-//! The paper's method 1: the middle of the cell, axes in cyclic order.
+//! The paper's method 1: the middle of the cell, axes in cyclic order; or along the longest axis.
 
-use super::{Cell, Decision, MethodInfo, SplitRule};
-use crate::geometry::Axis;
+use super::axis_order::{AxisOrder, LONGEST_AXIS};
+use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "midpoint",
     title: "Midpoint, axes in turn (method 1)",
-    about: "Splits every cell in the middle, with axes in cyclic order x, y, z.",
+    about: "Splits every cell in the middle, with axes in cyclic order x, y, z, or along its longest \
+            axis.",
     source: "A. S. Glassner, Space subdivision for fast ray tracing, 1984; K. Sung and P. Shirley, \
              Ray tracing with the BSP tree, Graphics Gems III, 1992; the paper's method 1",
     paper: Some(1),
     paper_spheres_exactly: true,
-    constants: &[],
-    rule: |settings| Box::new(Midpoint(settings.first_axis)),
+    structure: Structure::Bintree,
+    constants: &[LONGEST_AXIS],
+    rule: |settings| Box::new(Midpoint(AxisOrder::new(settings))),
 };
 
-struct Midpoint(Axis);
+struct Midpoint(AxisOrder);
 
 impl SplitRule for Midpoint {
     fn decide(&self, cell: &Cell<'_>) -> Decision {
-        let axis = Axis::from_index(self.0.index() + cell.depth as usize);
+        let axis = self.0.axis(cell);
         Decision::Split {
             axis,
             plane: cell.midpoint(axis),

@@ -1,8 +1,8 @@
 //! The object median: as many objects below the plane as above it.
 
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule};
-use crate::geometry::Axis;
-use crate::tree::{BuildSettings, StopReason};
+use super::axis_order::{AxisOrder, LONGEST_AXIS};
+use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
+use crate::tree::StopReason;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "object-median",
@@ -12,40 +12,16 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
              K. S. Booth, Heuristics for ray tracing using space subdivision, 1990, section 3",
     paper: None,
     paper_spheres_exactly: false,
-    constants: &[Constant {
-        name: "longest-axis",
-        default: 0.0,
-        lowest: 0.0,
-        highest: 1.0,
-        step: 1.0,
-        unit: "",
-        about: "1 splits the cell's longest axis, 0 takes the axes in cyclic order as method 1.",
-        source: "ours: 0 leaves the plane as the only difference to midpoint",
-    }],
-    rule: |settings| Box::new(ObjectMedian::new(settings)),
+    structure: Structure::Bintree,
+    constants: &[LONGEST_AXIS],
+    rule: |settings| Box::new(ObjectMedian(AxisOrder::new(settings))),
 };
 
-struct ObjectMedian {
-    first_axis: Axis,
-    longest_axis: bool,
-}
-
-impl ObjectMedian {
-    fn new(settings: &BuildSettings) -> Self {
-        ObjectMedian {
-            first_axis: settings.first_axis,
-            longest_axis: settings.constant("longest-axis") > 0.5,
-        }
-    }
-}
+struct ObjectMedian(AxisOrder);
 
 impl SplitRule for ObjectMedian {
     fn decide(&self, cell: &Cell<'_>) -> Decision {
-        let axis = if self.longest_axis {
-            cell.bounds.longest_axis()
-        } else {
-            Axis::from_index(self.first_axis.index() + cell.depth as usize)
-        };
+        let axis = self.0.axis(cell);
         let mut centers: Vec<f64> = cell
             .objects
             .iter()

@@ -191,10 +191,11 @@ fn details(ui: &mut egui::Ui, trade: &Trade, outcome: &Outcome) {
         .psnr
         .map_or("∞".to_owned(), |psnr| format!("{psnr:.1}"));
     ui.label(format!(
-        "RMSE {} · max {} · PSNR {psnr} dB · SSIM {:.5}",
+        "RMSE {} · max {} · PSNR {psnr} dB · SSIM {:.5} · FLIP {}",
         significant(error.rmse),
         significant(error.max),
-        error.ssim
+        error.ssim,
+        significant(error.flip)
     ));
     ui.label(format!(
         "{} % of the pixels hit another object",
