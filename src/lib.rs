@@ -28,8 +28,11 @@
 //! | [`measure::trade`] | what accuracy costs: time and error of every choice | a line in [`measure::trade::KNOBS`] |
 //! | [`measure::heat`] | what every pixel cost | a line in [`measure::heat::HEATMAPS`] |
 //! | [`overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves and rays | a line in [`overlay::COLORINGS`], [`overlay::COLORMAPS`] or [`overlay::HISTOGRAMS`] |
+//! | [`files`] | files written whole or not at all, and their fingerprints | |
 //! | [`lesson`] | guided tours in plain text: what they look at, ask and tell; whether it holds | a line in [`lesson::LESSONS`] |
-//! | [`report`] | text, JSON, CSV, Markdown, LaTeX | a line in [`report::WRITERS`] |
+//! | [`report`] | text, JSON, CSV, Markdown, LaTeX; the page of HTML | a line in [`report::WRITERS`] |
+//! | [`workspace`] | what was looked at and how, as a file; settings as a command | a field with a default |
+//! | [`export`] | pictures, heatmaps with legends, leaf boxes, the report put together | a line in [`export::LEAF_WRITERS`] |
 //! | [`worker`] | the thread between a window and all of the above: latest request wins | |
 //! | [`cli`], `gui` | the two faces; they never import each other but to start the window | |
 //!
@@ -69,6 +72,7 @@
 #![allow(rustdoc::private_intra_doc_links)]
 
 pub mod cli;
+pub mod export;
 pub mod files;
 pub mod geometry;
 #[cfg(feature = "gui")]

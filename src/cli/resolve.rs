@@ -17,14 +17,19 @@ pub fn scene(text: &str, cylinders: &CylinderArgs) -> Result<(SceneRequest, Scen
         source: SceneSource::parse(text),
         cylinders: cylinders.cylinders,
     };
-    match bar::with_bar(&format!("{text}: loading"), |progress| {
-        load(&request, progress)
-    }) {
+    let scene = load_scene(&request)?;
+    Ok((request, scene))
+}
+
+/// The scene of a request, loaded under a progress bar.
+pub fn load_scene(request: &SceneRequest) -> Result<Scene> {
+    let stage = format!("{}: loading", request.source);
+    match bar::with_bar(&stage, |progress| load(request, progress)) {
         Ok(scene) => {
             if matches!(request.source, SceneSource::File(_)) {
-                tell(text, &scene);
+                tell(&request.source.to_string(), &scene);
             }
-            Ok((request, scene))
+            Ok(scene)
         }
         Err(LoadError::Format(FormatError::Io { path, reason }))
             if reason.kind() == ErrorKind::NotFound && !looks_like_a_file(&path) =>

@@ -7,7 +7,9 @@ use super::StartOptions;
 use super::comparing::{Comparing, Verdict, Which};
 use super::inspect::Inspect;
 use super::judging::Judging;
+use super::keep::Restoring;
 use super::modelling::Modelling;
+use super::notices::Notices;
 use super::panels::paper::Experiment;
 use super::selection::Selection;
 use super::trading::Trading;
@@ -58,6 +60,14 @@ pub struct State {
     pub trading: Trading,
     /// What the terms of equation (1) take.
     pub modelling: Modelling,
+    /// What the user wrote down.
+    pub notes: String,
+    /// Pixels marked to come back to.
+    pub pinned: Vec<[u32; 2]>,
+    /// What is to be selected again, until it is.
+    pub restoring: Option<Restoring>,
+    /// What was done, for a moment.
+    pub notices: Notices,
 }
 
 /// The tree of a comparison that is not in front.
@@ -199,6 +209,10 @@ impl State {
             experiment: Experiment::default(),
             trading: Trading::default(),
             modelling: Modelling::default(),
+            notes: String::new(),
+            pinned: Vec::new(),
+            restoring: None,
+            notices: Notices::default(),
         }
     }
 
@@ -448,6 +462,7 @@ impl State {
     fn fail(&mut self, which: Which, why: String) {
         let loading = matches!(self.work, Some((Stage::Loading, _)));
         self.work = None;
+        self.restoring = None;
         if which != self.which {
             let what = format!("Tree {} could not be shown", which.name());
             self.failure = Some(Failure { what, why });
