@@ -10,6 +10,7 @@ use super::judging::Judging;
 use super::modelling::Modelling;
 use super::panels::paper::Experiment;
 use super::selection::Selection;
+use super::sweeping::Sweeping;
 use super::trading::Trading;
 use super::walk::{Picked, Walking, Wish};
 use crate::measure::heat::PixelCounts;
@@ -58,6 +59,8 @@ pub struct State {
     pub trading: Trading,
     /// What the terms of equation (1) take.
     pub modelling: Modelling,
+    /// A grid of settings, measured.
+    pub sweeping: Sweeping,
 }
 
 /// The tree of a comparison that is not in front.
@@ -199,6 +202,7 @@ impl State {
             experiment: Experiment::default(),
             trading: Trading::default(),
             modelling: Modelling::default(),
+            sweeping: Sweeping::default(),
         }
     }
 
@@ -360,6 +364,7 @@ impl State {
         self.inspect.visits.cancel();
         self.trading.turns.cancel();
         self.modelling.turns.cancel();
+        self.sweeping.turns.cancel();
     }
 
     /// Which long measurement is on its way, in words: nothing else may take times meanwhile.
@@ -367,6 +372,7 @@ impl State {
         [
             (self.trading.turns.is_running(), "the trade"),
             (self.modelling.turns.is_running(), "the time model"),
+            (self.sweeping.turns.is_running(), "the sweep"),
         ]
         .into_iter()
         .find_map(|(runs, name)| runs.then_some(name))
@@ -376,7 +382,8 @@ impl State {
     pub fn make_way(&self) {
         let rests = self.work.is_none();
         let rests = self.trading.turns.make_way(rests);
-        self.modelling.turns.make_way(rests);
+        let rests = self.modelling.turns.make_way(rests);
+        self.sweeping.turns.make_way(rests);
     }
 
     /// Whether what is shown was made with other settings than the widgets say.
