@@ -14,7 +14,7 @@
 //! | [`progress`] | how long tasks tell how far they are and are told to stop | |
 //! | [`primitive`] | sphere, triangle, polygon, cylinder and cone: bounds, overlap with a cell, intersection in `f64` or on objects packed in `f32` | a variant of [`primitive::Primitive`] |
 //! | [`scene`] | objects, materials, lights, camera; what the scene requires | |
-//! | [`scene::format`] | readers and writers of files | a line in [`scene::format::FORMATS`] |
+//! | [`scene::format`] | readers and writers of files: NFF, OBJ, PLY, glTF, STL; the load report | a line in [`scene::format::FORMATS`] |
 //! | [`scene::builtin`] | generated scenes | a line in [`scene::builtin::BUILTINS`] |
 //! | [`tree`] | 8-byte nodes, the one build driver, moments of the build, validation | |
 //! | [`tree::split`] | where a method splits a cell | a line in [`tree::split::SPLIT_RULES`] |
@@ -28,6 +28,7 @@
 //! | [`measure::trade`] | what accuracy costs: time and error of every choice | a line in [`measure::trade::KNOBS`] |
 //! | [`measure::heat`] | what every pixel cost | a line in [`measure::heat::HEATMAPS`] |
 //! | [`overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves and rays | a line in [`overlay::COLORINGS`], [`overlay::COLORMAPS`] or [`overlay::HISTOGRAMS`] |
+//! | [`lesson`] | guided tours in plain text: what they look at, ask and tell; whether it holds | a line in [`lesson::LESSONS`] |
 //! | [`report`] | text, JSON, CSV, Markdown, LaTeX | a line in [`report::WRITERS`] |
 //! | [`worker`] | the thread between a window and all of the above: latest request wins | |
 //! | [`cli`], `gui` | the two faces; they never import each other but to start the window | |
@@ -68,9 +69,11 @@
 #![allow(rustdoc::private_intra_doc_links)]
 
 pub mod cli;
+pub mod files;
 pub mod geometry;
 #[cfg(feature = "gui")]
 pub mod gui;
+pub mod lesson;
 pub mod measure;
 pub mod overlay;
 pub mod primitive;
@@ -80,3 +83,4 @@ pub mod scene;
 pub mod trace;
 pub mod tree;
 pub mod worker;
+pub mod workspace;

@@ -7,6 +7,7 @@ mod bar;
 mod compare;
 mod generate;
 mod heat;
+mod lesson;
 mod measure;
 mod merge;
 mod methods;
@@ -52,6 +53,7 @@ pub fn main() -> ExitCode {
         Some(Command::Verify(args)) => verify::run(args),
         Some(Command::Stability(args)) => stability::run(args),
         Some(Command::Trade(args)) => trade::run(args),
+        Some(Command::Lesson(args)) => lesson::run(args),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

@@ -2,6 +2,7 @@
 
 use super::args::WindowArgs;
 use super::{Outcome, measure, output, render, resolve};
+use crate::files;
 use crate::report::{Report, write_summary};
 use anyhow::{Context, Result};
 use image::ImageFormat;
@@ -37,6 +38,8 @@ fn open(args: &WindowArgs) -> Result<Option<String>> {
         source: SceneSource::parse(scene_text(args)),
         cylinders: args.cylinders.cylinders,
     };
+    let lesson = args.lesson.as_deref().map(crate::lesson::Lesson::open);
+    start.lesson = lesson.transpose()?;
     match crate::gui::run(start) {
         Ok(()) => Ok(None),
         Err(GuiError::NoDisplay(why)) => Ok(Some(format!("no display ({why})"))),
@@ -73,27 +76,9 @@ fn without_window(args: &WindowArgs) -> Result<Outcome> {
 
     let picture = last.context("there is at least one method")?;
     let bytes = render::encoded(&picture, ImageFormat::Png)?;
-    let (path, mut file) = output::create_free(&file_stem(scene.name()), "png")?;
+    let (path, mut file) = output::create_free(&files::stem(scene.name()), "png")?;
     file.write_all(&bytes)
         .with_context(|| path.display().to_string())?;
     output::write_to(None, |out| writeln!(out, "Picture: {}", path.display()))?;
     Ok(Outcome::Done)
-}
-
-/// A scene's name as the name of a file: `balls:3` becomes `balls-3`.
-fn file_stem(name: &str) -> String {
-    let stem: String = name
-        .chars()
-        .map(|c| match c {
-            '-' | '_' | '.' => c,
-            c if c.is_alphanumeric() => c,
-            _ => '-',
-        })
-        .collect();
-    let stem = stem.trim_start_matches('.');
-    if stem.is_empty() {
-        "scene".into()
-    } else {
-        stem.into()
-    }
 }

@@ -1,8 +1,10 @@
 //! Puts the window together: bars, panels and panes, and what the window's own keys do.
 
 use super::files::Files;
+use super::first_hint::{Chosen, FirstHint};
 use super::kept::KeptFile;
 use super::layout::{self, Layout, Pane};
+use super::lessons::{Around, Lessons};
 use super::palette::{Command, Palette};
 use super::panels::{self, Side};
 use super::picture_pane::PicturePane;
@@ -15,6 +17,7 @@ use super::view3d::View3d;
 use super::walk::Go;
 use super::{StartOptions, build_bar, help, top_bar, walk_bar};
 use crate::overlay::COLORINGS;
+use crate::scene::format::names;
 use crate::tree::{BuildSettings, MaxDepth, Method};
 
 /// The window.
@@ -31,6 +34,8 @@ pub struct App {
     status: StatusLine,
     help_open: bool,
     palette: Palette,
+    lessons: Lessons,
+    first_hint: FirstHint,
 }
 
 struct Panes {
@@ -53,6 +58,7 @@ impl App {
         let largest = cc.egui_ctx.input(|i| i.max_texture_side) as u32;
         start.render.width = start.render.width.min(largest);
         start.render.height = start.render.height.min(largest);
+        let first_hint = FirstHint::new(&start);
         App {
             state: State::new(&start, &cc.egui_ctx),
             files: Files::new(recent),
@@ -68,6 +74,8 @@ impl App {
             status: StatusLine::default(),
             help_open: false,
             palette: Palette::default(),
+            lessons: Lessons::new(start.lesson.take()),
+            first_hint,
         }
     }
 
@@ -82,7 +90,9 @@ impl App {
             Action::Path => self.files.focus_path(),
             Action::Reload => state.reload(),
             Action::Cancel => {
-                let closed = self.palette.close() || std::mem::take(&mut self.help_open);
+                let closed = self.palette.close()
+                    || std::mem::take(&mut self.help_open)
+                    || self.first_hint.dismiss();
                 if !closed && state.failure.take().is_none() && !state.inspect.undo() {
                     state.cancel();
                 }
@@ -125,6 +135,10 @@ impl App {
                 let threads = state.wanted.render.threads;
                 state.experiment.start_or_cancel(threads, ctx);
             }
+            Action::Lessons | Action::LessonReveal | Action::LessonNext | Action::LessonBack => {
+                let (lessons, mut around) = self.lessons();
+                lessons.act(action, &mut around);
+            }
             Action::Theme => top_bar::toggle_theme(ctx),
             Action::LeftBar => self.layout.left.shown ^= true,
             Action::RightBar => self.layout.right.shown ^= true,
@@ -140,6 +154,16 @@ impl App {
             Action::SceneCamera => state.wanted.own_camera = false,
             action => build_bar::act(action, state, ctx.input(|i| i.time)),
         }
+    }
+
+    /// The lessons, and what they set and bring back.
+    fn lessons(&mut self) -> (&mut Lessons, Around<'_>) {
+        let around = Around {
+            state: &mut self.state,
+            layout: &mut self.layout,
+            heat: &mut self.panes.picture.heat,
+        };
+        (&mut self.lessons, around)
     }
 
     /// Does what was chosen in the palette; what belongs to a pane brings it to the front.
@@ -163,6 +187,7 @@ impl App {
                 self.layout.show(Pane::View3d);
                 self.panes.view3d.color_by(&COLORINGS[place]);
             }
+            Command::Lesson(place) => self.lessons.take(place),
         }
     }
 
@@ -179,11 +204,18 @@ impl App {
             Side::Right => (egui::Panel::right("right"), right, 220.0..=640.0),
         };
         let state = &mut self.state;
+        let hidden = side == Side::Right && self.lessons.hides_figures();
         let shown = panel
             .default_size(bar.width)
             .size_range(widths)
             .show_collapsible(ui, &mut bar.shown, |ui| {
-                panels::show(ui, side, state, unfolded);
+                if hidden {
+                    // The bar keeps its width.
+                    ui.set_width(ui.available_width());
+                    ui.weak(HIDDEN);
+                } else {
+                    panels::show(ui, side, state, unfolded);
+                }
             });
         if let Some(shown) = shown {
             bar.width = shown.response.rect.width();
@@ -246,9 +278,14 @@ impl App {
 
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
-        for source in self.state.receive() {
-            self.files.recent.add(source);
+        let opened = self.state.receive();
+        // A lesson's scenes are not the user's.
+        if !self.lessons.is_on() {
+            for source in opened {
+                self.files.recent.add(source);
+            }
         }
+        self.lessons.take_dropped(ctx);
         self.files.receive(ctx, &mut self.state);
     }
 
@@ -277,6 +314,8 @@ impl eframe::App for App {
         });
         egui::Panel::bottom("walk bar").show(ui, |ui| walk_bar::show(ui, &mut self.state));
         build_bar::show(ui, &mut self.state);
+        let (lessons, mut around) = self.lessons();
+        lessons.show(ui, &mut around);
         self.side_bar(ui, Side::Left);
         self.side_bar(ui, Side::Right);
         egui::CentralPanel::default()
@@ -285,10 +324,17 @@ impl eframe::App for App {
                 let mut behavior = Behavior {
                     panes: &mut self.panes,
                     state: &mut self.state,
+                    hides_figures: self.lessons.hides_figures(),
                 };
                 self.layout.tiles.ui(&mut behavior, ui);
             });
         self.message(&ctx);
+        if self.lessons.is_on() {
+            self.first_hint.dismiss();
+        }
+        if self.first_hint.show(&ctx) == Some(Chosen::FirstLesson) {
+            self.lessons.take(0);
+        }
         help::show(&ctx, &mut self.help_open);
         if let Some(command) = self.palette.show(&ctx) {
             self.run(command, &ctx);
@@ -299,13 +345,20 @@ impl eframe::App for App {
         self.state.send();
         self.panes.picture.heat.make_way(&self.state);
         self.state.make_way();
-        self.keep_layout(&ctx);
+        if !self.lessons.is_on() {
+            self.keep_layout(&ctx);
+        }
     }
 
     fn on_exit(&mut self) {
+        let (lessons, mut around) = self.lessons();
+        lessons.leave(&mut around);
         self.layout_file.write(&self.layout);
     }
 }
+
+/// What stands in the place of figures while a lesson waits for a prediction.
+const HIDDEN: &str = "Hidden until you have made your prediction.";
 
 /// Says that a file can be dropped here.
 fn drop_hint(ctx: &egui::Context) {
@@ -315,7 +368,7 @@ fn drop_hint(ctx: &egui::Context) {
     painter.text(
         rect.center(),
         egui::Align2::CENTER_CENTER,
-        "Drop the file to open its scene",
+        format!("Drop the file to open its scene\n{}", names()),
         egui::FontId::proportional(26.0),
         egui::Color32::WHITE,
     );
@@ -325,6 +378,8 @@ fn drop_hint(ctx: &egui::Context) {
 struct Behavior<'a> {
     panes: &'a mut Panes,
     state: &'a mut State,
+    /// Whether a lesson waits for a prediction.
+    hides_figures: bool,
 }
 
 impl egui_tiles::Behavior<Pane> for Behavior<'_> {
@@ -344,6 +399,9 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
             .show(ui, |ui| match pane {
                 Pane::Picture => self.panes.picture.ui(ui, self.state),
                 Pane::View3d => self.panes.view3d.ui(ui, self.state),
+                Pane::Tree(_) if self.hides_figures => {
+                    ui.weak(HIDDEN);
+                }
                 Pane::Tree(pane) => self.panes.tree.ui(*pane, ui, self.state),
             });
         egui_tiles::UiResponse::None

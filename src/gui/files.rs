@@ -5,7 +5,7 @@ use super::shortcuts::{Action, tip};
 use super::state::State;
 use crate::scene::SceneSource;
 use crate::scene::builtin::BUILTINS;
-use crate::scene::format::FORMATS;
+use crate::scene::format::{FORMATS, names};
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
@@ -39,8 +39,8 @@ impl Files {
         let ctx = ctx.clone();
         std::thread::spawn(move || {
             let mut dialog = rfd::FileDialog::new().set_title("Open a scene");
-            for format in FORMATS {
-                dialog = dialog.add_filter(format.name.to_uppercase(), format.extensions);
+            for (name, extensions) in filters() {
+                dialog = dialog.add_filter(name, &extensions);
             }
             dialog = dialog.add_filter("All files", &["*"]);
             // Without a window the answer is not needed.
@@ -113,7 +113,10 @@ impl Files {
         .on_hover_text("Scenes opened lately");
         if ui
             .add_enabled(self.dialog.is_none(), egui::Button::new("Open…"))
-            .on_hover_text(tip("Open a scene file.", Action::Open))
+            .on_hover_text(tip(
+                &format!("Open a scene file: {}.", names()),
+                Action::Open,
+            ))
             .clicked()
         {
             self.open_dialog(ui.ctx());
@@ -123,8 +126,11 @@ impl Files {
             .desired_width(170.0);
         let field = ui.add(field).accessible_name("Path of a scene");
         let field = field.on_hover_text(tip(
-            "A file's path, or a generator's name with or without a size, such as balls:3; \
-             then Enter.",
+            &format!(
+                "The path of a file ({}), or a generator's name with or without a size, such as \
+                 balls:3; then Enter.",
+                names()
+            ),
             Action::Path,
         ));
         if std::mem::take(&mut self.focus_path) {
@@ -182,6 +188,33 @@ impl Files {
                 name: builtin.name.to_owned(),
                 size,
             });
+        }
+    }
+}
+
+/// What the dialog can be narrowed to: all scene files, then those of each format.
+fn filters() -> Vec<(String, Vec<&'static str>)> {
+    let all = FORMATS.iter().flat_map(|f| f.extensions).copied().collect();
+    let each = FORMATS.iter().map(|format| {
+        let name = format!("{}: {}", format.name.to_uppercase(), format.about);
+        (name, format.extensions.to_vec())
+    });
+    std::iter::once(("Scenes".to_owned(), all))
+        .chain(each)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_filter_shows_files_of_every_format() {
+        let filters = filters();
+        assert_eq!(filters.len(), FORMATS.len() + 1);
+        for extension in ["nff", "obj", "ply", "gltf", "glb", "stl"] {
+            assert!(filters[0].1.contains(&extension));
+            assert!(filters[1..].iter().any(|(_, e)| e.contains(&extension)));
         }
     }
 }

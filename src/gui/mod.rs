@@ -7,6 +7,7 @@
 //! knows of the tree. [`comparing`] is what two trees side by side need; [`build_bar`] goes through
 //! the build of a tree. Long measurements take [`turns`] in the background: [`trading`] what accuracy
 //! costs, [`modelling`] what the terms of equation (1) take, [`sweeping`] a grid of settings.
+//! [`lessons`] guides through it all.
 
 mod app;
 mod background;
@@ -15,12 +16,14 @@ mod build_view;
 mod compare_bar;
 mod comparing;
 mod files;
+mod first_hint;
 mod heat;
 mod help;
 mod inspect;
 mod judging;
 mod kept;
 mod layout;
+mod lessons;
 mod modelling;
 mod palette;
 mod panels;
@@ -51,6 +54,7 @@ pub use app::App;
 pub use shortcuts::{Action, SHORTCUTS, Scope, Shortcut};
 
 use crate::geometry::Vec3;
+use crate::lesson::Lesson;
 use crate::scene::{Camera, SceneRequest};
 use crate::trace::RenderSettings;
 use crate::tree::BuildSettings;
@@ -71,7 +75,7 @@ fn name_widget(ui: &egui::Ui, response: &egui::Response, name: &str) {
 }
 
 /// What the window opens with.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct StartOptions {
     pub scene: SceneRequest,
     pub build: BuildSettings,
@@ -79,6 +83,8 @@ pub struct StartOptions {
     pub render: RenderSettings,
     /// Whether `render` has its own camera; if not, the scene's is used.
     pub own_camera: bool,
+    /// The lesson that the window opens with.
+    pub lesson: Option<Lesson>,
     /// Whether recent scenes and the window's layout are read from and kept in the settings folder.
     pub remember: bool,
     /// The settings folder; `None` for the one that the system has for the user.
@@ -102,6 +108,7 @@ impl Default for StartOptions {
             build: BuildSettings::default(),
             render: RenderSettings::for_camera(camera),
             own_camera: false,
+            lesson: None,
             remember: true,
             settings_folder: None,
         }
@@ -126,6 +133,12 @@ pub enum GuiError {
     Ended(String),
 }
 
+/// The program's own: a box split by planes.
+fn icon() -> egui::IconData {
+    eframe::icon_data::from_png_bytes(include_bytes!("../../assets/bspscope.png"))
+        .expect("a test reads it")
+}
+
 /// Opens the window and returns once it is closed.
 ///
 /// # Errors
@@ -141,6 +154,7 @@ pub fn run(start: StartOptions) -> Result<(), GuiError> {
         viewport: egui::ViewportBuilder::default()
             .with_title("bspscope")
             .with_app_id("bspscope")
+            .with_icon(icon())
             .with_inner_size(size)
             .with_min_inner_size(layout::LEAST_SIZE),
         ..Default::default()
@@ -193,5 +207,17 @@ pub fn run(start: StartOptions) -> Result<(), GuiError> {
                 GuiError::NoDisplay(text)
             })
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_icon_is_a_picture() {
+        let icon = super::icon();
+        assert_eq!((icon.width, icon.height), (256, 256));
+        // The corners are round: nothing there, something in the middle.
+        assert_eq!(icon.rgba[3], 0);
+        assert_eq!(icon.rgba[(128 * 256 + 128) * 4 + 3], 255);
     }
 }

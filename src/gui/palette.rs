@@ -3,6 +3,7 @@
 
 use super::layout::Pane;
 use super::shortcuts::{Action, SHORTCUTS};
+use crate::lesson::LESSONS;
 use crate::measure::heat::HEATMAPS;
 use crate::overlay::COLORINGS;
 use crate::scene::SceneSource;
@@ -22,6 +23,8 @@ pub enum Command {
     Heatmap(Option<usize>),
     /// Place in [`COLORINGS`].
     Color(usize),
+    /// Place in [`LESSONS`].
+    Lesson(usize),
 }
 
 /// A line of the palette.
@@ -186,6 +189,10 @@ fn entries(recent: &[SceneSource]) -> Vec<Entry> {
         let text = format!("Colour leaves by: {}", coloring.title);
         plain(text, Command::Color(place))
     });
+    let lessons = LESSONS.iter().enumerate().map(|(place, known)| {
+        let text = format!("Lesson: {}", known.read().title);
+        plain(text, Command::Lesson(place))
+    });
     let scenes = BUILTINS.iter().map(|builtin| SceneSource::Builtin {
         name: builtin.name.to_owned(),
         size: None,
@@ -200,6 +207,7 @@ fn entries(recent: &[SceneSource]) -> Vec<Entry> {
         .chain([picture])
         .chain(heatmaps)
         .chain(colorings)
+        .chain(lessons)
         .chain(scenes)
         .collect()
 }

@@ -69,6 +69,10 @@ pub enum Action {
     Compare,
     OtherTree,
     Paper,
+    Lessons,
+    LessonReveal,
+    LessonNext,
+    LessonBack,
     Theme,
     LeftBar,
     RightBar,
@@ -211,6 +215,10 @@ shortcuts! {
     Window Compare COMMAND [E] "Ctrl+E" "Compare with another tree, B, or end that";
     Window OtherTree NONE [J] "J" "Bring the other of two compared trees to the front";
     Window Paper COMMAND [U] "Ctrl+U" "Repeat the paper's experiment, or cancel that";
+    Window Lessons COMMAND [J] "Ctrl+J" "List the lessons, or leave the one that is taken";
+    Window LessonReveal ALT [Enter] "Alt+Enter" "Lesson: show the figures after your prediction";
+    Window LessonNext ALT [PageDown] "Alt+Page down" "Lesson: the next step";
+    Window LessonBack ALT [PageUp] "Alt+Page up" "Lesson: the step before";
     Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
     Window LeftBar COMMAND [B] "Ctrl+B" "Show or hide the bar on the left";
     Window RightBar COMMAND [I] "Ctrl+I" "Show or hide the bar on the right";
@@ -323,6 +331,15 @@ fn is_held(action: Action) -> bool {
     )
 }
 
+/// Whether keys do it while text is typed: they are none that edit it.
+fn goes_while_typing(action: Action) -> bool {
+    use Action::{LessonBack, LessonNext, LessonReveal, Lessons, Open, Palette};
+    matches!(
+        action,
+        Open | Palette | Lessons | LessonReveal | LessonNext | LessonBack
+    )
+}
+
 /// An action that was chosen by its name, until the scope that it belongs to takes it.
 #[derive(Clone, Copy)]
 struct Chosen {
@@ -384,7 +401,7 @@ fn keys(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
             .iter()
             .filter(|s| s.scope == scope)
             .filter(|s| !focused || s.modifiers != Modifiers::NONE)
-            .filter(|s| !typing || matches!(s.action, Action::Open | Action::Palette))
+            .filter(|s| !typing || goes_while_typing(s.action))
             .filter(|s| {
                 s.keys.iter().any(|&key| {
                     if is_held(s.action) {

@@ -81,9 +81,9 @@ impl Other {
 
 /// What is wanted of A and, while two trees are compared, of B.
 #[derive(Clone, PartialEq)]
-struct Wanted {
-    a: Request,
-    b: Option<Request>,
+pub struct Wanted {
+    pub a: Request,
+    pub b: Option<Request>,
 }
 
 /// A request that failed.
@@ -229,7 +229,8 @@ impl State {
         }
     }
 
-    fn all_wanted(&self) -> Wanted {
+    /// What is wanted of both trees.
+    pub fn all_wanted(&self) -> Wanted {
         let front = self.wanted.clone();
         match &self.other {
             None => Wanted { a: front, b: None },
@@ -240,7 +241,8 @@ impl State {
         }
     }
 
-    fn want(&mut self, Wanted { a, b }: Wanted) {
+    /// Wants this; begins or ends a comparison where that takes it.
+    pub fn want(&mut self, Wanted { a, b }: Wanted) {
         if self.other.is_some() != b.is_some() {
             self.show(Which::A);
             self.compare_or_not();

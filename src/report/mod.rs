@@ -17,7 +17,7 @@ pub use text::{plain_table, write_summary};
 
 use crate::geometry::Aabb;
 use crate::measure::{Measurement, Parameter, Unit};
-use crate::scene::{Camera, Requirements, Scene, SceneRequest};
+use crate::scene::{Camera, Note, Requirements, Scene, SceneRequest};
 use serde_json::Value;
 use std::io::Write;
 
@@ -63,8 +63,8 @@ pub struct SceneSummary {
     pub objects: usize,
     pub lights: usize,
     pub requirements: Requirements,
-    /// What the reader had to say about the file.
-    pub notes: Vec<String>,
+    /// The load report: what the reader had to say about the file.
+    pub notes: Vec<Note>,
     /// The scene's own camera.
     pub camera: Camera,
 }

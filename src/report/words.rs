@@ -42,7 +42,7 @@ pub fn scene(report: &Report) -> Vec<String> {
     if !left_out.is_empty() {
         lines.push(format!("Left out: {}", left_out.join("; ")));
     }
-    lines.extend(scene.notes.iter().map(|note| format!("Note: {note}")));
+    lines.extend(scene.notes.iter().map(ToString::to_string));
     lines
 }
 

@@ -263,6 +263,11 @@ impl HeatView {
         self.choice.heatmap = heatmap;
     }
 
+    /// The heatmap on view, by its place in the registry; `None` for the picture alone.
+    pub fn shown(&self) -> Option<usize> {
+        self.choice.heatmap
+    }
+
     /// Does what a key asks for.
     pub fn act(&mut self, action: Action) {
         match action {

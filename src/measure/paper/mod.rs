@@ -174,7 +174,7 @@ pub fn reproduce(
         scene,
         runs: [None, None],
         unequal: None,
-        notes: loaded.notes().to_vec(),
+        notes: loaded.notes().iter().map(|n| n.text.clone()).collect(),
     };
     let mut first: Option<Measured> = None;
     for (i, method) in Method::of_the_paper().into_iter().enumerate() {
