@@ -109,7 +109,7 @@ fn a_sweep_has_the_rows_of_the_command_line_as_curves_and_as_a_map() {
         assert!(marked[0].contains(&place), "{marked:?}");
     }
     let rule = rule_depth(&rows[0]).unwrap();
-    assert!(has(&window, &format!("▼ the rule 1.2 log₂ N + 2 = {rule}")));
+    assert!(has(&window, &format!("[{rule}]: the rule 1.2 log2 N + 2")));
 }
 
 #[test]

@@ -133,7 +133,7 @@ fn map(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale, method: &str) ->
     for (column, depth) in depths.iter().enumerate() {
         let at = cell(column, 0).center() - vec2(0.0, CELL);
         if Some(*depth) == rule {
-            let text = format!("▼{depth}");
+            let text = format!("[{depth}]");
             painter.text(at, Align2::CENTER_CENTER, text, font.clone(), ink);
         } else if width >= 16.0 || column % 2 == 0 {
             painter.text(at, Align2::CENTER_CENTER, depth, font.clone(), ink);
@@ -186,7 +186,7 @@ fn map(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale, method: &str) ->
         ));
     }
     if let Some(depth) = rule.filter(|depth| depths.contains(depth)) {
-        ui.label(egui::RichText::new(format!("▼ the rule 1.2 log₂ N + 2 = {depth}")).small());
+        ui.label(egui::RichText::new(format!("[{depth}]: the rule 1.2 log2 N + 2")).small());
     }
     clicked
 }

@@ -20,14 +20,14 @@ const COLORS: [Color32; 6] = [
     Color32::from_rgb(86, 180, 233),
 ];
 
-/// Marks with the signs that stand for them in the legend, one a leaf size.
-const MARKS: [(MarkerShape, &str); 6] = [
-    (MarkerShape::Square, "■"),
-    (MarkerShape::Up, "▲"),
-    (MarkerShape::Diamond, "◆"),
-    (MarkerShape::Circle, "●"),
-    (MarkerShape::Down, "▼"),
-    (MarkerShape::Cross, "✖"),
+/// Marks of the leaf sizes of a method.
+const MARKS: [MarkerShape; 6] = [
+    MarkerShape::Square,
+    MarkerShape::Up,
+    MarkerShape::Diamond,
+    MarkerShape::Circle,
+    MarkerShape::Down,
+    MarkerShape::Cross,
 ];
 
 fn color(curve: &Curve) -> Color32 {
@@ -48,10 +48,10 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
     let parameter = shown.parameter;
     let curves = curves(shown.rows, parameter);
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = 10.0;
+        ui.spacing_mut().item_spacing.x = 4.0;
         for curve in &curves {
-            let text = format!("{} {}", MARKS[curve.mark % MARKS.len()].1, curve.name);
-            ui.label(egui::RichText::new(text).small().color(color(curve)));
+            sign(ui, curve);
+            ui.label(egui::RichText::new(&curve.name).small());
         }
         ui.label(egui::RichText::new("ring: least of a method").small());
     });
@@ -95,7 +95,7 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
     let drawn = plot.show(ui, |plot| {
         if let Some(depth) = rule {
             plot.vline(VLine::new("rule", depth).color(ink).width(1.0));
-            let text = egui::RichText::new(format!("1.2 log₂ N + 2 = {depth}")).small();
+            let text = egui::RichText::new(format!("1.2 log2 N + 2 = {depth}")).small();
             let at = PlotPoint::new(depth, up(most));
             plot.text(
                 Text::new("rule", at, text)
@@ -111,7 +111,7 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
                 .collect();
             let line = Line::new(curve.name.clone(), points.clone()).style(style(curve));
             plot.line(line.color(color(curve)).width(1.5));
-            let (shape, _) = MARKS[curve.mark % MARKS.len()];
+            let shape = MARKS[curve.mark % MARKS.len()];
             let marks = Points::new(curve.name.clone(), points)
                 .shape(shape)
                 .filled(true);
@@ -161,6 +161,37 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
         point.on_hover_text(format!("{words}\nClick to load these settings."));
     }
     clicked
+}
+
+/// A curve's mark, for the legend.
+fn sign(ui: &mut egui::Ui, curve: &Curve) {
+    const SIDES: [&[(f32, f32)]; 6] = [
+        &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)],
+        &[(0.0, -1.0), (1.0, 1.0), (-1.0, 1.0)],
+        &[(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)],
+        &[],
+        &[(0.0, 1.0), (1.0, -1.0), (-1.0, -1.0)],
+        &[
+            (-1.0, -1.0),
+            (1.0, 1.0),
+            (0.0, 0.0),
+            (1.0, -1.0),
+            (-1.0, 1.0),
+            (0.0, 0.0),
+        ],
+    ];
+    let (rect, _) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
+    let (middle, color) = (rect.center(), color(curve));
+    let corners: Vec<egui::Pos2> = (SIDES[curve.mark % SIDES.len()].iter())
+        .map(|&(x, y)| middle + 4.0 * vec2(x, y))
+        .collect();
+    if corners.is_empty() {
+        ui.painter().circle_filled(middle, 4.0, color);
+    } else {
+        let edge = egui::Stroke::new(1.5, color);
+        ui.painter()
+            .add(egui::Shape::convex_polygon(corners, color, edge));
+    }
 }
 
 /// The row whose place is nearest.
