@@ -20,8 +20,8 @@
 //! | [`tree::split`] | where a method splits a cell | a line in [`tree::split::SPLIT_RULES`] |
 //! | [`trace`] | traversal of trees and grids in two precisions, timed and counting kernels, plain or in lanes of vectors, shading, passes over a picture, visits of nodes | |
 //! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ, figures of each kind of ray; trees against testing every object | an entry of [`measure::PARAMETERS`] or [`measure::RAY_FIGURES`] |
-//! | [`measure::model`] | the time model of equation (1): by regression and in place | |
-//! | [`measure::sweep`] | the parameters over a grid of settings: rows, shards, charts | |
+//! | [`measure::model`] | the time model of equation (1): by regression and in place; where the time of a picture goes | |
+//! | [`measure::sweep`] | the parameters over a grid of settings: points, rows, shards, charts | |
 //! | [`measure::paper`] | the paper's printed tables, and its experiment repeated | |
 //! | [`measure::judge`] | exact arithmetic: why two answers about a ray differ | |
 //! | [`measure::stability`] | trees at the extremes | an entry of [`measure::stability::CASES`] |

@@ -57,6 +57,7 @@ impl Pane {
             Scope::Cost => Some(Pane::Tree(TreePane::Cost)),
             Scope::Trade => Some(Pane::Tree(TreePane::Trade)),
             Scope::Time => Some(Pane::Tree(TreePane::Time)),
+            Scope::Sweep => Some(Pane::Tree(TreePane::Sweep)),
         }
     }
 }

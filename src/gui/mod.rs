@@ -44,6 +44,7 @@ mod shortcuts;
 mod state;
 mod status;
 mod step_text;
+mod sweeping;
 mod symbol;
 mod top_bar;
 mod trading;

@@ -13,10 +13,11 @@ pub enum Scope {
     Cost,
     Trade,
     Time,
+    Sweep,
 }
 
 impl Scope {
-    pub const ALL: [Scope; 8] = [
+    pub const ALL: [Scope; 9] = [
         Scope::Window,
         Scope::Picture,
         Scope::View3d,
@@ -25,6 +26,7 @@ impl Scope {
         Scope::Cost,
         Scope::Trade,
         Scope::Time,
+        Scope::Sweep,
     ];
 
     pub const fn title(self) -> &'static str {
@@ -37,6 +39,7 @@ impl Scope {
             Scope::Cost => "Pointer over the split cost",
             Scope::Trade => "Pointer over the trade",
             Scope::Time => "Pointer over the time by term",
+            Scope::Sweep => "Pointer over the sweep",
         }
     }
 }
@@ -164,6 +167,10 @@ pub enum Action {
     NextExtent,
     NextTimes,
     ClearRegion,
+    RunSweep,
+    NextParameter,
+    PreviousParameter,
+    SweepMap,
     FoldLegend,
     /// Done with the mouse; listed for the help window alone.
     Mouse,
@@ -329,6 +336,10 @@ shortcuts! {
     Time MeasureTimes NONE [Enter] "Enter" "Measure what nodes and tests take; Esc ends it";
     Time NextExtent NONE [W] "W" "Time of the whole picture, the marked region or the picked pixel";
     Time NextTimes NONE [C] "C" "Times of the terms by regression or in place";
+    Sweep RunSweep NONE [Enter] "Enter" "Take the sweep over depths and leaf sizes; Esc ends it";
+    Sweep PreviousParameter SHIFT [E] "Shift+E" "Parameter of the sweep before";
+    Sweep NextParameter NONE [E] "E" "Next parameter of the sweep";
+    Sweep SweepMap NONE [M] "M" "Curves of the sweep, or its map";
 }
 
 /// Flying and flipping go on while a key is held; all else happens once.

@@ -12,6 +12,7 @@ use super::modelling::Modelling;
 use super::notices::Notices;
 use super::panels::paper::Experiment;
 use super::selection::Selection;
+use super::sweeping::Sweeping;
 use super::trading::Trading;
 use super::walk::{Picked, Walking, Wish};
 use crate::measure::heat::PixelCounts;
@@ -68,6 +69,8 @@ pub struct State {
     pub restoring: Option<Restoring>,
     /// What was done, for a moment.
     pub notices: Notices,
+    /// A grid of settings, measured.
+    pub sweeping: Sweeping,
 }
 
 /// The tree of a comparison that is not in front.
@@ -213,6 +216,7 @@ impl State {
             pinned: Vec::new(),
             restoring: None,
             notices: Notices::default(),
+            sweeping: Sweeping::default(),
         }
     }
 
@@ -376,6 +380,7 @@ impl State {
         self.inspect.visits.cancel();
         self.trading.turns.cancel();
         self.modelling.turns.cancel();
+        self.sweeping.turns.cancel();
     }
 
     /// Which long measurement is on its way, in words: nothing else may take times meanwhile.
@@ -383,6 +388,7 @@ impl State {
         [
             (self.trading.turns.is_running(), "the trade"),
             (self.modelling.turns.is_running(), "the time model"),
+            (self.sweeping.turns.is_running(), "the sweep"),
         ]
         .into_iter()
         .find_map(|(runs, name)| runs.then_some(name))
@@ -392,7 +398,8 @@ impl State {
     pub fn make_way(&self) {
         let rests = self.work.is_none();
         let rests = self.trading.turns.make_way(rests);
-        self.modelling.turns.make_way(rests);
+        let rests = self.modelling.turns.make_way(rests);
+        self.sweeping.turns.make_way(rests);
     }
 
     /// Whether what is shown was made with other settings than the widgets say.
