@@ -34,6 +34,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         ))
         .on_hover_text("Width, depth and height (x, y, z) of the tight box around all objects");
     }
+    load_report(ui, scene.notes());
     list(
         ui,
         "Rendering takes",
@@ -49,7 +50,6 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         .collect::<Vec<_>>(),
     );
     list(ui, "Left out", &requirements.left_out());
-    load_report(ui, scene.notes());
 }
 
 /// What the reader found, left out, changed and made up.
