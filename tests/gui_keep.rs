@@ -242,9 +242,9 @@ fn settings_and_camera_are_copied_as_a_command() {
     finish(&mut window);
     press(&mut window, Modifiers::COMMAND, Key::M);
     // In one frame: the output is that of the last.
-    let input = window.input_mut();
-    input.modifiers = COMMAND_SHIFT;
-    input.events.push(egui::Event::Key {
+    let events = &mut window.input_mut().events;
+    events.push(egui::Event::ModifiersChanged(COMMAND_SHIFT));
+    events.push(egui::Event::Key {
         key: Key::C,
         physical_key: None,
         pressed: true,

@@ -163,7 +163,7 @@ mod tests {
     fn a_path_gets_the_extension_that_it_lacks() {
         let ask =
             |path: &str| SaveAs::new((), "Save", Path::new(path), vec!["obj", "ply"]).target();
-        assert_eq!(ask(" a/b "), Path::new("a/b.obj"));
+        assert_eq!(ask("a/b"), Path::new("a/b.obj"));
         assert_eq!(ask("a.ply"), Path::new("a.ply"));
         assert_eq!(ask(""), Path::new(""));
     }
