@@ -128,6 +128,7 @@ fn with_extension(path: PathBuf, extensions: &[&str]) -> PathBuf {
     };
     match path.extension() {
         Some(_) => path,
+        None if path.is_dir() => path,
         None => {
             let name = format!("{}.{}", name.to_string_lossy(), extensions[0]);
             path.with_file_name(name)
