@@ -242,9 +242,9 @@ fn settings_and_camera_are_copied_as_a_command() {
     finish(&mut window);
     press(&mut window, Modifiers::COMMAND, Key::M);
     // In one frame: the output is that of the last.
-    let input = window.input_mut();
-    input.modifiers = COMMAND_SHIFT;
-    input.events.push(egui::Event::Key {
+    let events = &mut window.input_mut().events;
+    events.push(egui::Event::ModifiersChanged(COMMAND_SHIFT));
+    events.push(egui::Event::Key {
         key: Key::C,
         physical_key: None,
         pressed: true,
@@ -309,7 +309,7 @@ fn what_is_shown_is_exported_in_the_background() {
     window.get_by_label("Traced picture").hover();
     window.run_steps(2);
     press(&mut window, Modifiers::NONE, Key::H);
-    wait(&mut window, "the heatmap", |w| has(w, "Whole picture:"));
+    wait(&mut window, "the heatmap", |w| has(w, "Legend from"));
     let bytes = export(&mut window, Key::Num2, &place("heat.png"));
     let drawn = image::load_from_memory(&bytes).unwrap();
     // Around it stand title, colour bar and figures, as on the command line.

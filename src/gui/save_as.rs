@@ -128,6 +128,7 @@ fn with_extension(path: PathBuf, extensions: &[&str]) -> PathBuf {
     };
     match path.extension() {
         Some(_) => path,
+        None if path.is_dir() => path,
         None => {
             let name = format!("{}.{}", name.to_string_lossy(), extensions[0]);
             path.with_file_name(name)
@@ -163,7 +164,7 @@ mod tests {
     fn a_path_gets_the_extension_that_it_lacks() {
         let ask =
             |path: &str| SaveAs::new((), "Save", Path::new(path), vec!["obj", "ply"]).target();
-        assert_eq!(ask(" a/b "), Path::new("a/b.obj"));
+        assert_eq!(ask("a/b"), Path::new("a/b.obj"));
         assert_eq!(ask("a.ply"), Path::new("a.ply"));
         assert_eq!(ask(""), Path::new(""));
     }

@@ -33,7 +33,7 @@ const STYLE: &str = "
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }
 h1, h2 { line-height: 1.2; }
 h2 { margin-top: 2.5rem; break-after: avoid; }
-figure { display: inline-block; margin: 0 1rem 1rem 0; max-width: 100%; break-inside: avoid; }
+figure { display: inline-block; vertical-align: top; margin: 0 1rem 1rem 0; max-width: 46%; break-inside: avoid; }
 figure img { max-width: 100%; height: auto; border: 1px solid #8888; }
 figcaption, .soft { color: light-dark(#555, #aaa); font-size: 0.9rem; }
 .wide { overflow-x: auto; }
@@ -45,6 +45,7 @@ tr { break-inside: avoid; }
 pre { white-space: pre-wrap; overflow-wrap: anywhere; background: #8882; padding: 0.6rem; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.2rem 1rem; }
 dd { margin: 0; }
+@media (max-width: 40rem) { figure { max-width: 100%; } }
 @media print { :root { color-scheme: light; } body { max-width: none; font-size: 11px; margin: 0; } }
 ";
 
