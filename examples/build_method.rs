@@ -11,7 +11,7 @@ use bspscope::measure::{DELTA, measure, parameter};
 use bspscope::progress::Progress;
 use bspscope::scene::{SceneRequest, load};
 use bspscope::trace::RenderSettings;
-use bspscope::tree::split::{Cell, Decision, MethodInfo, SplitRule};
+use bspscope::tree::split::{Cell, Decision, MethodInfo, SplitRule, Structure};
 use bspscope::tree::{BuildSettings, Method, validate};
 
 /// What is known of the method before it is used.
@@ -22,6 +22,7 @@ static METHOD: MethodInfo = MethodInfo {
     source: "this example",
     paper: None,
     paper_spheres_exactly: true,
+    structure: Structure::Bintree,
     constants: &[],
     rule: |_| Box::new(LongestSide),
 };

@@ -250,6 +250,42 @@ fn options_arrive_in_the_measurement() {
 }
 
 #[test]
+fn the_load_report_is_told_on_standard_error_and_in_the_report() {
+    let program = Program::new();
+    program.write(
+        "square.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 1 2\n",
+    );
+    let measure = format!("measure square.obj {QUICK} --method midpoint");
+    let output = program.run(&measure);
+    assert_eq!(output.status.code(), Some(0));
+    let [text, errors] = [output.stdout, output.stderr].map(|s| String::from_utf8(s).unwrap());
+    for line in [
+        "Skipped: polygon without area, at line 6",
+        "Made up: no camera: one taken that frames all objects",
+    ] {
+        assert!(text.lines().any(|l| l.contains(line)), "{text}");
+        let told = format!("bspscope: square.obj: {line}");
+        assert!(errors.lines().any(|l| l == told), "{errors}");
+    }
+    assert!(text.contains("Read: polygons: 1"), "{text}");
+    assert!(!errors.contains("Read:"), "{errors}");
+    let json = program.run(&format!("{measure} --format json"));
+    let report: Value = serde_json::from_slice(&json.stdout).unwrap();
+    let notes = report["scene"]["notes"].as_array().unwrap();
+    assert!(notes.iter().any(|note| note["kind"] == "made_up"));
+    // Converted, it is complete: nothing is made up any more.
+    program.run("generate square.obj -o square.nff");
+    let text = program.done(&measure.replace(".obj", ".nff"));
+    assert!(text.contains("polygons: 1"), "{text}");
+    let refused = program.refused("generate balls:1 -o balls.obj");
+    assert!(
+        refused.contains("OBJ files cannot hold all of a scene"),
+        "{refused}"
+    );
+}
+
+#[test]
 fn what_has_no_value_is_null_and_not_zero() {
     let program = Program::new();
     program.write("empty-view.nff", EMPTY_VIEW);
@@ -435,6 +471,24 @@ fn methods_lists_every_method_and_setting() {
             assert!(text.contains(constant.source));
         }
     }
+}
+
+#[test]
+fn a_grid_shows_no_value_where_a_parameter_does_not_apply() {
+    let program = Program::new();
+    let text =
+        program.done("compare balls:1 --a method=midpoint --b method=grid --resolution 20x20");
+    for symbol in ["D_MAX", "N_OILF", "D_REACH", "N_IN", "N_INODES"] {
+        let row = text
+            .lines()
+            .find(|line| line.trim_start().starts_with(&format!("{symbol} ")));
+        let row: Vec<_> = row.unwrap().split_whitespace().collect();
+        assert!(row.contains(&"–"), "{row:?}");
+    }
+    assert!(
+        text.contains("grid: D_MAX and N_OILF do not apply"),
+        "{text}"
+    );
 }
 
 #[test]

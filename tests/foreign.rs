@@ -5,8 +5,10 @@ use bspscope::measure::{RaySample, answer, sample_rays};
 use bspscope::primitive::{Precision, Primitive, PrimitiveKind};
 use bspscope::progress::{Cancelled, Progress};
 use bspscope::scene::builtin::generate;
-use bspscope::scene::format::{FORMATS, Format, FormatError, Input, ReadError, nff, read_file};
-use bspscope::scene::{NoteKind, Scene, SceneParts};
+use bspscope::scene::format::{
+    FORMATS, Format, FormatError, Input, MOST_VERTICES, ReadError, nff, read_file,
+};
+use bspscope::scene::{LoadError, NoteKind, Scene, SceneParts, SceneRequest};
 use bspscope::trace::{RayKind, RenderSettings, thread_pool};
 use bspscope::tree::{BuildSettings, Method, Tree, build};
 use std::path::{Path, PathBuf};
@@ -566,6 +568,7 @@ fn reading_tells_how_far_it_is_and_stops_in_the_middle() {
             amid
         });
         assert!(stopped, "{} cannot be cancelled", format.name);
+        // Told to stop before it begins, it reads nothing.
         let stopped = Progress::new();
         stopped.cancel();
         let result = (format.read)(&Input::from(bytes.as_slice()), &stopped);
@@ -573,4 +576,36 @@ fn reading_tells_how_far_it_is_and_stops_in_the_middle() {
         let whole = (format.read)(&Input::from(bytes.as_slice()), &Progress::new());
         assert_eq!(whole.unwrap().objects.len(), 50_000, "{}", format.name);
     }
+}
+
+#[test]
+fn a_cancelled_load_is_no_failure() {
+    let progress = Progress::new();
+    progress.cancel();
+    let request = SceneRequest::parse(asset("trimesh.glb").to_str().unwrap());
+    let error = bspscope::scene::load(&request, &progress).unwrap_err();
+    assert!(matches!(error, LoadError::Cancelled(_)), "{error:?}");
+}
+
+#[test]
+fn faces_of_too_many_vertices_are_skipped() {
+    let corners = " 1 2 3 4".repeat(MOST_VERTICES / 4 + 1);
+    let text = format!("{SQUARE}f{corners}\nf 1 2 3 4\n");
+    let parts = read("obj", text.as_bytes()).unwrap();
+    assert_eq!(parts.objects.len(), 1);
+    let said = format!("face of more than {MOST_VERTICES} vertices, at line 5");
+    assert_eq!(texts(&parts, NoteKind::Skipped), [said]);
+}
+
+#[test]
+fn however_many_reasons_there_are_all_is_counted() {
+    let statements: Vec<_> = (0..200).map(|i| format!("x{i}\n")).collect();
+    let text = format!("{}f 1 2 3\n", statements.concat() + SQUARE);
+    let parts = read("obj", text.as_bytes()).unwrap();
+    let skipped = texts(&parts, NoteKind::Skipped);
+    assert_eq!(skipped[0], "unknown statement 'x0', at line 1");
+    let others: usize = 200 - (skipped.len() - 1);
+    assert!(others > 100);
+    let last = format!("{others} × other things, first at line {}", skipped.len());
+    assert_eq!(*skipped.last().unwrap(), last);
 }

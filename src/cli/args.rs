@@ -1,5 +1,6 @@
 //! The arguments as they are typed; [`super::resolve`] makes settings of them.
 
+use crate::export::LEAF_WRITERS;
 use crate::geometry::{Axis, Vec3};
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, heatmap};
 use crate::measure::model::Equation;
@@ -10,6 +11,7 @@ use crate::measure::{PARAMETERS, Parameter, parameter};
 use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
 use crate::scene::builtin::BUILTINS;
+use crate::scene::format::FORMATS;
 use crate::scene::{Cylinders, Sampling};
 use crate::trace::{KernelChoice, PrecisionChoice};
 use crate::tree::{BuildSettings, MaxDepth, Method, OverlapRule};
@@ -26,7 +28,7 @@ use std::path::PathBuf;
     name = "bspscope",
     version,
     args_conflicts_with_subcommands = true,
-    after_help = help("bspscope balls\nbspscope measure scenes/rings.nff --cylinders polygons:10\n\
+    after_help = help("bspscope balls\nbspscope rings.bspscope\nbspscope measure scenes/rings.nff --cylinders polygons:10\n\
         bspscope render teaching -o teaching.png")
 )]
 pub struct Arguments {
@@ -38,12 +40,15 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    Window(WindowArgs),
     Measure(MeasureArgs),
     Merge(MergeArgs),
     Model(ModelArgs),
     Compare(CompareArgs),
     Paper(PaperArgs),
     Render(RenderArgs),
+    Report(PageArgs),
+    Leaves(LeavesArgs),
     Sweep(SweepArgs),
     Probe(ProbeArgs),
     Generate(GenerateArgs),
@@ -54,9 +59,11 @@ pub enum Command {
     Lesson(LessonArgs),
 }
 
+/// Open the window; the same as no command
 #[derive(Debug, Args)]
 pub struct WindowArgs {
-    /// Scene to open: a file, or a generator with an optional size (NAME or NAME:SIZE)
+    /// What to open: a scene file, a generator with an optional size (NAME or NAME:SIZE), or a
+    /// workspace (.bspscope) [default: where the last session ended]
     pub scene: Option<String>,
     /// Open with a lesson: its name (see 'bspscope lesson list'), or a file
     #[arg(long, value_name = "LESSON")]
@@ -371,10 +378,71 @@ pub struct ProbeArgs {
     pub output: Option<PathBuf>,
 }
 
-/// Write a scene, generated or read, as a scene file
+/// Measure, and write pictures, tables, settings and machine as one HTML file
+///
+/// The page refers to nothing outside of it: it can be sent, kept and printed. With two methods the
+/// second stands relative to the first.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope report balls -o balls.html\n\
+    bspscope report scenes/tetra.nff --method sah-cut --d-max auto -o tetra.html"))]
+pub struct PageArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    #[command(flatten)]
+    pub methods: MethodListArgs,
+    #[command(flatten)]
+    pub build: BuildArgs,
+    #[command(flatten)]
+    pub trace: TraceArgs,
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// File for the page
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: PathBuf,
+}
+
+/// Write the boxes of a tree's leaves for other programs: OBJ or PLY
+///
+/// Every leaf is a box of 6 faces in the scene's units, outward faces counter-clockwise; node, depth
+/// and number of objects stand in the names of OBJ's objects and as properties of PLY's faces.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope leaves balls -o leaves.ply\n\
+    bspscope leaves rings --method sah-cut --only full -o full.obj"))]
+pub struct LeavesArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Build method
+    #[arg(long, value_name = "METHOD", value_parser = method_names(), default_value = "midpoint", help_heading = "Tree")]
+    pub method: Method,
+    #[command(flatten)]
+    pub build: BuildArgs,
+    /// Only these leaves [default: all]
+    #[arg(long, value_enum, value_name = "LEAVES")]
+    pub only: Option<LeavesShown>,
+    /// Threads; 0 takes as many as the machine has cores
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub threads: usize,
+    /// Form of the boxes; without it the extension of -o decides, or obj
+    #[arg(long, value_name = "FORM", value_parser = leaf_writer_names(), help_heading = "Output")]
+    pub format: Option<String>,
+    /// Write to this file in place of standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LeavesShown {
+    /// Leaves with objects
+    Full,
+    /// Leaves without objects
+    Empty,
+}
+
+/// Write a scene, generated or read, as a scene file (NFF)
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope generate balls:4 -o balls.nff\n\
-    bspscope generate rings --cylinders polygons:10 > rings.nff"))]
+    bspscope generate rings --cylinders polygons:10 > rings.nff\n\
+    bspscope generate model.glb -o model.nff"))]
 pub struct GenerateArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
@@ -545,7 +613,7 @@ pub struct SceneArgs {
     pub cylinders: CylinderArgs,
 }
 
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 pub struct CylinderArgs {
     /// How cylinders and cones enter the scene: exact, or polygons:N for open prisms of N polygons
     #[arg(long, value_name = "HOW", default_value_t = Cylinders::Exact, help_heading = "Scene")]
@@ -572,7 +640,7 @@ pub struct ReportArgs {
 }
 
 /// What a tree is built with.
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 #[command(next_help_heading = "Tree")]
 pub struct BuildArgs {
     /// Greatest depth of a leaf, D_MAX, or 'auto'; the root has depth 0
@@ -586,7 +654,7 @@ pub struct BuildArgs {
 }
 
 /// What a tree is built with beside its limits.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, PartialEq, Args)]
 #[command(next_help_heading = "Tree")]
 pub struct RuleArgs {
     /// When an object belongs to a cell: paper, bounds or exact
@@ -612,7 +680,7 @@ pub struct RuleArgs {
 }
 
 /// What rays are traced with.
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 #[command(next_help_heading = "Picture")]
 pub struct TraceArgs {
     /// How deep secondary rays go, D_AREC; 0 traces none
@@ -639,7 +707,7 @@ pub struct TraceArgs {
 }
 
 /// A camera in place of the scene's own; what is not given stays the scene's.
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 #[command(next_help_heading = "Camera")]
 pub struct CameraArgs {
     /// The eye, in place of the scene's
@@ -656,14 +724,29 @@ pub struct CameraArgs {
     pub angle: Option<f64>,
 }
 
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 pub struct PictureArgs {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", value_parser = resolution, default_value = "512x512", help_heading = "Picture")]
     pub resolution: [u32; 2],
 }
 
-/// Examples, and the scenes that can be generated.
+impl WindowArgs {
+    /// Without any.
+    pub fn plain() -> Self {
+        Arguments::parse_from(["bspscope"]).window
+    }
+}
+
+impl CameraArgs {
+    /// How many of the four were given.
+    pub fn given(&self) -> usize {
+        let points = [self.from, self.at, self.up];
+        points.iter().flatten().count() + usize::from(self.angle.is_some())
+    }
+}
+
+/// Examples, the scenes that can be generated, and the files that can be read.
 fn help(examples: &str) -> String {
     let mut text = "Examples:".to_owned();
     for example in examples.lines() {
@@ -681,6 +764,11 @@ fn help(examples: &str) -> String {
             builtin.about
         );
     }
+    text += "\n\nScene files, told by their content where the extension does not fit:";
+    for format in FORMATS {
+        let extensions = format.extensions.join(", .");
+        text += &format!("\n  .{extensions}\n      {}", format.about);
+    }
     text
 }
 
@@ -690,6 +778,11 @@ fn writer_names() -> PossibleValuesParser {
             .iter()
             .map(|writer| PossibleValue::new(writer.name).help(writer.about)),
     )
+}
+
+fn leaf_writer_names() -> PossibleValuesParser {
+    let names = LEAF_WRITERS.iter();
+    PossibleValuesParser::new(names.map(|w| PossibleValue::new(w.name).help(w.about)))
 }
 
 fn method_names() -> impl TypedValueParser<Value = Method> {

@@ -4,11 +4,11 @@ use super::args::{BuildArgs, CameraArgs, CylinderArgs, PictureArgs, TraceArgs};
 use super::bar;
 use crate::report::Writer;
 use crate::scene::format::{FORMATS, FormatError};
-use crate::scene::{Camera, LoadError, Scene, SceneRequest, SceneSource, builtin, load};
+use crate::scene::{Camera, LoadError, NoteKind, Scene, SceneRequest, SceneSource, builtin, load};
 use crate::trace::RenderSettings;
 use crate::tree::{BuildSettings, Method};
 use anyhow::{Result, bail};
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 /// The scene for what was typed, with the request that it answers.
@@ -17,10 +17,20 @@ pub fn scene(text: &str, cylinders: &CylinderArgs) -> Result<(SceneRequest, Scen
         source: SceneSource::parse(text),
         cylinders: cylinders.cylinders,
     };
-    match bar::with_bar(&format!("{text}: loading"), |progress| {
-        load(&request, progress)
-    }) {
-        Ok(scene) => Ok((request, scene)),
+    let scene = load_scene(&request)?;
+    Ok((request, scene))
+}
+
+/// The scene of a request, loaded under a progress bar.
+pub fn load_scene(request: &SceneRequest) -> Result<Scene> {
+    let stage = format!("{}: loading", request.source);
+    match bar::with_bar(&stage, |progress| load(request, progress)) {
+        Ok(scene) => {
+            if matches!(request.source, SceneSource::File(_)) {
+                tell(&request.source.to_string(), &scene);
+            }
+            Ok(scene)
+        }
         Err(LoadError::Format(FormatError::Io { path, reason }))
             if reason.kind() == ErrorKind::NotFound && !looks_like_a_file(&path) =>
         {
@@ -32,6 +42,18 @@ pub fn scene(text: &str, cylinders: &CylinderArgs) -> Result<(SceneRequest, Scen
             )
         }
         Err(error) => Err(error.into()),
+    }
+}
+
+/// Says on standard error what of a file is not as it was found; the whole load report is part of
+/// `measure`'s.
+fn tell(file: &str, scene: &Scene) {
+    let mut out = std::io::stderr().lock();
+    for note in scene.notes() {
+        if !matches!(note.kind, NoteKind::Read | NoteKind::Remark) {
+            // Without a standard error stream there is nobody to tell.
+            let _ = writeln!(out, "bspscope: {file}: {note}");
+        }
     }
 }
 

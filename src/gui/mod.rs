@@ -5,7 +5,8 @@
 //! actions, which keys, help and the command [`palette`] share. [`panels`] are one file and one line
 //! each; the panes are [`picture_pane`], [`view3d`] and [`tree_panes`], which share what [`inspect`]
 //! knows of the tree. [`comparing`] is what two trees side by side need; [`build_bar`] goes through
-//! the build of a tree. Long measurements take [`turns`] in the background: [`trading`] what accuracy
+//! the build of a tree. [`keep`] and [`workspaces`] save what is shown and bring it back;
+//! [`exporting`] writes it for other programs. Long measurements take [`turns`] in the background: [`trading`] what accuracy
 //! costs, [`modelling`] what the terms of equation (1) take, [`sweeping`] a grid of settings.
 //! [`lessons`] guides through it all.
 
@@ -15,16 +16,19 @@ mod build_bar;
 mod build_view;
 mod compare_bar;
 mod comparing;
+mod exporting;
 mod files;
 mod first_hint;
 mod heat;
 mod help;
 mod inspect;
 mod judging;
+mod keep;
 mod kept;
 mod layout;
 mod lessons;
 mod modelling;
+mod notices;
 mod palette;
 mod panels;
 mod picture_marks;
@@ -33,12 +37,14 @@ mod picture_pass;
 mod picture_region;
 mod recent;
 mod rows;
+mod save_as;
 mod scale_bar;
 mod selection;
 mod shortcuts;
 mod state;
 mod status;
 mod step_text;
+mod sweeping;
 mod symbol;
 mod top_bar;
 mod trading;
@@ -48,6 +54,7 @@ mod view3d;
 mod visits;
 mod walk;
 mod walk_bar;
+mod workspaces;
 
 pub use app::App;
 pub use shortcuts::{Action, SHORTCUTS, Scope, Shortcut};
@@ -57,6 +64,7 @@ use crate::lesson::Lesson;
 use crate::scene::{Camera, SceneRequest};
 use crate::trace::RenderSettings;
 use crate::tree::BuildSettings;
+use crate::workspace::Workspace;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -86,6 +94,10 @@ pub struct StartOptions {
     pub lesson: Option<Lesson>,
     /// Whether recent scenes and the window's layout are read from and kept in the settings folder.
     pub remember: bool,
+    /// A workspace to open, with its path; it takes the place of scene and settings above.
+    pub workspace: Option<(PathBuf, Workspace)>,
+    /// Whether to go on where the last session ended, if that was kept.
+    pub last_session: bool,
     /// The settings folder; `None` for the one that the system has for the user.
     pub settings_folder: Option<PathBuf>,
 }
@@ -109,6 +121,8 @@ impl Default for StartOptions {
             own_camera: false,
             lesson: None,
             remember: true,
+            workspace: None,
+            last_session: false,
             settings_folder: None,
         }
     }

@@ -9,6 +9,7 @@ use crate::overlay::COLORINGS;
 use crate::scene::SceneSource;
 use crate::scene::builtin::BUILTINS;
 use crate::tree::Method;
+use crate::workspace::Workspace;
 use egui::{Key, Modifiers};
 use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher};
@@ -201,7 +202,15 @@ fn entries(recent: &[SceneSource]) -> Vec<Entry> {
     let opened: Vec<SceneSource> = recent.clone().collect();
     let scenes = recent
         .chain(scenes.filter(|scene| !opened.contains(scene)))
-        .map(|scene| plain(format!("Scene: {scene}"), Command::Open(scene)));
+        .map(|source| {
+            let path = std::path::PathBuf::from(source.to_string());
+            let what = if Workspace::is_path(&path) {
+                "Workspace"
+            } else {
+                "Scene"
+            };
+            plain(format!("{what}: {source}"), Command::Open(source))
+        });
     actions
         .chain(methods)
         .chain([picture])

@@ -204,6 +204,7 @@ impl PicturePane {
         if let Some(region) = state.modelling.region {
             picture_region::frame(&painter, rect, picture, region);
         }
+        pins(&painter, rect, picture, &state.pinned);
         if let Some([x, y]) = picked
             && x < picture[0]
             && y < picture[1]
@@ -338,6 +339,7 @@ impl PicturePane {
                 }
                 Action::Unpick => current.unpick(),
                 Action::ClearRegion => state.modelling.region = None,
+                Action::Pin => state.pin_or_unpin(),
                 Action::PickLeft => step(current, -1, 0),
                 Action::PickRight => step(current, 1, 0),
                 Action::PickUp => step(current, 0, -1),
@@ -487,6 +489,28 @@ fn cross_hair(painter: &egui::Painter, rect: Rect, [width, height]: [u32; 2], [x
                 stroke,
             );
         }
+    }
+}
+
+/// Numbers the pinned pixels.
+fn pins(painter: &egui::Painter, rect: Rect, picture: [u32; 2], pinned: &[[u32; 2]]) {
+    let pixel = rect.size() / vec2(picture[0] as f32, picture[1] as f32);
+    for (i, [x, y]) in pinned.iter().enumerate() {
+        if *x >= picture[0] || *y >= picture[1] {
+            continue;
+        }
+        let at = rect.min + pixel * vec2(*x as f32 + 0.5, *y as f32 + 0.5);
+        painter.circle(
+            at,
+            8.0,
+            Color32::from_black_alpha(190),
+            (1.0, Color32::WHITE),
+        );
+        let (font, middle) = (
+            egui::FontId::proportional(11.0),
+            egui::Align2::CENTER_CENTER,
+        );
+        painter.text(at, middle, i + 1, font, Color32::WHITE);
     }
 }
 

@@ -13,10 +13,11 @@ pub enum Scope {
     Cost,
     Trade,
     Time,
+    Sweep,
 }
 
 impl Scope {
-    pub const ALL: [Scope; 8] = [
+    pub const ALL: [Scope; 9] = [
         Scope::Window,
         Scope::Picture,
         Scope::View3d,
@@ -25,6 +26,7 @@ impl Scope {
         Scope::Cost,
         Scope::Trade,
         Scope::Time,
+        Scope::Sweep,
     ];
 
     pub const fn title(self) -> &'static str {
@@ -37,6 +39,7 @@ impl Scope {
             Scope::Cost => "Pointer over the split cost",
             Scope::Trade => "Pointer over the trade",
             Scope::Time => "Pointer over the time by term",
+            Scope::Sweep => "Pointer over the sweep",
         }
     }
 }
@@ -47,6 +50,15 @@ pub enum Action {
     Help,
     Palette,
     Open,
+    SaveWorkspace,
+    SaveWorkspaceAs,
+    CopyCommand,
+    ExportPicture,
+    ExportHeatmap,
+    ExportView3d,
+    ExportFigures,
+    ExportLeaves,
+    ExportPage,
     Path,
     Reload,
     Cancel,
@@ -96,6 +108,7 @@ pub enum Action {
     PickUp,
     PickDown,
     Unpick,
+    Pin,
     NextView,
     Flip,
     WipeLeft,
@@ -154,6 +167,10 @@ pub enum Action {
     NextExtent,
     NextTimes,
     ClearRegion,
+    RunSweep,
+    NextParameter,
+    PreviousParameter,
+    SweepMap,
     FoldLegend,
     /// Done with the mouse; listed for the help window alone.
     Mouse,
@@ -172,12 +189,12 @@ pub struct Shortcut {
 }
 
 macro_rules! shortcuts {
-    ($( $scope:ident $action:ident $modifiers:ident [$($key:ident)*] $text:literal $about:literal; )*) => {
+    ($( $scope:ident $action:ident $modifiers:ident $(+ $more:ident)? [$($key:ident)*] $text:literal $about:literal; )*) => {
         /// Every shortcut.
         pub static SHORTCUTS: &[Shortcut] = &[$( Shortcut {
             action: Action::$action,
             scope: Scope::$scope,
-            modifiers: Modifiers::$modifiers,
+            modifiers: Modifiers::$modifiers$(.plus(Modifiers::$more))?,
             keys: &[$(Key::$key),*],
             text: $text,
             about: $about,
@@ -188,7 +205,16 @@ macro_rules! shortcuts {
 shortcuts! {
     Window Help NONE [Questionmark F1] "? or F1" "Show or hide the list of shortcuts";
     Window Palette COMMAND [K P] "Ctrl+K or Ctrl+P" "Search for a command and do it";
-    Window Open COMMAND [O] "Ctrl+O" "Open a scene file";
+    Window Open COMMAND [O] "Ctrl+O" "Open a scene or a workspace";
+    Window SaveWorkspaceAs COMMAND+SHIFT [S] "Ctrl+Shift+S" "Save the workspace under another name";
+    Window SaveWorkspace COMMAND [S] "Ctrl+S" "Save the workspace: scene, settings, camera, panes, selection, notes";
+    Window CopyCommand COMMAND+SHIFT [C] "Ctrl+Shift+C" "Copy settings and camera as a command";
+    Window ExportPicture ALT [Num1] "Alt+1" "Export the picture: PNG or EXR";
+    Window ExportHeatmap ALT [Num2] "Alt+2" "Export the heatmap: PNG with its legend, or EXR";
+    Window ExportView3d ALT [Num3] "Alt+3" "Export the 3D view: PNG";
+    Window ExportFigures ALT [Num4] "Alt+4" "Export the figures: text, JSON, CSV, Markdown, LaTeX";
+    Window ExportLeaves ALT [Num5] "Alt+5" "Export the leaf boxes shown: OBJ or PLY";
+    Window ExportPage ALT [Num6] "Alt+6" "Export a report: one HTML file";
     Window Path COMMAND [L] "Ctrl+L" "Type a path or a generator's name";
     Window Reload NONE [F5] "F5" "Read the scene's file again";
     Window Cancel NONE [Escape] "Esc" "Close a message, or cancel what is being worked on";
@@ -231,7 +257,7 @@ shortcuts! {
     Window BuildLast ALT [End] "Alt+End" "Last moment of the build: the finished tree";
     Window PlayBuild ALT [P] "Alt+P" "Play the build, or pause it";
     Window BuildByNode ALT [N] "Alt+N" "Go through the build by nodes or by depths";
-    Window Mouse NONE [] "Drop a file" "Open it";
+    Window Mouse NONE [] "Drop a file" "Open it, a scene or a workspace";
     Picture Mouse NONE [] "Click" "Name the object in a pixel and follow its ray";
     Picture Mouse NONE [] "Wheel" "Zoom to the pointer";
     Picture Mouse NONE [] "Right-drag" "Move the picture";
@@ -242,6 +268,7 @@ shortcuts! {
     Picture Mouse NONE [] "Shift+drag" "Mark a region, whose time by term the pane Time shows";
     Picture ClearRegion SHIFT [Delete] "Shift+Delete" "Mark no region";
     Picture Unpick NONE [Delete] "Delete" "Pick no pixel";
+    Picture Pin NONE [P] "P" "Pin the picked pixel to come back to it, or unpin it";
     Picture OutlineSelection NONE [S] "S" "Outline the selected cell and object in the picture, or not";
     Picture PreviousHeatmap SHIFT [H] "Shift+H" "Show the heatmap before";
     Picture NextHeatmap NONE [H] "H" "Show the next heatmap";
@@ -309,6 +336,10 @@ shortcuts! {
     Time MeasureTimes NONE [Enter] "Enter" "Measure what nodes and tests take; Esc ends it";
     Time NextExtent NONE [W] "W" "Time of the whole picture, the marked region or the picked pixel";
     Time NextTimes NONE [C] "C" "Times of the terms by regression or in place";
+    Sweep RunSweep NONE [Enter] "Enter" "Take the sweep over depths and leaf sizes; Esc ends it";
+    Sweep PreviousParameter SHIFT [E] "Shift+E" "Parameter of the sweep before";
+    Sweep NextParameter NONE [E] "E" "Next parameter of the sweep";
+    Sweep SweepMap NONE [M] "M" "Curves of the sweep, or its map";
 }
 
 /// Flying and flipping go on while a key is held; all else happens once.
@@ -323,9 +354,16 @@ fn is_held(action: Action) -> bool {
 /// Whether keys do it while text is typed: they are none that edit it.
 fn goes_while_typing(action: Action) -> bool {
     use Action::{LessonBack, LessonNext, LessonReveal, Lessons, Open, Palette};
+    use Action::{SaveWorkspace, SaveWorkspaceAs};
     matches!(
         action,
-        Open | Palette | Lessons | LessonReveal | LessonNext | LessonBack
+        Open | Palette
+            | Lessons
+            | LessonReveal
+            | LessonNext
+            | LessonBack
+            | SaveWorkspace
+            | SaveWorkspaceAs
     )
 }
 

@@ -7,9 +7,12 @@ use super::StartOptions;
 use super::comparing::{Comparing, Verdict, Which};
 use super::inspect::Inspect;
 use super::judging::Judging;
+use super::keep::Restoring;
 use super::modelling::Modelling;
+use super::notices::Notices;
 use super::panels::paper::Experiment;
 use super::selection::Selection;
+use super::sweeping::Sweeping;
 use super::trading::Trading;
 use super::walk::{Picked, Walking, Wish};
 use crate::measure::heat::PixelCounts;
@@ -58,6 +61,16 @@ pub struct State {
     pub trading: Trading,
     /// What the terms of equation (1) take.
     pub modelling: Modelling,
+    /// What the user wrote down.
+    pub notes: String,
+    /// Pixels marked to come back to.
+    pub pinned: Vec<[u32; 2]>,
+    /// What is to be selected again, until it is.
+    pub restoring: Option<Restoring>,
+    /// What was done, for a moment.
+    pub notices: Notices,
+    /// A grid of settings, measured.
+    pub sweeping: Sweeping,
 }
 
 /// The tree of a comparison that is not in front.
@@ -199,6 +212,11 @@ impl State {
             experiment: Experiment::default(),
             trading: Trading::default(),
             modelling: Modelling::default(),
+            notes: String::new(),
+            pinned: Vec::new(),
+            restoring: None,
+            notices: Notices::default(),
+            sweeping: Sweeping::default(),
         }
     }
 
@@ -362,6 +380,7 @@ impl State {
         self.inspect.visits.cancel();
         self.trading.turns.cancel();
         self.modelling.turns.cancel();
+        self.sweeping.turns.cancel();
     }
 
     /// Which long measurement is on its way, in words: nothing else may take times meanwhile.
@@ -369,6 +388,7 @@ impl State {
         [
             (self.trading.turns.is_running(), "the trade"),
             (self.modelling.turns.is_running(), "the time model"),
+            (self.sweeping.turns.is_running(), "the sweep"),
         ]
         .into_iter()
         .find_map(|(runs, name)| runs.then_some(name))
@@ -378,7 +398,8 @@ impl State {
     pub fn make_way(&self) {
         let rests = self.work.is_none();
         let rests = self.trading.turns.make_way(rests);
-        self.modelling.turns.make_way(rests);
+        let rests = self.modelling.turns.make_way(rests);
+        self.sweeping.turns.make_way(rests);
     }
 
     /// Whether what is shown was made with other settings than the widgets say.
@@ -448,6 +469,7 @@ impl State {
     fn fail(&mut self, which: Which, why: String) {
         let loading = matches!(self.work, Some((Stage::Loading, _)));
         self.work = None;
+        self.restoring = None;
         if which != self.which {
             let what = format!("Tree {} could not be shown", which.name());
             self.failure = Some(Failure { what, why });

@@ -23,6 +23,9 @@ pub enum Unequal {
     Size,
 }
 
+/// Parameters of class S that not every structure has.
+const TREE_SETTINGS: [&str; 2] = ["D_MAX", "N_OILF"];
+
 /// How many unequal pixels are named.
 const PIXELS_NAMED: usize = 5;
 
@@ -33,7 +36,9 @@ pub fn unequal(a: (&Measurement, &Picture), b: (&Measurement, &Picture)) -> Vec<
         .filter(|p| matches!(p.class, Class::S | Class::D))
         .filter_map(|p| {
             let (a, b) = ((p.value)(a.0), (p.value)(b.0));
-            (a != b).then_some(Unequal::Parameter {
+            // Where one of the two has no use for a setting of the tree, nothing of it can differ.
+            let applies = !TREE_SETTINGS.contains(&p.symbol) || a.is_some() && b.is_some();
+            (applies && a != b).then_some(Unequal::Parameter {
                 symbol: p.symbol,
                 a,
                 b,

@@ -4,7 +4,9 @@ mod csv;
 pub mod grid;
 mod json;
 mod latex;
+mod machine;
 mod markdown;
+mod page;
 pub mod paper;
 mod per_kind;
 pub mod pixel;
@@ -13,6 +15,8 @@ mod text;
 pub mod trade;
 mod words;
 
+pub use machine::{Machine, now};
+pub use page::{Figure, Page};
 pub use text::{plain_table, write_summary};
 
 use crate::geometry::Aabb;

@@ -27,11 +27,20 @@ pub struct SceneRequest {
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     #[error(transparent)]
-    Format(#[from] format::FormatError),
+    Format(format::FormatError),
     #[error(transparent)]
     Builtin(#[from] builtin::BuiltinError),
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+impl From<format::FormatError> for LoadError {
+    fn from(error: format::FormatError) -> Self {
+        match error {
+            format::FormatError::Cancelled(cancelled) => LoadError::Cancelled(cancelled),
+            error => LoadError::Format(error),
+        }
+    }
 }
 
 impl SceneSource {

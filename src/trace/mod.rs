@@ -16,6 +16,7 @@ mod record;
 mod render;
 mod settings;
 mod space;
+mod through_voxels;
 mod traverse;
 mod visits;
 mod waiting;

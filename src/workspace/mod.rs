@@ -181,6 +181,14 @@ impl Workspace {
         files::write_whole(path, |out| out.write_all(text.as_bytes()))
     }
 
+    /// The scene's file, if it is not there.
+    pub fn missing_scene(&self) -> Option<&Path> {
+        match &self.scene.source {
+            SceneSource::File(path) => Some(path.as_path()).filter(|path| !path.is_file()),
+            SceneSource::Builtin { .. } => None,
+        }
+    }
+
     /// Whether the scene's file holds other bytes than when the workspace was saved; `false` where
     /// that is not known, and for generators.
     pub fn scene_was_changed(&self) -> bool {

@@ -3,6 +3,8 @@
 
 mod choice;
 mod controls;
+mod export;
+mod kept;
 mod layer;
 mod legend;
 mod look;

@@ -34,6 +34,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         ))
         .on_hover_text("Width, depth and height (x, y, z) of the tight box around all objects");
     }
+    load_report(ui, scene.notes());
     list(
         ui,
         "Rendering takes",
@@ -49,11 +50,14 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         .collect::<Vec<_>>(),
     );
     list(ui, "Left out", &requirements.left_out());
-    load_report(ui, scene.notes());
 }
 
 /// What the reader found, left out, changed and made up.
 fn load_report(ui: &mut egui::Ui, notes: &[Note]) {
+    if notes.iter().any(|note| note.kind == NoteKind::Read) {
+        ui.add_space(4.0);
+        ui.strong("Load report");
+    }
     for kind in NoteKind::ALL {
         let of_kind = notes.iter().filter(|note| note.kind == kind);
         let texts: Vec<_> = of_kind.map(|note| note.text.clone()).collect();

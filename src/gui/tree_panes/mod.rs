@@ -1,12 +1,15 @@
 //! The panes about the tree: its outline, histograms of its leaves, its shape, the cost of splitting
-//! the selected node, what accuracy costs, and where the time goes. A pane is one file and one line in [`TreePane::ALL`].
+//! the selected node, what accuracy costs, where the time goes, and a grid of
+//! settings. A pane is one file and one line in [`TreePane::ALL`].
 
 mod cost;
 mod find_bar;
 mod histograms;
 mod icicle;
+mod log_axis;
 mod outline;
 mod rows;
+mod sweep;
 mod time;
 mod trade;
 
@@ -21,16 +24,18 @@ pub enum TreePane {
     Cost,
     Trade,
     Time,
+    Sweep,
 }
 
 impl TreePane {
-    pub const ALL: [TreePane; 6] = [
+    pub const ALL: [TreePane; 7] = [
         TreePane::Outline,
         TreePane::Histograms,
         TreePane::Icicle,
         TreePane::Cost,
         TreePane::Trade,
         TreePane::Time,
+        TreePane::Sweep,
     ];
 
     /// What its tab says.
@@ -42,6 +47,7 @@ impl TreePane {
             TreePane::Cost => "Split cost",
             TreePane::Trade => "Trade",
             TreePane::Time => "Time",
+            TreePane::Sweep => "Sweep",
         }
     }
 }
@@ -55,6 +61,7 @@ pub struct TreePanes {
     cost: cost::CostPane,
     trade: trade::TradePane,
     time: time::TimePane,
+    sweep: sweep::SweepPane,
 }
 
 impl TreePanes {
@@ -70,6 +77,7 @@ impl TreePanes {
             TreePane::Cost => self.cost.ui(ui, state),
             TreePane::Trade => self.trade.ui(ui, state),
             TreePane::Time => self.time.ui(ui, state),
+            TreePane::Sweep => self.sweep.ui(ui, state),
         }
     }
 }

@@ -10,6 +10,12 @@ use std::collections::HashMap;
 /// many triangles take about 8 GiB.
 pub const MOST_FACES: usize = 1 << 25;
 
+/// The most vertices of a face; larger ones are skipped.
+pub const MOST_VERTICES: usize = 1 << 20;
+
+/// The most vertices of all polygons together.
+const MOST_CORNERS: usize = 1 << 27;
+
 /// The most vertices of a face that is split into triangles, which may take the square of that.
 pub const MOST_VERTICES_SPLIT: usize = 10_000;
 
@@ -43,6 +49,8 @@ pub(super) struct Gatherer {
     slot: Option<u32>,
     reasons: Vec<Reason>,
     faces: usize,
+    /// Vertices of polygons.
+    corners: usize,
 }
 
 impl Gatherer {
@@ -67,19 +75,22 @@ impl Gatherer {
 
     /// Notes that something was left out or changed: counted by reason, the first place named.
     pub fn note(&mut self, kind: NoteKind, text: &str, place: Place) {
-        let known = |reason: &&mut Reason| reason.kind == kind && reason.text == text;
-        if let Some(reason) = self.reasons.iter_mut().find(known) {
-            reason.count += 1;
-        } else if self.reasons.len() < MOST_REASONS {
-            self.reasons.push(Reason {
-                kind,
-                text: text.to_owned(),
-                count: 1,
-                first: place,
-            });
-        } else if text != OTHER_REASONS {
-            self.reasons.truncate(MOST_REASONS - 1);
-            self.note(kind, OTHER_REASONS, place);
+        let is_full = self.reasons.len() >= MOST_REASONS;
+        for text in [text, OTHER_REASONS] {
+            let known = |reason: &&mut Reason| reason.kind == kind && reason.text == text;
+            if let Some(reason) = self.reasons.iter_mut().find(known) {
+                reason.count += 1;
+                return;
+            }
+            if !is_full || text == OTHER_REASONS {
+                self.reasons.push(Reason {
+                    kind,
+                    text: text.to_owned(),
+                    count: 1,
+                    first: place,
+                });
+                return;
+            }
         }
     }
 
@@ -102,6 +113,15 @@ impl Gatherer {
             let normals = normals.map(|n| [n[0], n[1], n[2]]);
             let triangle = Triangle::new([a, b, c], normals).map(Primitive::Triangle);
             return self.object(place, "a triangle", triangle);
+        }
+        if vertices.len() > MOST_VERTICES {
+            let text = format!("face of more than {MOST_VERTICES} vertices");
+            return self.skip_face(place, &text);
+        }
+        self.corners += vertices.len();
+        if self.corners > MOST_CORNERS {
+            let most = format_args!("at most {MOST_CORNERS} vertices of polygons in a file");
+            return Err(ReadError::at(place, most, "more"));
         }
         match Polygon::new(vertices.to_vec(), normals.map(<[Vec3]>::to_vec)) {
             Err(ShapeError::NotPlanar(_)) => self.split(place, vertices, normals),

@@ -55,6 +55,10 @@ impl Input<'_> {
         if !path.starts_with(&folder) {
             return Err(BesideError::Elsewhere);
         }
+        // Reading a pipe might wait for ever.
+        if !path.is_file() {
+            return Err(io::Error::other("not a file").into());
+        }
         match read_whole(&path, progress)? {
             Ok(bytes) => Ok(bytes),
             Err(cancelled) => Err(cancelled.into()),

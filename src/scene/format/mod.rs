@@ -21,7 +21,7 @@ mod place;
 mod ply;
 mod stl;
 
-pub use gather::{MOST_FACES, MOST_VERTICES_SPLIT};
+pub use gather::{MOST_FACES, MOST_VERTICES, MOST_VERTICES_SPLIT};
 pub use input::{BesideError, Input, MOST_BYTES};
 pub use place::Place;
 

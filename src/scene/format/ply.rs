@@ -6,7 +6,7 @@
 //! taken to point along Y. The values are read by `ply-rs-bw`, element by element, so that a header
 //! that claims too many costs nothing.
 
-use super::gather::Gatherer;
+use super::gather::{Gatherer, MOST_VERTICES};
 use super::lines::{Lines, quoted};
 use super::{Format, Place, ReadError};
 use crate::geometry::Vec3;
@@ -266,7 +266,8 @@ impl Mesh {
             };
             vertices.clear();
             normals.clear();
-            for index in indices {
+            // A face of too many vertices is skipped whatever follows.
+            for index in indices.into_iter().take(MOST_VERTICES + 1) {
                 let at = usize::try_from(index).unwrap_or(usize::MAX);
                 let Some(&vertex) = self.positions.get(at) else {
                     let count = self.positions.len();

@@ -13,7 +13,7 @@
 
 mod mtl;
 
-use super::gather::Gatherer;
+use super::gather::{Gatherer, MOST_VERTICES};
 use super::lines::{Line, Lines, Words, parse, quoted};
 use super::{BesideError, Format, Input, Place, ReadError};
 use crate::geometry::Vec3;
@@ -142,7 +142,8 @@ impl Reader<'_> {
         vertices.clear();
         normals.clear();
         for corner in words {
-            if corner.starts_with(b"#") {
+            // A face of too many vertices is skipped whatever follows.
+            if corner.starts_with(b"#") || vertices.len() > MOST_VERTICES {
                 break;
             }
             let mut indices = corner.split(|b| *b == b'/');
