@@ -13,7 +13,9 @@
 //! equal rounded numbers; the walk through a tree relies on it.
 
 use super::numeric::Shear;
-use super::{Cone, PackedRay, Polygon, Primitive, Shape, Sphere, Triangle, UnitFrame, cone};
+use super::{
+    Cone, PackedRay, Polygon, Primitive, Shape, Sphere, Triangle, UnitFrame, cone, triangle,
+};
 use crate::geometry::{Ray, Vec3};
 use glam::Vec3 as Point;
 
@@ -68,13 +70,21 @@ impl<S: Shape + Clone> Form for S {
     }
 }
 
-/// Rounds the distance that `intersect` finds. Distances that round to `t_max` count as `t_max`, so
-/// that what wins a tie does not depend on the order of the tests.
+/// Beyond how far a distance may lie that rounds to another: a factor.
+const UP: f64 = 1.0 + f32::EPSILON as f64;
+
+/// Rounds a distance. Those that round to `t_max` count as `t_max`, so that what wins a tie does not
+/// depend on the order of the tests.
+#[inline(always)]
+fn within(t: f64, t_max: f64) -> Option<f64> {
+    let t = f64::from(t as f32);
+    (t <= t_max).then_some(t)
+}
+
+/// Rounds the distance that `intersect` finds.
 #[inline(always)]
 fn rounded(t_max: f64, intersect: impl FnOnce(f64) -> Option<f64>) -> Option<f64> {
-    const UP: f64 = 1.0 + f32::EPSILON as f64;
-    let t = f64::from(intersect(t_max * UP)? as f32);
-    (t <= t_max).then_some(t)
+    within(intersect(t_max * UP)?, t_max)
 }
 
 /// What [`Form::rounding`] is for coordinates of at most `reach`.
@@ -145,9 +155,14 @@ pub struct PackedTriangle {
 }
 
 impl PackedTriangle {
+    /// [`Form::settle`] of a triangle with these vertices, for a ray whose coordinates and the
+    /// triangle's are in cyclic order with the axis of its direction's largest component last.
     #[inline(always)]
-    pub(crate) fn from_vertices(vertices: [Point; 3]) -> Self {
-        PackedTriangle { vertices }
+    pub(crate) fn settle_turned(vertices: [Point; 3], ray: &Ray, t_max: f64) -> Option<f64> {
+        let vertices = vertices.map(|v| v.as_dvec3() - ray.origin);
+        let shear = Shear::of_turned(ray.direction);
+        let t = triangle::crossing(vertices, &shear, [ray.t_min, t_max * UP])?;
+        within(t, t_max)
     }
 
     /// Whether the ray's line certainly misses it, decided in `f32`.

@@ -2,7 +2,7 @@
 //! the ray may hit, whatever `f32` has rounded; those few are then tested one by one.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::ray::{CHUNK, LaneRays};
+use super::ray::{LaneRay, LaneRays};
 use super::simd::Simd;
 use crate::geometry::Ray;
 use crate::primitive::{Form, PackedSphere, PackedTriangle, Primitive, Shape, UnitFrame};
@@ -39,7 +39,18 @@ pub(super) struct MayHit {
 /// A block that holds all there is of its objects in `f32`.
 pub(super) trait Whole: Block {
     /// [`Form::settle`] of the packed object.
-    fn settle(&self, place: usize, ray: &Ray, t_max: f64) -> Option<f64>;
+    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64>;
+}
+
+/// A ray in `f64`, its axes in this order.
+#[inline(always)]
+pub(super) fn widened(ray: &LaneRay, axes: [usize; 3]) -> Ray {
+    Ray {
+        origin: axes.map(|k| f64::from(ray.origin[k])).into(),
+        direction: axes.map(|k| f64::from(ray.direction[k])).into(),
+        t_min: f64::from(ray.t_min),
+        t_max: f64::from(ray.t_max),
+    }
 }
 
 /// Bounds on errors in `f32`, for packed objects and for the exact ones that these are nearest to, as
@@ -143,22 +154,19 @@ impl Block for Triangles {
     /// vertices, between which that of a hit lies.
     #[inline(always)]
     unsafe fn candidates<S: Simd>(&self, rays: &LaneRays, ray: usize, limit: f32) -> MayHit {
-        let kz = *rays.axis.get_unchecked(ray) as usize;
-        let kx = if kz == 2 { 0 } else { kz + 1 };
-        let ky = if kx == 2 { 0 } else { kx + 1 };
-        let number =
-            |numbers: &[[f32; CHUNK]; 3], k: usize| *numbers.get_unchecked(k).get_unchecked(ray);
-        let origin = splat3::<S>([kx, ky, kz].map(|k| number(&rays.origin, k)));
-        let [dx, dy] = [kx, ky].map(|k| number(&rays.direction, k));
-        let along = number(&rays.inverse, kz);
+        let ray = rays.rays.get_unchecked(ray);
+        let [kx, ky, kz] = ray.turned_axes();
+        let origin = splat3::<S>([kx, ky, kz].map(|k| *ray.origin.get_unchecked(k)));
+        let [dx, dy] = [kx, ky].map(|k| *ray.direction.get_unchecked(k));
+        let along = *ray.inverse.get_unchecked(kz);
         let shear = [S::splat(dx * along), S::splat(dy * along)];
         let along = S::splat(along);
-        let reach = *rays.reach.get_unchecked(ray);
+        let reach = ray.reach;
         let error = S::splat(EDGE_ERROR * reach);
-        let nearest = S::splat(*rays.t_min.get_unchecked(ray) - T_ERROR * reach);
+        let nearest = S::splat(ray.t_min - T_ERROR * reach);
         let farthest = S::splat(limit + T_ERROR * reach);
-        let begin = S::splat(*rays.t_min.get_unchecked(ray) + T_ERROR * reach);
-        let end = S::splat(*rays.t_max.get_unchecked(ray) - T_ERROR * reach);
+        let begin = S::splat(ray.t_min + T_ERROR * reach);
+        let end = S::splat(ray.t_max - T_ERROR * reach);
         let zero = S::splat(0.0);
         parts!(S, self.objects, at => {
             let vertex = |i: usize| {
@@ -213,17 +221,19 @@ impl Block for Triangles {
 
 impl Whole for Triangles {
     #[inline(always)]
-    fn settle(&self, place: usize, ray: &Ray, t_max: f64) -> Option<f64> {
-        let vertex = |i: usize| [0, 1, 2].map(|k: usize| self.vertices[i][k][place]).into();
-        PackedTriangle::from_vertices([vertex(0), vertex(1), vertex(2)]).settle(ray, t_max)
+    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64> {
+        let axes = ray.turned_axes();
+        let vertices = [0, 1, 2].map(|i: usize| axes.map(|k| self.vertices[i][k][place]).into());
+        PackedTriangle::settle_turned(vertices, &widened(ray, axes), t_max)
     }
 }
 
 impl Whole for Spheres {
     #[inline(always)]
-    fn settle(&self, place: usize, ray: &Ray, t_max: f64) -> Option<f64> {
+    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64> {
         let center = [0, 1, 2].map(|k: usize| self.center[k][place]).into();
-        PackedSphere::from_center(center, self.radius[place]).settle(ray, t_max)
+        let ray = widened(ray, [0, 1, 2]);
+        PackedSphere::from_center(center, self.radius[place]).settle(&ray, t_max)
     }
 }
 
@@ -282,17 +292,15 @@ impl Block for Spheres {
     /// The distance between the centre and the ray's line.
     #[inline(always)]
     unsafe fn candidates<S: Simd>(&self, rays: &LaneRays, ray: usize, limit: f32) -> MayHit {
-        let numbers =
-            |numbers: &[[f32; CHUNK]; 3]| [0, 1, 2].map(|k: usize| *numbers[k].get_unchecked(ray));
-        let direction = numbers(&rays.direction);
-        let [x, y, z] = direction;
+        let ray = rays.rays.get_unchecked(ray);
+        let [x, y, z] = ray.direction;
         let squared = x * x + y * y + z * z;
-        let origin = splat3::<S>(numbers(&rays.origin));
-        let direction = splat3::<S>(direction);
+        let origin = splat3::<S>(ray.origin);
+        let direction = splat3::<S>(ray.direction);
         let per_square = S::splat(1.0 / squared);
-        let reach = *rays.reach.get_unchecked(ray);
+        let reach = ray.reach;
         let error = S::splat(OFFSET_ERROR * reach);
-        let nearest = S::splat(*rays.t_min.get_unchecked(ray) - T_ERROR * reach);
+        let nearest = S::splat(ray.t_min - T_ERROR * reach);
         let farthest = S::splat(limit + T_ERROR * reach);
         // Not below 1 over the length.
         let per_length = S::splat((1.0 + 4.0 * f32::EPSILON) / squared.sqrt());
@@ -340,16 +348,17 @@ impl Block for Boxes {
     /// Where the ray is within the box, faces as thick as the planes of the tree.
     #[inline(always)]
     unsafe fn candidates<S: Simd>(&self, rays: &LaneRays, ray: usize, limit: f32) -> MayHit {
-        let reach = *rays.reach.get_unchecked(ray);
-        let nearest = S::splat(*rays.t_min.get_unchecked(ray) - T_ERROR * reach);
+        let ray = rays.rays.get_unchecked(ray);
+        let (reach, shifted) = (ray.reach, ray.shifted(rays.thick));
+        let nearest = S::splat(ray.t_min - T_ERROR * reach);
         let farthest = S::splat(limit + T_ERROR * reach);
         parts!(S, self.objects, at => {
             let (mut enter, mut exit) = (nearest, farthest);
             for k in 0..3 {
-                let inverse = *rays.inverse[k].get_unchecked(ray);
+                let inverse = ray.inverse[k];
                 let backward = usize::from(inverse.is_sign_negative());
                 let inverse = S::splat(inverse);
-                let shifted = S::splat(*rays.shifted[k].get_unchecked(ray));
+                let shifted = S::splat(shifted[k]);
                 let width = S::mul(S::abs(inverse), S::splat(2.0 * rays.thick));
                 let near = self.corners[backward][k].as_ptr().add(at);
                 let far = self.corners[1 - backward][k].as_ptr().add(at);
