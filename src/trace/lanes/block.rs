@@ -4,6 +4,7 @@
 
 use super::ray::{LaneRay, LaneRays};
 use super::simd::Simd;
+use super::three;
 use crate::geometry::Ray;
 use crate::primitive::{Form, PackedSphere, PackedTriangle, Primitive, Shape, UnitFrame};
 
@@ -46,8 +47,8 @@ pub(super) trait Whole: Block {
 #[inline(always)]
 pub(super) fn widened(ray: &LaneRay, axes: [usize; 3]) -> Ray {
     Ray {
-        origin: axes.map(|k| f64::from(ray.origin[k])).into(),
-        direction: axes.map(|k| f64::from(ray.direction[k])).into(),
+        origin: three(|k| f64::from(ray.origin[axes[k]])).into(),
+        direction: three(|k| f64::from(ray.direction[axes[k]])).into(),
         t_min: f64::from(ray.t_min),
         t_max: f64::from(ray.t_max),
     }
@@ -155,10 +156,10 @@ impl Block for Triangles {
     #[inline(always)]
     unsafe fn candidates<S: Simd>(&self, rays: &LaneRays, ray: usize, limit: f32) -> MayHit {
         let ray = rays.rays.get_unchecked(ray);
-        let [kx, ky, kz] = ray.turned_axes();
-        let origin = splat3::<S>([kx, ky, kz].map(|k| *ray.origin.get_unchecked(k)));
-        let [dx, dy] = [kx, ky].map(|k| *ray.direction.get_unchecked(k));
-        let along = *ray.inverse.get_unchecked(kz);
+        let axes = ray.turned_axes();
+        let origin = splat3::<S>(three(|k| *ray.origin.get_unchecked(axes[k])));
+        let [dx, dy, _] = three(|k| *ray.direction.get_unchecked(axes[k]));
+        let along = *ray.inverse.get_unchecked(axes[2]);
         let shear = [S::splat(dx * along), S::splat(dy * along)];
         let along = S::splat(along);
         let reach = ray.reach;
@@ -171,7 +172,7 @@ impl Block for Triangles {
         parts!(S, self.objects, at => {
             let vertex = |i: usize| {
                 let v = self.vertices.get_unchecked(i);
-                [kx, ky, kz].map(|k| v.get_unchecked(k).as_ptr().add(at))
+                three(|k| v.get_unchecked(axes[k]).as_ptr().add(at))
             };
             let a = sheared::<S>(vertex(0), origin, shear);
             let b = sheared::<S>(vertex(1), origin, shear);
@@ -223,7 +224,7 @@ impl Whole for Triangles {
     #[inline(always)]
     fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64> {
         let axes = ray.turned_axes();
-        let vertices = [0, 1, 2].map(|i: usize| axes.map(|k| self.vertices[i][k][place]).into());
+        let vertices = three(|i| three(|k| self.vertices[i][axes[k]][place]).into());
         PackedTriangle::settle_turned(vertices, &widened(ray, axes), t_max)
     }
 }
@@ -231,7 +232,7 @@ impl Whole for Triangles {
 impl Whole for Spheres {
     #[inline(always)]
     fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64> {
-        let center = [0, 1, 2].map(|k: usize| self.center[k][place]).into();
+        let center = three(|k| self.center[k][place]).into();
         let ray = widened(ray, [0, 1, 2]);
         PackedSphere::from_center(center, self.radius[place]).settle(&ray, t_max)
     }
@@ -305,7 +306,7 @@ impl Block for Spheres {
         // Not below 1 over the length.
         let per_length = S::splat((1.0 + 4.0 * f32::EPSILON) / squared.sqrt());
         parts!(S, self.objects, at => {
-            let [x, y, z] = [0, 1, 2].map(|k: usize| self.center[k].as_ptr().add(at));
+            let [x, y, z] = three(|k| self.center[k].as_ptr().add(at));
             let to = [
                 S::sub(S::load(x), origin[0]),
                 S::sub(S::load(y), origin[1]),

@@ -30,6 +30,13 @@ use simd::Waiting;
 pub use tracer::{KernelChoice, TimedKernel};
 use walk::{Tests, walk};
 
+/// Three values by number. Unlike `array::map` it is never a call, which would pass arrays through
+/// memory in pieces of other sizes than they are read in; processors wait then.
+#[inline(always)]
+fn three<T>(value: impl Fn(usize) -> T) -> [T; 3] {
+    [value(0), value(1), value(2)]
+}
+
 /// What the kernel is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstructionSet {

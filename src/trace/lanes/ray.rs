@@ -1,5 +1,6 @@
 //! Rays as lanes walk and test them: in `f32`, with bounds on what that rounds.
 
+use super::three;
 use crate::geometry::Ray;
 use crate::primitive::{FramedRay, UnitFrame};
 
@@ -46,7 +47,7 @@ impl LaneRay {
     /// are met where they begin.
     #[inline(always)]
     pub(super) fn shifted(&self, thick: f32) -> [f32; 3] {
-        [0, 1, 2].map(|k: usize| self.origin[k] + thick.copysign(self.direction[k]))
+        three(|k| self.origin[k] + thick.copysign(self.direction[k]))
     }
 }
 
@@ -223,27 +224,27 @@ impl Columns {
         for k in 0..3 {
             let (origin, direction) = (self.origin[k][lane], self.direction[k][lane]);
             let inverse = 1.0 / most(direction.abs(), LEAST).copysign(direction);
-            let [a, b] = [root.corners[0][k], root.corners[1][k]].map(|c| (c - origin) * inverse);
+            let a = (root.corners[0][k] - origin) * inverse;
+            let b = (root.corners[1][k] - origin) * inverse;
             t_enter = most(least(a, b), t_enter);
             t_exit = least(most(a, b), t_exit);
             self.inverse[k][lane] = inverse;
         }
         self.t_enter[lane] = t_enter;
         self.t_exit[lane] = t_exit;
-        let [x, y, z] = [0, 1, 2].map(|k: usize| self.direction[k][lane].abs());
+        let [x, y, z] = three(|k| self.direction[k][lane].abs());
         let y_or_z = if y > z { 1 } else { 2 };
         self.axis[lane] = if (x > y) & (x > z) { 0 } else { y_or_z };
-        let [x, y, z] = [0, 1, 2].map(|k: usize| self.origin[k][lane].abs());
+        let [x, y, z] = three(|k| self.origin[k][lane].abs());
         self.reach[lane] = 0.5 + most(x, most(y, z));
     }
 
     #[inline(always)]
     fn ray(&self, lane: usize) -> LaneRay {
-        let three = |numbers: &[Numbers; 3]| [0, 1, 2].map(|k: usize| numbers[k][lane]);
         LaneRay {
-            origin: three(&self.origin),
-            direction: three(&self.direction),
-            inverse: three(&self.inverse),
+            origin: three(|k| self.origin[k][lane]),
+            direction: three(|k| self.direction[k][lane]),
+            inverse: three(|k| self.inverse[k][lane]),
             t_min: self.t_min[lane],
             t_max: self.t_max[lane],
             reach: self.reach[lane],
