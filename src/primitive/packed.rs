@@ -70,21 +70,15 @@ impl<S: Shape + Clone> Form for S {
     }
 }
 
-/// Beyond how far a distance may lie that rounds to another: a factor.
+/// How far beyond `t_max` a distance may lie that rounds to it: a factor.
 const UP: f64 = 1.0 + f32::EPSILON as f64;
 
-/// Rounds a distance. Those that round to `t_max` count as `t_max`, so that what wins a tie does not
-/// depend on the order of the tests.
+/// Rounds a distance of at most `t_max` · [`UP`]. Those that round to `t_max` count as `t_max`, so that
+/// what wins a tie does not depend on the order of the tests.
 #[inline(always)]
-fn within(t: f64, t_max: f64) -> Option<f64> {
+fn rounded(t: f64, t_max: f64) -> Option<f64> {
     let t = f64::from(t as f32);
     (t <= t_max).then_some(t)
-}
-
-/// Rounds the distance that `intersect` finds.
-#[inline(always)]
-fn rounded(t_max: f64, intersect: impl FnOnce(f64) -> Option<f64>) -> Option<f64> {
-    within(intersect(t_max * UP)?, t_max)
 }
 
 /// What [`Form::rounding`] is for coordinates of at most `reach`.
@@ -137,7 +131,7 @@ impl Form for PackedSphere {
             center: self.center.as_dvec3(),
             radius: f64::from(self.radius),
         };
-        rounded(t_max, |t_max| Shape::intersect(&sphere, ray, t_max))
+        rounded(Shape::intersect(&sphere, ray, t_max * UP)?, t_max)
     }
 
     fn rounding(&self) -> f64 {
@@ -162,7 +156,7 @@ impl PackedTriangle {
         let vertices = vertices.map(|v| v.as_dvec3() - ray.origin);
         let shear = Shear::of_turned(ray.direction);
         let t = triangle::crossing(vertices, &shear, [ray.t_min, t_max * UP])?;
-        within(t, t_max)
+        rounded(t, t_max)
     }
 
     /// Whether the ray's line certainly misses it, decided in `f32`.
@@ -206,7 +200,7 @@ impl Form for PackedTriangle {
             vertices: self.vertices.map(|v| v.as_dvec3()),
             normals: None,
         };
-        rounded(t_max, |t_max| Shape::intersect(&triangle, ray, t_max))
+        rounded(Shape::intersect(&triangle, ray, t_max * UP)?, t_max)
     }
 
     fn rounding(&self) -> f64 {
@@ -269,10 +263,8 @@ impl Form for PackedPolygon {
 
     #[inline(always)]
     fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        rounded(t_max, |t_max| {
-            let t = self.crossing(ray)?;
-            (ray.t_min <= t && t <= t_max).then_some(t)
-        })
+        let t = self.crossing(ray).filter(|&t| ray.t_min <= t)?;
+        rounded(t, t_max)
     }
 
     fn rounding(&self) -> f64 {
@@ -427,7 +419,7 @@ impl Form for PackedCone {
     #[inline(always)]
     fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let side = self.side();
-        rounded(t_max, |t_max| side.intersect(ray, t_max))
+        rounded(side.intersect(ray, t_max * UP)?, t_max)
     }
 
     fn rounding(&self) -> f64 {

@@ -22,11 +22,18 @@ pub(super) trait Block: Default + Send + Sync {
 
     fn objects(&self) -> &[u32; BLOCK];
 
-    /// What the ray of this number may hit up to the distance `limit`.
+    /// What the ray of this number may hit up to the distance `limit`, and, if `any` will do, what it
+    /// surely hits.
     ///
     /// # Safety
     /// As [`Simd`].
-    unsafe fn candidates<S: Simd>(&self, rays: &LaneRays, ray: usize, limit: f32) -> MayHit;
+    unsafe fn candidates<S: Simd>(
+        &self,
+        rays: &LaneRays,
+        ray: usize,
+        limit: f32,
+        any: bool,
+    ) -> MayHit;
 }
 
 /// Objects of a block that a ray may hit, a bit for each.
@@ -154,7 +161,13 @@ impl Block for Triangles {
     /// 2(1), 2013), which decide where they are off 0 by more than rounding; and the distances of the
     /// vertices, between which that of a hit lies.
     #[inline(always)]
-    unsafe fn candidates<S: Simd>(&self, rays: &LaneRays, ray: usize, limit: f32) -> MayHit {
+    unsafe fn candidates<S: Simd>(
+        &self,
+        rays: &LaneRays,
+        ray: usize,
+        limit: f32,
+        any: bool,
+    ) -> MayHit {
         let ray = rays.rays.get_unchecked(ray);
         let axes = ray.turned_axes();
         let origin = splat3::<S>(three(|k| *ray.origin.get_unchecked(axes[k])));
@@ -208,13 +221,16 @@ impl Block for Triangles {
                 let (early, late) = (S::sub(t, off), S::add(t, off));
                 let out = S::or(S::lt(late, nearest), S::lt(farthest, early));
                 let maybe = S::and_not(maybe, S::and(clear, out));
-                let inside = S::or(S::lt(error, least), S::lt(most, S::sub(zero, error)));
-                let within = S::and(S::le(begin, early), S::le(late, end));
-                let surely = S::and(S::and(inside, within), S::and(clear, maybe));
-                MayHit {
+                let mut found = MayHit {
                     maybe: S::bits(maybe),
-                    surely: S::bits(surely),
+                    surely: 0,
+                };
+                if any {
+                    let inside = S::or(S::lt(error, least), S::lt(most, S::sub(zero, error)));
+                    let within = S::and(S::le(begin, early), S::le(late, end));
+                    found.surely = S::bits(S::and(S::and(inside, within), S::and(clear, maybe)));
                 }
+                found
             }
         })
     }
@@ -292,7 +308,13 @@ impl Block for Spheres {
 
     /// The distance between the centre and the ray's line.
     #[inline(always)]
-    unsafe fn candidates<S: Simd>(&self, rays: &LaneRays, ray: usize, limit: f32) -> MayHit {
+    unsafe fn candidates<S: Simd>(
+        &self,
+        rays: &LaneRays,
+        ray: usize,
+        limit: f32,
+        any: bool,
+    ) -> MayHit {
         let ray = rays.rays.get_unchecked(ray);
         let [x, y, z] = ray.direction;
         let squared = x * x + y * y + z * z;
@@ -303,6 +325,9 @@ impl Block for Spheres {
         let error = S::splat(OFFSET_ERROR * reach);
         let nearest = S::splat(ray.t_min - T_ERROR * reach);
         let farthest = S::splat(limit + T_ERROR * reach);
+        let begin = S::splat(ray.t_min + T_ERROR * reach);
+        let end = S::splat(ray.t_max - T_ERROR * reach);
+        let zero = S::splat(0.0);
         // Not below 1 over the length.
         let per_length = S::splat((1.0 + 4.0 * f32::EPSILON) / squared.sqrt());
         parts!(S, self.objects, at => {
@@ -318,14 +343,26 @@ impl Block for Spheres {
                 S::sub_mul(to[1], along, direction[1]),
                 S::sub_mul(to[2], along, direction[2]),
             ];
-            let reach = S::add(S::load(self.radius.as_ptr().add(at)), error);
-            let met = S::le(dot::<S>(off, off), S::mul(reach, reach));
+            let squared = dot::<S>(off, off);
+            let radius = S::load(self.radius.as_ptr().add(at));
+            let reach = S::add(radius, error);
+            let met = S::le(squared, S::mul(reach, reach));
             let half = S::mul(reach, per_length);
+            let first = S::sub(along, half);
             let reached = S::and(
-                S::le(S::sub(along, half), farthest),
+                S::le(first, farthest),
                 S::le(nearest, S::add(along, half)),
             );
-            MayHit { maybe: S::bits(S::and(met, reached)), surely: 0 }
+            let maybe = S::and(met, reached);
+            let mut found = MayHit { maybe: S::bits(maybe), surely: 0 };
+            if any {
+                // The ray enters between there and the point nearest to the centre.
+                let inner = S::max(S::sub(radius, error), zero);
+                let enters = S::lt(squared, S::mul(inner, inner));
+                let within = S::and(S::le(begin, first), S::le(along, end));
+                found.surely = S::bits(S::and(maybe, S::and(enters, within)));
+            }
+            found
         })
     }
 }
@@ -348,7 +385,13 @@ impl Block for Boxes {
 
     /// Where the ray is within the box, faces as thick as the planes of the tree.
     #[inline(always)]
-    unsafe fn candidates<S: Simd>(&self, rays: &LaneRays, ray: usize, limit: f32) -> MayHit {
+    unsafe fn candidates<S: Simd>(
+        &self,
+        rays: &LaneRays,
+        ray: usize,
+        limit: f32,
+        _: bool,
+    ) -> MayHit {
         let ray = rays.rays.get_unchecked(ray);
         let (reach, shifted) = (ray.reach, ray.shifted(rays.thick));
         let nearest = S::splat(ray.t_min - T_ERROR * reach);

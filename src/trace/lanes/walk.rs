@@ -201,8 +201,8 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
                 for number in first..first + blocks {
                     let block = tree.blocks.get_unchecked(number);
                     let limit = *limits.get_unchecked(j).get_unchecked(lane);
-                    let may_hit = block.candidates::<S>(rays, ray as usize, limit);
-                    let enough = any_will_do && may_hit.surely != 0;
+                    let may_hit = block.candidates::<S>(rays, ray as usize, limit, any_will_do);
+                    let enough = may_hit.surely != 0;
                     let mut maybe = if enough {
                         may_hit.surely
                     } else {
