@@ -9,11 +9,14 @@ use bspscope::worker::{Request, Stage, Update, Worker};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{ConnectionExt, ImageFormat};
 
 /// How often each thing is measured.
 const ROUNDS: usize = 5;
 
 fn main() {
+    startup();
     println!("rings with 46,201 objects, 512 × 512 pixels, D_AREC 4; {ROUNDS} rounds each");
     changes();
     stops();
@@ -147,18 +150,76 @@ impl Drop for Running {
     }
 }
 
+/// A virtual display of this number; `None` where there is no Xvfb.
+fn display(number: u32) -> Option<Running> {
+    let server = Command::new("Xvfb")
+        .arg(format!(":{number}"))
+        .args(["-screen", "0", "1400x900x24", "-nolisten", "tcp"])
+        .stderr(Stdio::null())
+        .spawn();
+    let server = Running(server.ok()?);
+    std::thread::sleep(Duration::from_secs(1));
+    Some(server)
+}
+
+/// From starting the program to the first frame of its window, and to the first picture of balls in it,
+/// as they are seen on the screen; every time with an empty settings folder.
+fn startup() {
+    /// Where the picture lies at first, in pixels of the screen: corner and size.
+    const PICTURE: [i16; 4] = [400, 280, 60, 60];
+    /// A piece of the bar at the top.
+    const BAR: [i16; 4] = [0, 0, 300, 20];
+    let Some(_server) = display(88) else {
+        println!("start: not measured, there is no Xvfb");
+        return;
+    };
+    let (screen, number) = x11rb::connect(Some(":88")).expect("the display is there");
+    let root = screen.setup().roots[number].root;
+    // How many different pixels there are in a part of the screen.
+    let colors = |[x, y, width, height]: [i16; 4]| {
+        let size = [width, height].map(|side| side as u16);
+        let image = screen
+            .get_image(ImageFormat::Z_PIXMAP, root, x, y, size[0], size[1], !0)
+            .expect("a request")
+            .reply()
+            .expect("a part of the screen");
+        let mut pixels: Vec<_> = image.data.chunks_exact(4).collect();
+        pixels.sort_unstable();
+        pixels.dedup();
+        pixels.len()
+    };
+    let (mut frames, mut pictures) = (Vec::new(), Vec::new());
+    for _ in 0..ROUNDS {
+        let settings = tempfile::tempdir().expect("a folder");
+        let begun = Instant::now();
+        let window = Command::new(env!("CARGO_BIN_EXE_bspscope"))
+            .env("DISPLAY", ":88")
+            .env_remove("WAYLAND_DISPLAY")
+            .env("XDG_CONFIG_HOME", settings.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        let _window = Running(window);
+        for (part, least, times) in [(BAR, 3, &mut frames), (PICTURE, 20, &mut pictures)] {
+            while colors(part) < least {
+                assert!(begun.elapsed() < Duration::from_secs(60), "nothing to see");
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            times.push(begun.elapsed());
+        }
+    }
+    println!("start of the program with balls");
+    report("to the first frame", frames);
+    report("to the first picture", pictures);
+}
+
 /// CPU time of the real window while nothing happens, on a virtual display.
 fn idle() {
-    let Ok(server) = Command::new("Xvfb")
-        .args([":87", "-screen", "0", "1400x900x24", "-nolisten", "tcp"])
-        .stderr(Stdio::null())
-        .spawn()
-    else {
+    let Some(_server) = display(87) else {
         println!("idle window: not measured, there is no Xvfb");
         return;
     };
-    let _server = Running(server);
-    std::thread::sleep(Duration::from_secs(1));
     let window = Command::new(env!("CARGO_BIN_EXE_bspscope"))
         .env("DISPLAY", ":87")
         .stdout(Stdio::null())

@@ -14,21 +14,25 @@
 //! | [`progress`] | how long tasks tell how far they are and are told to stop | |
 //! | [`primitive`] | sphere, triangle, polygon, cylinder and cone: bounds, overlap with a cell, intersection in `f64` or on objects packed in `f32` | a variant of [`primitive::Primitive`] |
 //! | [`scene`] | objects, materials, lights, camera; what the scene requires | |
-//! | [`scene::format`] | readers and writers of files | a line in [`scene::format::FORMATS`] |
+//! | [`scene::format`] | readers and writers of files: NFF, OBJ, PLY, glTF, STL; the load report | a line in [`scene::format::FORMATS`] |
 //! | [`scene::builtin`] | generated scenes | a line in [`scene::builtin::BUILTINS`] |
-//! | [`tree`] | 8-byte nodes, the one build driver, moments of the build, validation | |
+//! | [`tree`] | 8-byte nodes, the one build driver, voxels of grids, moments of the build, validation | |
 //! | [`tree::split`] | where a method splits a cell | a line in [`tree::split::SPLIT_RULES`] |
-//! | [`trace`] | traversal in two precisions, timed and counting kernels, plain or in lanes of vectors, shading, passes over a picture, visits of nodes | |
-//! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ; trees against testing every object | an entry of [`measure::PARAMETERS`] |
-//! | [`measure::model`] | the time model of equation (1): by regression and in place | |
-//! | [`measure::sweep`] | the parameters over a grid of settings: rows, shards, charts | |
+//! | [`trace`] | traversal of trees and grids in two precisions, timed and counting kernels, plain or in lanes of vectors, shading, passes over a picture, visits of nodes | |
+//! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ, figures of each kind of ray; trees against testing every object | an entry of [`measure::PARAMETERS`] or [`measure::RAY_FIGURES`] |
+//! | [`measure::model`] | the time model of equation (1): by regression and in place; where the time of a picture goes | |
+//! | [`measure::sweep`] | the parameters over a grid of settings: points, rows, shards, charts | |
 //! | [`measure::paper`] | the paper's printed tables, and its experiment repeated | |
 //! | [`measure::judge`] | exact arithmetic: why two answers about a ray differ | |
 //! | [`measure::stability`] | trees at the extremes | an entry of [`measure::stability::CASES`] |
 //! | [`measure::trade`] | what accuracy costs: time and error of every choice | a line in [`measure::trade::KNOBS`] |
 //! | [`measure::heat`] | what every pixel cost | a line in [`measure::heat::HEATMAPS`] |
 //! | [`overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves and rays | a line in [`overlay::COLORINGS`], [`overlay::COLORMAPS`] or [`overlay::HISTOGRAMS`] |
-//! | [`report`] | text, JSON, CSV, Markdown, LaTeX | a line in [`report::WRITERS`] |
+//! | [`files`] | files written whole or not at all, and their fingerprints | |
+//! | [`lesson`] | guided tours in plain text: what they look at, ask and tell; whether it holds | a line in [`lesson::LESSONS`] |
+//! | [`report`] | text, JSON, CSV, Markdown, LaTeX; the page of HTML | a line in [`report::WRITERS`] |
+//! | [`workspace`] | what was looked at and how, as a file; settings as a command | a field with a default |
+//! | [`export`] | pictures, heatmaps with legends, leaf boxes, the report put together | a line in [`export::LEAF_WRITERS`] |
 //! | [`worker`] | the thread between a window and all of the above: latest request wins | |
 //! | [`cli`], `gui` | the two faces; they never import each other but to start the window | |
 //!
@@ -68,9 +72,12 @@
 #![allow(rustdoc::private_intra_doc_links)]
 
 pub mod cli;
+pub mod export;
+pub mod files;
 pub mod geometry;
 #[cfg(feature = "gui")]
 pub mod gui;
+pub mod lesson;
 pub mod measure;
 pub mod overlay;
 pub mod primitive;
@@ -80,3 +87,4 @@ pub mod scene;
 pub mod trace;
 pub mod tree;
 pub mod worker;
+pub mod workspace;

@@ -250,6 +250,42 @@ fn options_arrive_in_the_measurement() {
 }
 
 #[test]
+fn the_load_report_is_told_on_standard_error_and_in_the_report() {
+    let program = Program::new();
+    program.write(
+        "square.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 1 2\n",
+    );
+    let measure = format!("measure square.obj {QUICK} --method midpoint");
+    let output = program.run(&measure);
+    assert_eq!(output.status.code(), Some(0));
+    let [text, errors] = [output.stdout, output.stderr].map(|s| String::from_utf8(s).unwrap());
+    for line in [
+        "Skipped: polygon without area, at line 6",
+        "Made up: no camera: one taken that frames all objects",
+    ] {
+        assert!(text.lines().any(|l| l.contains(line)), "{text}");
+        let told = format!("bspscope: square.obj: {line}");
+        assert!(errors.lines().any(|l| l == told), "{errors}");
+    }
+    assert!(text.contains("Read: polygons: 1"), "{text}");
+    assert!(!errors.contains("Read:"), "{errors}");
+    let json = program.run(&format!("{measure} --format json"));
+    let report: Value = serde_json::from_slice(&json.stdout).unwrap();
+    let notes = report["scene"]["notes"].as_array().unwrap();
+    assert!(notes.iter().any(|note| note["kind"] == "made_up"));
+    // Converted, it is complete: nothing is made up any more.
+    program.run("generate square.obj -o square.nff");
+    let text = program.done(&measure.replace(".obj", ".nff"));
+    assert!(text.contains("polygons: 1"), "{text}");
+    let refused = program.refused("generate balls:1 -o balls.obj");
+    assert!(
+        refused.contains("OBJ files cannot hold all of a scene"),
+        "{refused}"
+    );
+}
+
+#[test]
 fn what_has_no_value_is_null_and_not_zero() {
     let program = Program::new();
     program.write("empty-view.nff", EMPTY_VIEW);
@@ -438,6 +474,24 @@ fn methods_lists_every_method_and_setting() {
 }
 
 #[test]
+fn a_grid_shows_no_value_where_a_parameter_does_not_apply() {
+    let program = Program::new();
+    let text =
+        program.done("compare balls:1 --a method=midpoint --b method=grid --resolution 20x20");
+    for symbol in ["D_MAX", "N_OILF", "D_REACH", "N_IN", "N_INODES"] {
+        let row = text
+            .lines()
+            .find(|line| line.trim_start().starts_with(&format!("{symbol} ")));
+        let row: Vec<_> = row.unwrap().split_whitespace().collect();
+        assert!(row.contains(&"–"), "{row:?}");
+    }
+    assert!(
+        text.contains("grid: D_MAX and N_OILF do not apply"),
+        "{text}"
+    );
+}
+
+#[test]
 fn verify_checks_every_kind_of_ray() {
     let program = Program::new();
     let text = program.done("verify teaching --rays 1000");
@@ -554,6 +608,53 @@ fn a_comparison_is_made_under_equal_conditions_or_refused() {
     let wrong = program.run("compare tetra:3 --a method=midpoint --b method=sah-cut,gap=1");
     assert_eq!(wrong.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&wrong.stderr).contains("no setting 'gap'"));
+}
+
+#[test]
+fn what_rays_did_is_told_kind_by_kind_in_every_form() {
+    let program = Program::new();
+    let compare =
+        "compare balls:2 --a method=midpoint --b method=sah-cut --resolution 16x16 --format";
+    let json = program.json(&format!("{compare} json --per-kind"));
+    let tests = &json["per_kind"]["primary"]["tests"];
+    let of_runs: Vec<_> = (0..2)
+        .map(|run| &json["runs"][run]["parameters"]["N_PRIT"])
+        .collect();
+    assert_eq!(
+        tests["values"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .collect::<Vec<_>>(),
+        of_runs
+    );
+    let [a, b] = [0, 1].map(|run: usize| tests["values"][run].as_f64().unwrap());
+    assert_eq!(tests["second_to_first"].as_f64(), Some(b / a));
+    assert_eq!(json["per_kind"]["shadow"]["rays"]["second_to_first"], 1.0);
+    // No ray is refracted.
+    assert!(json["per_kind"].get("refracted").is_none());
+    let csv = program.done(&format!("{compare} csv --per-kind"));
+    assert!(
+        csv.contains(&format!("sah-cut,tests,tests,primary,R,count,{b}\n")),
+        "{csv}"
+    );
+    assert!(
+        csv.contains(&format!("2/1,tests,tests,primary,R,ratio,{}\n", b / a)),
+        "{csv}"
+    );
+    for (form, title) in [
+        ("text", "\nShadow rays\n"),
+        ("markdown", "\n## Shadow rays\n"),
+        ("latex", "\n% Shadow rays\n"),
+    ] {
+        let text = program.done(&format!("{compare} {form} --per-kind"));
+        assert!(
+            text.contains(title) && text.contains("nodes of a ray, most"),
+            "{text}"
+        );
+        assert!(!text.contains("Refracted rays"), "{text}");
+        assert!(!program.done(&format!("{compare} {form}")).contains(title));
+    }
 }
 
 #[test]

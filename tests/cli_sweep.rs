@@ -152,6 +152,11 @@ fn a_model_tells_times_by_both_ways() {
     let is_time = |t: &serde_json::Value| t["regression"].as_f64().is_none_or(|s| s >= 0.0);
     assert!(terms.iter().all(is_time));
     assert_eq!(model["left_out"]["trees"], 8);
+    let fastest = &model["fastest"];
+    let parts = fastest["parts"].as_array().unwrap().iter();
+    let sum: f64 = parts.map(|part| part["seconds"].as_f64().unwrap()).sum();
+    let predicted = fastest["predicted"].as_f64().unwrap();
+    assert!(predicted > 0.0 && (sum / predicted - 1.0).abs() < 1e-9);
     let notes = model["notes"].to_string();
     assert!(notes.contains("only occur as a sum"), "{notes}");
     let text = program.ends(0, &format!("{options} --equation printed"));

@@ -1,11 +1,11 @@
 //! Comparisons are refused unless conditions and images are equal.
 
 use bspscope::geometry::Vec3;
-use bspscope::measure::{Measured, Unequal, measure, unequal};
+use bspscope::measure::{Measured, RAY_FIGURES, Unequal, measure, parameter, unequal};
 use bspscope::primitive::{Primitive, Sphere};
 use bspscope::progress::Progress;
 use bspscope::scene::{Sampling, Scene, SceneRequest, load};
-use bspscope::trace::RenderSettings;
+use bspscope::trace::{MostOfARay, RayCounts, RayKind, RenderSettings, counted_pass, thread_pool};
 use bspscope::tree::{BuildSettings, MaxDepth, Method};
 
 fn balls() -> Scene {
@@ -96,4 +96,95 @@ fn one_object_moved_is_refused_with_the_pixels_that_show_it() {
     assert!(count >= first.len() && !first.is_empty());
     assert!(first.into_iter().all(differ));
     assert!(reasons(&two, &two).is_empty());
+}
+
+/// A figure of the rays of a kind.
+fn figure(measured: &Measured, key: &str, kind: RayKind) -> f64 {
+    let figure = RAY_FIGURES.iter().find(|figure| figure.key == key);
+    figure.unwrap().of(&measured.measurement, kind).unwrap()
+}
+
+#[test]
+fn figures_of_all_kinds_of_rays_sum_to_the_papers() {
+    let scene = balls();
+    let one = measured(&scene, "sah-cut", |_, _| ());
+    for (key, symbol) in [
+        ("nodes", "N_NODES"),
+        ("inner_nodes", "N_INODES"),
+        ("leaves", "N_VLS"),
+        ("empty_leaves", "N_VELS"),
+        ("full_leaves", "N_VFLS"),
+    ] {
+        let sum: f64 = RayKind::ALL.into_iter().map(|k| figure(&one, key, k)).sum();
+        assert_eq!(
+            Some(sum),
+            (parameter(symbol).value)(&one.measurement),
+            "{symbol}"
+        );
+    }
+    assert_eq!(
+        Some(figure(&one, "tests", RayKind::Primary)),
+        (parameter("N_PRIT").value)(&one.measurement)
+    );
+    for kind in [RayKind::Primary, RayKind::Shadow, RayKind::Reflected] {
+        let of = |key: &str| figure(&one, key, kind);
+        for counted in [
+            "tests",
+            "nodes",
+            "inner_nodes",
+            "leaves",
+            "empty_leaves",
+            "full_leaves",
+        ] {
+            let [mean, most] = ["mean", "most"].map(|what| of(&format!("{counted}_{what}")));
+            assert_eq!(mean, of(counted) / of("rays"), "{counted}");
+            assert!(
+                mean <= most && most <= of(counted),
+                "{counted}: {mean} {most}"
+            );
+        }
+    }
+    // No sphere of this scene refracts.
+    let none = RAY_FIGURES
+        .iter()
+        .map(|f| f.of(&one.measurement, RayKind::Refracted));
+    assert!(none.flatten().all(|value| value == 0.0));
+}
+
+#[test]
+fn the_most_of_a_ray_is_that_of_the_pixel_with_the_most() {
+    let scene = balls();
+    let one = measured(&scene, "midpoint", |_, _| ());
+    let most = std::sync::Mutex::new(MostOfARay::default());
+    let pool = thread_pool(2).unwrap();
+    let render = &one.measurement.render;
+    counted_pass(&scene, &one.tree, render, &pool, &Progress::new(), |tile| {
+        // A pixel has one primary ray.
+        for tallies in tile.pixels {
+            let tally = tallies[RayKind::Primary as usize];
+            most.lock().unwrap().add(&RayCounts {
+                inner_nodes: tally.inner_nodes,
+                leaves: tally.leaves,
+                empty_leaves: tally.empty_leaves,
+                tests: tally.tests,
+            });
+        }
+    })
+    .unwrap();
+    let most = most.into_inner().unwrap();
+    for (key, expected) in [
+        ("tests_most", most.tests),
+        ("nodes_most", most.nodes),
+        ("inner_nodes_most", most.inner_nodes),
+        ("leaves_most", most.leaves),
+        ("empty_leaves_most", most.empty_leaves),
+        ("full_leaves_most", most.full_leaves),
+    ] {
+        assert!(expected > 0, "{key}");
+        assert_eq!(
+            figure(&one, key, RayKind::Primary),
+            f64::from(expected),
+            "{key}"
+        );
+    }
 }

@@ -3,10 +3,10 @@
 mod window_harness;
 
 use bspscope::measure::heat::{HeatImage, PixelCounts, RayFilter, heatmap};
-use bspscope::measure::{DELTA, Measured, change, measure, parameter};
+use bspscope::measure::{DELTA, Measured, RAY_FIGURES, change, measure, parameter};
 use bspscope::progress::Progress;
 use bspscope::scene::{SceneRequest, load};
-use bspscope::trace::{RenderSettings, counted_pass, thread_pool};
+use bspscope::trace::{RayKind, RenderSettings, counted_pass, thread_pool};
 use bspscope::tree::{BuildSettings, Method, build};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
@@ -109,7 +109,7 @@ fn three_columns_have_the_librarys_figures() {
                 "{symbol} {text}"
             );
         }
-        let change = change(p, of_a, of_b).expect("a ratio").to_string();
+        let change = change(p.unit, of_a, of_b).expect("a ratio").to_string();
         assert!(
             window.query_all_by_label(&change).next().is_some(),
             "{symbol} {change}"
@@ -280,4 +280,24 @@ fn wipe_and_flip_show_the_other_picture() {
     assert!(column(&one, middle) == column(&all_b, middle));
     assert!(column(&flipped, middle) == column(&all_a, middle));
     assert!(column(&picture(&mut window), middle) == column(&all_b, middle));
+}
+
+#[test]
+fn what_each_kind_of_ray_did_is_listed_on_request() {
+    let mut window = comparing(false);
+    assert!(!has(&window, "nodes of a ray, most"));
+    click(&mut window, "per kind of ray");
+    let [a, b] = ["midpoint", "sah-cut"].map(|method| measured(method, &render()).measurement);
+    for figure in RAY_FIGURES {
+        for kind in [RayKind::Primary, RayKind::Shadow] {
+            let values = [&a, &b].map(|m| figure.of(m, kind));
+            let change = change(figure.unit, values[0], values[1]).map(|c| c.to_string());
+            let texts = values.map(|value| value.map(|value| figure.unit.number(value)));
+            for text in texts.into_iter().chain([change]).flatten() {
+                assert!(has(&window, &text), "{}: {text}", figure.key);
+            }
+        }
+    }
+    assert!(window.query_by_label("shadow rays").is_some());
+    assert!(window.query_by_label("refracted rays").is_none());
 }

@@ -1,8 +1,11 @@
 //! Bad scene files: each mistake is named with its line, and nothing is half-loaded.
 
 use bspscope::progress::Progress;
-use bspscope::scene::format::{FORMATS, FormatError, ReadError, nff, read_file};
+use bspscope::scene::format::{
+    FORMATS, Format, FormatError, Input, Place, ReadError, nff, read_file,
+};
 use bspscope::scene::{SceneParts, builtin};
+use std::path::Path;
 
 /// A view in its own nine lines, so that what follows begins in line 10.
 const VIEW: &str = "# nine lines\n# before it\nv\nfrom 0 -5 0\nat 0 0 0\nup 0 0 1\nangle 45\n\
@@ -15,7 +18,10 @@ fn read(bytes: &[u8]) -> Result<SceneParts, ReadError> {
 /// The line and the message of the mistake in a file.
 fn mistake(bytes: &[u8]) -> (usize, String) {
     match read(bytes) {
-        Err(error @ ReadError::Syntax { line, .. }) => (line, error.to_string()),
+        Err(error @ ReadError::Syntax { place, .. }) => match place {
+            Place::Line(line) => (line, error.to_string()),
+            other => panic!("{other}"),
+        },
         other => panic!("{}: {other:?}", String::from_utf8_lossy(bytes)),
     }
 }
@@ -416,30 +422,50 @@ fn check_answer(answer: Result<SceneParts, ReadError>, lines: usize) {
             assert!(parts.material_of.iter().all(|&m| m < materials));
             assert!(parts.camera.frame().is_ok());
         }
-        Err(ReadError::Syntax { line, .. }) => assert!((1..=lines).contains(&line)),
+        Err(ReadError::Syntax { place, .. }) => {
+            if let Place::Line(line) = place {
+                assert!((1..=lines).contains(&line));
+            }
+        }
+        Err(ReadError::Beside { name, .. }) => panic!("nothing is beside it, not even {name}"),
         Err(ReadError::Cancelled(_)) => panic!("nobody cancelled"),
     }
 }
 
-/// The teaching scene in every format.
-fn teaching_files() -> Vec<(&'static bspscope::scene::format::Format, Vec<u8>)> {
+/// Files of every format: the teaching scene, or what other programs wrote.
+fn good_files() -> Vec<(&'static Format, Vec<u8>)> {
     let parts = builtin::generate("teaching", None).unwrap();
-    let file = |format: &'static bspscope::scene::format::Format| {
-        let mut bytes = Vec::new();
-        (format.write)(&parts, &mut bytes).unwrap();
-        (format, bytes)
-    };
-    let files: Vec<_> = FORMATS.iter().map(file).collect();
-    assert!(files.iter().any(|(_, bytes)| bytes.len() > 1000));
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/assets");
+    let mut files = Vec::new();
+    for format in FORMATS {
+        if let Some(write) = format.write {
+            let mut bytes = Vec::new();
+            write(&parts, &mut bytes).unwrap();
+            files.push((format, bytes));
+        }
+        for entry in std::fs::read_dir(&folder).unwrap() {
+            let path = entry.unwrap().path();
+            let is_of_it = |e: &std::ffi::OsStr| format.extensions.iter().any(|x| e == *x);
+            if format.write.is_none() && path.extension().is_some_and(is_of_it) {
+                files.push((format, std::fs::read(path).unwrap()));
+            }
+        }
+        assert!(
+            files.iter().any(|(f, _)| f.name == format.name),
+            "{}",
+            format.name
+        );
+    }
     files
 }
 
 #[test]
 fn a_file_cut_off_anywhere_never_panics() {
-    for (format, bytes) in teaching_files() {
-        let lines = bytes.split(|&b| b == b'\n').count();
+    for (format, bytes) in good_files() {
+        let lines = lines(&bytes);
         for end in 0..bytes.len() {
-            check_answer((format.read)(&bytes[..end], &Progress::new()), lines);
+            let input = Input::from(&bytes[..end]);
+            check_answer((format.read)(&input, &Progress::new()), lines);
         }
     }
 }
@@ -448,7 +474,7 @@ fn a_file_cut_off_anywhere_never_panics() {
 fn damaged_bytes_never_panic() {
     // Characters that mean something to a reader are tried more often than others.
     const TELLING: &[u8] = b"\n\r\t #.-+e0123456789vblfcspN\x00\xff";
-    for (format, bytes) in teaching_files() {
+    for (format, bytes) in good_files() {
         let mut state = 0x9e37_79b9_7f4a_7c15_u64;
         let mut random = |below: usize| {
             // xorshift64 (G. Marsaglia, "Xorshift RNGs", 2003): the same bytes on every run.
@@ -468,12 +494,14 @@ fn damaged_bytes_never_panic() {
                     _ => damaged[place] = TELLING[random(TELLING.len())],
                 }
             }
-            let lines = damaged
-                .iter()
-                .filter(|b| matches!(b, b'\n' | b'\r'))
-                .count()
-                + 1;
-            check_answer((format.read)(&damaged, &Progress::new()), lines);
+            let input = Input::from(damaged.as_slice());
+            let answer = (format.read)(&input, &Progress::new());
+            check_answer(answer, lines(&damaged));
         }
     }
+}
+
+/// The most lines that a text can be said to have.
+fn lines(text: &[u8]) -> usize {
+    text.iter().filter(|b| matches!(b, b'\n' | b'\r')).count() + 1
 }

@@ -1,6 +1,7 @@
 //! The arguments as they are typed; [`super::resolve`] makes settings of them.
 
-use crate::geometry::Axis;
+use crate::export::LEAF_WRITERS;
+use crate::geometry::{Axis, Vec3};
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, heatmap};
 use crate::measure::model::Equation;
 use crate::measure::paper::{self, PaperScene};
@@ -10,6 +11,7 @@ use crate::measure::{PARAMETERS, Parameter, parameter};
 use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::report::WRITERS;
 use crate::scene::builtin::BUILTINS;
+use crate::scene::format::FORMATS;
 use crate::scene::{Cylinders, Sampling};
 use crate::trace::{KernelChoice, PrecisionChoice};
 use crate::tree::{BuildSettings, MaxDepth, Method, OverlapRule};
@@ -26,7 +28,7 @@ use std::path::PathBuf;
     name = "bspscope",
     version,
     args_conflicts_with_subcommands = true,
-    after_help = help("bspscope balls\nbspscope measure scenes/rings.nff --cylinders polygons:10\n\
+    after_help = help("bspscope balls\nbspscope rings.bspscope\nbspscope measure scenes/rings.nff --cylinders polygons:10\n\
         bspscope render teaching -o teaching.png")
 )]
 pub struct Arguments {
@@ -38,12 +40,15 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    Window(WindowArgs),
     Measure(MeasureArgs),
     Merge(MergeArgs),
     Model(ModelArgs),
     Compare(CompareArgs),
     Paper(PaperArgs),
     Render(RenderArgs),
+    Report(PageArgs),
+    Leaves(LeavesArgs),
     Sweep(SweepArgs),
     Probe(ProbeArgs),
     Generate(GenerateArgs),
@@ -51,12 +56,18 @@ pub enum Command {
     Verify(VerifyArgs),
     Stability(StabilityArgs),
     Trade(TradeArgs),
+    Lesson(LessonArgs),
 }
 
+/// Open the window; the same as no command
 #[derive(Debug, Args)]
 pub struct WindowArgs {
-    /// Scene to open: a file, or a generator with an optional size (NAME or NAME:SIZE)
+    /// What to open: a scene file, a generator with an optional size (NAME or NAME:SIZE), or a
+    /// workspace (.bspscope) [default: where the last session ended]
     pub scene: Option<String>,
+    /// Open with a lesson: its name (see 'bspscope lesson list'), or a file
+    #[arg(long, value_name = "LESSON")]
+    pub lesson: Option<String>,
     #[command(flatten)]
     pub cylinders: CylinderArgs,
     #[command(flatten)]
@@ -96,17 +107,22 @@ pub struct MeasureArgs {
 /// with exit code 1. Else all parameters of both, with the second relative to the first.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope compare balls --a method=midpoint --b method=sah-cut\n\
-    bspscope compare rings --a method=sah-cut --b method=sah-cut,gap-fraction=0.05 --format json"))]
+    bspscope compare rings --a method=sah-cut --b method=sah-cut,gap-fraction=0.05 --format json\n\
+    bspscope compare balls --a method=midpoint --b method=sah --per-kind"))]
 pub struct CompareArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
     /// The first tree: method=NAME, and any of d-max, n-oilf, overlap, root-margin, first-axis and
     /// the method's own settings, separated by commas
-    #[arg(long, value_name = "SETTINGS", value_parser = tree_settings, help_heading = "Tree")]
+    #[arg(long, value_name = "SETTINGS", help_heading = "Tree")]
     pub a: BuildSettings,
     /// The second tree, likewise
-    #[arg(long, value_name = "SETTINGS", value_parser = tree_settings, help_heading = "Tree")]
+    #[arg(long, value_name = "SETTINGS", help_heading = "Tree")]
     pub b: BuildSettings,
+    /// Tell what rays did kind by kind, too: primary, shadow, reflected and refracted ones, all
+    /// together, a ray on average, and the ray with the most
+    #[arg(long, help_heading = "Output")]
+    pub per_kind: bool,
     #[command(flatten)]
     pub trace: TraceArgs,
     #[command(flatten)]
@@ -362,10 +378,71 @@ pub struct ProbeArgs {
     pub output: Option<PathBuf>,
 }
 
-/// Write a scene, generated or read, as a scene file
+/// Measure, and write pictures, tables, settings and machine as one HTML file
+///
+/// The page refers to nothing outside of it: it can be sent, kept and printed. With two methods the
+/// second stands relative to the first.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope report balls -o balls.html\n\
+    bspscope report scenes/tetra.nff --method sah-cut --d-max auto -o tetra.html"))]
+pub struct PageArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    #[command(flatten)]
+    pub methods: MethodListArgs,
+    #[command(flatten)]
+    pub build: BuildArgs,
+    #[command(flatten)]
+    pub trace: TraceArgs,
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// File for the page
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: PathBuf,
+}
+
+/// Write the boxes of a tree's leaves for other programs: OBJ or PLY
+///
+/// Every leaf is a box of 6 faces in the scene's units, outward faces counter-clockwise; node, depth
+/// and number of objects stand in the names of OBJ's objects and as properties of PLY's faces.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope leaves balls -o leaves.ply\n\
+    bspscope leaves rings --method sah-cut --only full -o full.obj"))]
+pub struct LeavesArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Build method
+    #[arg(long, value_name = "METHOD", value_parser = method_names(), default_value = "midpoint", help_heading = "Tree")]
+    pub method: Method,
+    #[command(flatten)]
+    pub build: BuildArgs,
+    /// Only these leaves [default: all]
+    #[arg(long, value_enum, value_name = "LEAVES")]
+    pub only: Option<LeavesShown>,
+    /// Threads; 0 takes as many as the machine has cores
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub threads: usize,
+    /// Form of the boxes; without it the extension of -o decides, or obj
+    #[arg(long, value_name = "FORM", value_parser = leaf_writer_names(), help_heading = "Output")]
+    pub format: Option<String>,
+    /// Write to this file in place of standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LeavesShown {
+    /// Leaves with objects
+    Full,
+    /// Leaves without objects
+    Empty,
+}
+
+/// Write a scene, generated or read, as a scene file (NFF)
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope generate balls:4 -o balls.nff\n\
-    bspscope generate rings --cylinders polygons:10 > rings.nff"))]
+    bspscope generate rings --cylinders polygons:10 > rings.nff\n\
+    bspscope generate model.glb -o model.nff"))]
 pub struct GenerateArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
@@ -494,6 +571,40 @@ pub enum TradeFormat {
     Csv,
 }
 
+/// List, check and print the lessons: guided tours that ask for a prediction, then tell
+///
+/// They are taken in the window; Ctrl+J there lists them.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  bspscope lesson list\n  bspscope lesson check\n  \
+    bspscope lesson check mine.md\n  bspscope lesson show one-ray"
+)]
+pub struct LessonArgs {
+    #[command(subcommand)]
+    pub command: LessonCommand,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum LessonCommand {
+    /// List the lessons that come with the program
+    List,
+    /// Measure what lessons look at, and check that what they say holds
+    ///
+    /// Everything expected is a count, the same on every machine. What does not hold is told with
+    /// file, line and reason, with exit code 1; a file that is no lesson has exit code 2.
+    Check {
+        /// Names of lessons, or files [default: all that come with the program]
+        #[arg(value_name = "LESSON")]
+        lessons: Vec<String>,
+    },
+    /// Print a lesson with its figures and answers as they are on this machine, in Markdown
+    Show {
+        /// Name of a lesson, or a file
+        #[arg(value_name = "LESSON")]
+        lesson: String,
+    },
+}
+
 #[derive(Debug, Args)]
 pub struct SceneArgs {
     /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
@@ -502,7 +613,7 @@ pub struct SceneArgs {
     pub cylinders: CylinderArgs,
 }
 
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 pub struct CylinderArgs {
     /// How cylinders and cones enter the scene: exact, or polygons:N for open prisms of N polygons
     #[arg(long, value_name = "HOW", default_value_t = Cylinders::Exact, help_heading = "Scene")]
@@ -529,7 +640,7 @@ pub struct ReportArgs {
 }
 
 /// What a tree is built with.
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 #[command(next_help_heading = "Tree")]
 pub struct BuildArgs {
     /// Greatest depth of a leaf, D_MAX, or 'auto'; the root has depth 0
@@ -543,7 +654,7 @@ pub struct BuildArgs {
 }
 
 /// What a tree is built with beside its limits.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, PartialEq, Args)]
 #[command(next_help_heading = "Tree")]
 pub struct RuleArgs {
     /// When an object belongs to a cell: paper, bounds or exact
@@ -569,7 +680,7 @@ pub struct RuleArgs {
 }
 
 /// What rays are traced with.
-#[derive(Debug, Args)]
+#[derive(Debug, PartialEq, Args)]
 #[command(next_help_heading = "Picture")]
 pub struct TraceArgs {
     /// How deep secondary rays go, D_AREC; 0 traces none
@@ -591,16 +702,51 @@ pub struct TraceArgs {
     /// Threads; 0 takes as many as the machine has cores
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub threads: usize,
+    #[command(flatten)]
+    pub camera: CameraArgs,
 }
 
-#[derive(Debug, Args)]
+/// A camera in place of the scene's own; what is not given stays the scene's.
+#[derive(Debug, PartialEq, Args)]
+#[command(next_help_heading = "Camera")]
+pub struct CameraArgs {
+    /// The eye, in place of the scene's
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    pub from: Option<Vec3>,
+    /// The point that is looked at, in place of the scene's
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    pub at: Option<Vec3>,
+    /// Up, in place of the scene's
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    pub up: Option<Vec3>,
+    /// The full vertical angle of view, in place of the scene's
+    #[arg(long, value_name = "DEGREES")]
+    pub angle: Option<f64>,
+}
+
+#[derive(Debug, PartialEq, Args)]
 pub struct PictureArgs {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", value_parser = resolution, default_value = "512x512", help_heading = "Picture")]
     pub resolution: [u32; 2],
 }
 
-/// Examples, and the scenes that can be generated.
+impl WindowArgs {
+    /// Without any.
+    pub fn plain() -> Self {
+        Arguments::parse_from(["bspscope"]).window
+    }
+}
+
+impl CameraArgs {
+    /// How many of the four were given.
+    pub fn given(&self) -> usize {
+        let points = [self.from, self.at, self.up];
+        points.iter().flatten().count() + usize::from(self.angle.is_some())
+    }
+}
+
+/// Examples, the scenes that can be generated, and the files that can be read.
 fn help(examples: &str) -> String {
     let mut text = "Examples:".to_owned();
     for example in examples.lines() {
@@ -618,6 +764,11 @@ fn help(examples: &str) -> String {
             builtin.about
         );
     }
+    text += "\n\nScene files, told by their content where the extension does not fit:";
+    for format in FORMATS {
+        let extensions = format.extensions.join(", .");
+        text += &format!("\n  .{extensions}\n      {}", format.about);
+    }
     text
 }
 
@@ -627,6 +778,11 @@ fn writer_names() -> PossibleValuesParser {
             .iter()
             .map(|writer| PossibleValue::new(writer.name).help(writer.about)),
     )
+}
+
+fn leaf_writer_names() -> PossibleValuesParser {
+    let names = LEAF_WRITERS.iter();
+    PossibleValuesParser::new(names.map(|w| PossibleValue::new(w.name).help(w.about)))
 }
 
 fn method_names() -> impl TypedValueParser<Value = Method> {
@@ -739,6 +895,14 @@ fn share(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a number from 0 to 1".into())
 }
 
+fn point(text: &str) -> Result<Vec3, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, z]) => Ok(Vec3::new(x, y, z)),
+        _ => Err("expected three numbers, such as 0,-4,1.5".into()),
+    }
+}
+
 fn pixel(text: &str) -> Result<[i64; 2], String> {
     text.split_once(',')
         .and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]))
@@ -772,43 +936,6 @@ fn constant(text: &str) -> Result<(String, f64), String> {
     text.split_once('=')
         .and_then(|(name, value)| Some((name.to_owned(), value.parse().ok()?)))
         .ok_or_else(|| "expected NAME=VALUE with a number, such as gap-fraction=0.05".into())
-}
-
-/// The settings of a tree, such as `method=sah-cut,d-max=16,gap-fraction=0.1`.
-fn tree_settings(text: &str) -> Result<BuildSettings, String> {
-    let pairs: Vec<(&str, &str)> = text
-        .split(',')
-        .map(|pair| {
-            pair.split_once('=')
-                .map(|(name, value)| (name.trim(), value.trim()))
-                .ok_or_else(|| format!("expected NAME=VALUE, found '{pair}'"))
-        })
-        .collect::<Result<_, _>>()?;
-    let method = pairs.iter().find(|(name, _)| *name == "method");
-    let (_, method) = method.ok_or("expected method=NAME among the settings")?;
-    let mut settings = BuildSettings::for_method(in_words(method.parse())?);
-    for (name, value) in pairs {
-        match name {
-            "method" => {}
-            "d-max" => settings.d_max = in_words(value.parse())?,
-            "n-oilf" => settings.n_oilf = in_words(value.parse())?,
-            "overlap" => settings.overlap = in_words(value.parse())?,
-            "root-margin" => settings.root_margin = in_words(value.parse())?,
-            "first-axis" => settings.first_axis = in_words(value.parse())?,
-            _ => {
-                let number = value
-                    .parse()
-                    .map_err(|_| format!("{name}: expected a number, found '{value}'"))?;
-                settings.constants.insert(name.to_owned(), number);
-            }
-        }
-    }
-    in_words(settings.check())?;
-    Ok(settings)
-}
-
-fn in_words<T, E: ToString>(result: Result<T, E>) -> Result<T, String> {
-    result.map_err(|error| error.to_string())
 }
 
 #[cfg(test)]
@@ -852,5 +979,79 @@ mod tests {
         let mut render = crate::cli::resolve::render(camera, &args.trace, &args.picture);
         render.threads = 0;
         assert_eq!(render, crate::trace::RenderSettings::for_camera(camera));
+    }
+
+    #[test]
+    fn a_copied_command_measures_with_the_same_settings() {
+        use crate::cli::resolve;
+        use crate::scene::{Camera, SceneSource};
+        use crate::trace::RenderSettings;
+        use crate::workspace::{PictureSettings, TreeSettings, measure_command};
+
+        let scene_camera = crate::scene::builtin::generate("teaching", None)
+            .unwrap()
+            .camera;
+        let plain = TreeSettings {
+            cylinders: Cylinders::Exact,
+            build: BuildSettings::default(),
+            picture: PictureSettings::of(&RenderSettings::for_camera(scene_camera)),
+        };
+        let mut other = plain.clone();
+        other.cylinders = Cylinders::Polygons(10);
+        other.build = BuildSettings::for_method(Method::named("sah-cut").unwrap());
+        other.build.d_max = MaxDepth::Automatic;
+        other.build.n_oilf = 3;
+        other.build.root_margin = 1.0 / 3.0;
+        other.build.first_axis = Axis::Z;
+        other
+            .build
+            .constants
+            .insert("gap-fraction".into(), 0.1 + 0.2);
+        other.build.memory_limit = 123 << 20;
+        let picture = &mut other.picture;
+        picture.resolution = [640, 360];
+        (picture.d_arec, picture.cut_off, picture.threads) = (0, 0.01, 7);
+        picture.sampling = Sampling::Corner;
+        let moved = Camera {
+            from: Vec3::new(-1.0 / 3.0, -2e-9, 3e20),
+            at: Vec3::new(-0.5, 0.0, 7.0),
+            up: Vec3::new(0.0, -1.0, 0.0),
+            angle: 12.3,
+            ..scene_camera
+        };
+        let mut all = vec![plain.clone(), other];
+        let with = |change: &dyn Fn(&mut TreeSettings)| {
+            let mut settings = plain.clone();
+            change(&mut settings);
+            settings
+        };
+        all.extend(Method::all().map(|m| with(&|s| s.build = BuildSettings::for_method(m))));
+        all.extend(OverlapRule::ALL.map(|rule| with(&|s| s.build.overlap = rule)));
+        all.extend(PrecisionChoice::ALL.map(|p| with(&|s| s.picture.precision = p)));
+        all.extend(KernelChoice::ALL.map(|kernel| with(&|s| s.picture.kernel = kernel)));
+        let sources = [
+            SceneSource::parse("balls:3"),
+            SceneSource::File("/not/there/it's -- a \"scene\" $HOME.nff".into()),
+        ];
+        for settings in &all {
+            for (source, camera) in sources.iter().zip([None, Some(moved)]) {
+                let line = measure_command(source, camera.as_ref(), settings);
+                let words = shell_words::split(&line).unwrap();
+                let Some(Command::Measure(args)) = Arguments::parse_from(words).command else {
+                    panic!("not a measurement: {line}");
+                };
+                assert_eq!(SceneSource::parse(&args.scene.scene), *source, "{line}");
+                assert_eq!(args.scene.cylinders.cylinders, settings.cylinders, "{line}");
+                let builds = resolve::builds(&args.methods.method, &args.build).unwrap();
+                assert_eq!(builds, std::slice::from_ref(&settings.build), "{line}");
+                let mut render = resolve::render(scene_camera, &args.trace, &args.picture);
+                render.threads = args.trace.threads;
+                let expected = settings.picture.with(camera.unwrap_or(scene_camera));
+                assert_eq!(render, expected, "{line}");
+            }
+        }
+        let line = measure_command(&sources[0], None, &plain);
+        let expected = "bspscope measure balls:3 --method midpoint --resolution 512x512 --d-arec 4";
+        assert_eq!(line, expected);
     }
 }

@@ -23,7 +23,10 @@ pub fn run(args: &CompareArgs) -> Result<Outcome> {
         })?;
         return Ok(Outcome::CheckFailed);
     }
-    let report = Report::new(&scene, &request, vec![a.measurement, b.measurement]);
+    let report = Report {
+        per_kind: args.per_kind,
+        ..Report::new(&scene, &request, vec![a.measurement, b.measurement])
+    };
     output::write_report(&report, &args.report)?;
     Ok(Outcome::Done)
 }

@@ -3,15 +3,27 @@
 use super::args::GenerateArgs;
 use super::{Outcome, output, resolve};
 use crate::scene::format;
-use anyhow::Result;
+use anyhow::{Result, bail};
 use std::path::Path;
 
 pub fn run(args: &GenerateArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
+    let write = writer(args.output.as_deref())?;
     let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let format = format::for_path(args.output.as_deref().unwrap_or(Path::new("-")));
-    output::write_to(args.output.as_deref(), |out| {
-        (format.write)(scene.parts(), out)
-    })?;
+    output::write_to(args.output.as_deref(), |out| write(scene.parts(), out))?;
     Ok(Outcome::Done)
+}
+
+/// What writes the format of a file's extension; NFF where that says nothing.
+fn writer(file: Option<&Path>) -> Result<format::WriteScene> {
+    match file.and_then(format::for_path) {
+        None => Ok(format::nff::write),
+        Some(format) => match format.write {
+            Some(write) => Ok(write),
+            None => bail!(
+                "{} files cannot hold all of a scene; nff can",
+                format.name.to_uppercase()
+            ),
+        },
+    }
 }

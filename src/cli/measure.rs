@@ -32,17 +32,7 @@ pub fn run_of(scene: &Scene, build: &BuildSettings, render: &RenderSettings) -> 
         scene.name(),
         build.method.name
     );
-    staged(scene, build, render, &stage)
-}
-
-/// Measures one tree under a progress bar that says what is measured.
-pub fn staged(
-    scene: &Scene,
-    build: &BuildSettings,
-    render: &RenderSettings,
-    stage: &str,
-) -> Result<Measured> {
-    Ok(bar::with_bar(stage, |progress| {
+    Ok(bar::with_bar(&stage, |progress| {
         measure(scene, build, render, progress)
     })?)
 }

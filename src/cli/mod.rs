@@ -7,6 +7,8 @@ mod bar;
 mod compare;
 mod generate;
 mod heat;
+mod leaves;
+mod lesson;
 mod measure;
 mod merge;
 mod methods;
@@ -15,6 +17,7 @@ mod output;
 mod paper;
 mod probe;
 mod render;
+mod report;
 mod resolve;
 mod stability;
 mod sweep;
@@ -39,11 +42,14 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = match &arguments.command {
         None => window::run(&arguments.window),
+        Some(Command::Window(args)) => window::run(args),
         Some(Command::Measure(args)) => measure::run(args),
         Some(Command::Merge(args)) => merge::run(args),
         Some(Command::Sweep(args)) => sweep::run(args),
         Some(Command::Model(args)) => model::run(args),
         Some(Command::Compare(args)) => compare::run(args),
+        Some(Command::Leaves(args)) => leaves::run(args),
+        Some(Command::Report(args)) => report::run(args),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Paper(args)) => paper::run(args),
         Some(Command::Probe(args)) => probe::run(args),
@@ -52,6 +58,7 @@ pub fn main() -> ExitCode {
         Some(Command::Verify(args)) => verify::run(args),
         Some(Command::Stability(args)) => stability::run(args),
         Some(Command::Trade(args)) => trade::run(args),
+        Some(Command::Lesson(args)) => lesson::run(args),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

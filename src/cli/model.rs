@@ -2,13 +2,14 @@
 
 use super::args::{ListFormat, ModelArgs};
 use super::{Outcome, bar, output, resolve};
+use crate::measure::grouped;
 use crate::measure::model::{
-    Equation, Fit, InPlace, Term, fit, observe, parted, time_in_place, trees,
+    Equation, Fit, InPlace, Observation, Term, fit, observe, parted, time_in_place, trees,
 };
 use crate::report::grid::Grid;
 use crate::scene::Scene;
 use crate::trace::RenderSettings;
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
 
 /// What is found of a scene.
@@ -16,6 +17,8 @@ struct Found {
     scene: String,
     fit: Fit,
     in_place: InPlace,
+    /// The tree with the least `T_TR`.
+    fastest: Observation,
     trees: usize,
     /// Relative errors on the trees that were left out of the fit.
     errors: Vec<f64>,
@@ -41,6 +44,8 @@ pub fn run(args: &ModelArgs) -> Result<Outcome> {
         ListFormat::Text => all.iter().try_for_each(|found| {
             grid(found).write_text(out)?;
             writeln!(out, "\n{}", accuracy(found))?;
+            parts_grid(found).write_text(out)?;
+            writeln!(out)?;
             found
                 .fit
                 .notes
@@ -70,28 +75,20 @@ fn found(scene: &Scene, render: &RenderSettings, rounds: u32, equation: Equation
     let fit = fit(&fitted, &Term::of(scene), equation)?;
     let fastest = observations
         .iter()
-        .min_by(|a, b| a.seconds.total_cmp(&b.seconds));
-    let fastest = fastest.map_or(&trees[0], |observation| &observation.build);
+        .min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+        .context("no tree was timed")?;
     let stage = format!("{}: timing in place", scene.name());
     let in_place = bar::with_bar(&stage, |progress| {
-        time_in_place(scene, fastest, render, progress)
+        time_in_place(scene, &fastest.build, render, progress)
     })?;
     Ok(Found {
         scene: scene.name().to_owned(),
         errors: fit.errors(&left_out),
         fit,
         in_place,
+        fastest: fastest.clone(),
         trees: fitted.len(),
     })
-}
-
-fn measured(in_place: &InPlace, term: Term) -> Option<f64> {
-    match term {
-        Term::Node => in_place.node,
-        Term::Hit(kind) => in_place.hit[kind as usize],
-        Term::Miss(kind) => in_place.miss[kind as usize],
-        Term::Constant => None,
-    }
 }
 
 /// All terms, those that the fit gave up, too.
@@ -119,7 +116,7 @@ fn grid(found: &Found) -> Grid {
     let node = found.in_place.node;
     let rows = terms(found).into_iter().map(|term| {
         let coefficient = found.fit.coefficients.iter().find(|c| c.term == term);
-        let in_place = measured(&found.in_place, term);
+        let in_place = found.in_place.seconds(term);
         let to_node = in_place.zip(node).filter(|_| term != Term::Node);
         vec![
             term.name(),
@@ -139,6 +136,47 @@ fn grid(found: &Found) -> Grid {
         header: ["", "regression", "± 95 %", "in place", "to a node's"]
             .map(String::from)
             .to_vec(),
+        rows: rows.collect(),
+        first_number: 1,
+    }
+}
+
+/// A term's part of the time of the fastest tree: how often it is spent, and seconds of all together.
+fn parts(found: &Found) -> Vec<(Term, f64, f64)> {
+    let counts = &found.fastest.terms;
+    let coefficients = found.fit.coefficients.iter();
+    coefficients
+        .map(|c| {
+            let count = counts.count(c.term, found.fit.equation);
+            (c.term, count, count * c.seconds)
+        })
+        .collect()
+}
+
+/// Where the time of the picture goes with the fastest tree.
+fn parts_grid(found: &Found) -> Grid {
+    let (build, measured) = (&found.fastest.build, found.fastest.seconds);
+    let predicted = found.fit.predict(&found.fastest.terms);
+    let rows = parts(found).into_iter().map(|(term, count, seconds)| {
+        vec![
+            term.name(),
+            grouped(count),
+            format!("{:.3}", seconds * 1e3),
+            format!("{:.1} %", 100.0 * seconds / predicted),
+        ]
+    });
+    Grid {
+        title: format!(
+            "Where the time goes with {}, D_MAX {}, N_OILF {}: {:.3} ms predicted, {:.3} ms measured \
+             (T_TR), {:+.1} %",
+            build.method.name,
+            build.d_max,
+            build.n_oilf,
+            predicted * 1e3,
+            measured * 1e3,
+            (predicted / measured - 1.0) * 100.0
+        ),
+        header: ["", "count", "ms", "share"].map(String::from).to_vec(),
         rows: rows.collect(),
         first_number: 1,
     }
@@ -170,8 +208,14 @@ fn value(found: &Found) -> Value {
                 "term": term.name(),
                 "regression": coefficient.map(|c| c.seconds),
                 "half_width_95": coefficient.and_then(|c| c.half_width),
-                "in_place": measured(&found.in_place, term),
+                "in_place": found.in_place.seconds(term),
             })
+        })
+        .collect();
+    let parts: Vec<_> = parts(found)
+        .into_iter()
+        .map(|(term, count, seconds)| {
+            json!({"term": term.name(), "count": count as u64, "seconds": seconds})
         })
         .collect();
     json!({
@@ -180,6 +224,14 @@ fn value(found: &Found) -> Value {
         "trees": found.trees,
         "seconds": times,
         "r_squared": found.fit.r_squared,
+        "fastest": {
+            "method": found.fastest.build.method.name,
+            "d_max": found.fastest.build.d_max.to_string(),
+            "n_oilf": found.fastest.build.n_oilf,
+            "seconds": found.fastest.seconds,
+            "predicted": found.fit.predict(&found.fastest.terms),
+            "parts": parts,
+        },
         "left_out": { "trees": found.errors.len(), "errors": found.errors, "worst": worst(found) },
         "notes": found.fit.notes,
     })

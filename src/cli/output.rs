@@ -2,9 +2,10 @@
 
 use super::args::ReportArgs;
 use super::resolve;
+use crate::files;
 use crate::report::{Report, WRITERS, Writer};
 use anyhow::{Context, Result, bail};
-use std::fs::{self, File, OpenOptions};
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -59,49 +60,9 @@ pub fn write_with<R: ?Sized>(
     write_to(file, |out| (writer.write)(report, out))
 }
 
-/// Writes a file beside its place and moves it there when it is complete: whatever was there stays
-/// until then. Devices and pipes are written to as they are.
+/// Writes a file whole, or leaves what is there.
 pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
-    replace(path, write).with_context(|| path.display().to_string())
-}
-
-fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    // A link stays a link: what it leads to is replaced.
-    let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let existing = fs::metadata(path).ok();
-    if existing.as_ref().is_some_and(|m| !m.is_file()) {
-        let mut out = BufWriter::new(OpenOptions::new().write(true).open(path)?);
-        write(&mut out)?;
-        return out.flush();
-    }
-    let beside = beside(path)?;
-    let result = (|| {
-        let mut out = BufWriter::new(File::create_new(&beside)?);
-        write(&mut out)?;
-        let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
-        if let Some(existing) = existing {
-            file.set_permissions(existing.permissions())?;
-        }
-        drop(file);
-        fs::rename(&beside, path)
-    })();
-    if result.is_err() {
-        // The error that matters is the first one.
-        let _ = fs::remove_file(&beside);
-    }
-    result
-}
-
-/// A name beside a file that nothing else uses.
-fn beside(path: &Path) -> io::Result<PathBuf> {
-    let name = path
-        .file_name()
-        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "not the name of a file"))?;
-    Ok(path.with_file_name(format!(
-        ".{}.{}.tmp",
-        name.to_string_lossy(),
-        std::process::id()
-    )))
+    files::write_whole(path, write).with_context(|| path.display().to_string())
 }
 
 /// Creates a file under the first free name: `stem.extension`, `stem-1.extension`, …

@@ -2,12 +2,12 @@
 
 use super::args::RenderArgs;
 use super::{Outcome, bar, heat, output, resolve};
+use crate::export;
 use crate::scene::Scene;
 use crate::trace::{Picture, RenderSettings, thread_pool, timed_pass};
 use crate::tree::{Tree, build};
-use anyhow::{Context, Result, bail};
-use image::{DynamicImage, ImageFormat, Rgb32FImage, RgbImage};
-use std::io::Cursor;
+use anyhow::{Result, bail};
+use image::ImageFormat;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
@@ -30,7 +30,7 @@ pub fn run(args: &RenderArgs) -> Result<Outcome> {
     )?;
     let bytes = match args.heat.show {
         Some(shown) => heat::encoded(&scene, &tree, &render, shown.0, &args.heat, format)?,
-        None => encoded(&picture(&scene, &tree, &render)?, format)?,
+        None => export::encoded(&picture(&scene, &tree, &render)?, format)?,
     };
     output::write_file(&args.output, |out| out.write_all(&bytes))?;
     Ok(Outcome::Done)
@@ -79,20 +79,4 @@ pub fn picture(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> Result<
         })?;
     }
     Ok(picture.into_inner().unwrap_or_else(PoisonError::into_inner))
-}
-
-/// The bytes of a picture's file: 8-bit sRGB, or linear 32-bit float for OpenEXR.
-pub fn encoded(picture: &Picture, format: ImageFormat) -> Result<Vec<u8>> {
-    let (width, height) = (picture.width, picture.height);
-    let image = if format == ImageFormat::OpenExr {
-        Rgb32FImage::from_raw(width, height, picture.pixels().concat())
-            .map(DynamicImage::ImageRgb32F)
-    } else {
-        RgbImage::from_raw(width, height, picture.to_srgb8().concat()).map(DynamicImage::ImageRgb8)
-    };
-    let mut bytes = Cursor::new(Vec::new());
-    image
-        .context("the picture has as many pixels as its size says")?
-        .write_to(&mut bytes, format)?;
-    Ok(bytes.into_inner())
 }

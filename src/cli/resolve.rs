@@ -1,14 +1,14 @@
 //! What the arguments come to: a scene, settings, a writer.
 
-use super::args::{BuildArgs, CylinderArgs, PictureArgs, TraceArgs};
+use super::args::{BuildArgs, CameraArgs, CylinderArgs, PictureArgs, TraceArgs};
 use super::bar;
 use crate::report::Writer;
 use crate::scene::format::{FORMATS, FormatError};
-use crate::scene::{Camera, LoadError, Scene, SceneRequest, SceneSource, builtin, load};
+use crate::scene::{Camera, LoadError, NoteKind, Scene, SceneRequest, SceneSource, builtin, load};
 use crate::trace::RenderSettings;
 use crate::tree::{BuildSettings, Method};
 use anyhow::{Result, bail};
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 /// The scene for what was typed, with the request that it answers.
@@ -17,10 +17,20 @@ pub fn scene(text: &str, cylinders: &CylinderArgs) -> Result<(SceneRequest, Scen
         source: SceneSource::parse(text),
         cylinders: cylinders.cylinders,
     };
-    match bar::with_bar(&format!("{text}: loading"), |progress| {
-        load(&request, progress)
-    }) {
-        Ok(scene) => Ok((request, scene)),
+    let scene = load_scene(&request)?;
+    Ok((request, scene))
+}
+
+/// The scene of a request, loaded under a progress bar.
+pub fn load_scene(request: &SceneRequest) -> Result<Scene> {
+    let stage = format!("{}: loading", request.source);
+    match bar::with_bar(&stage, |progress| load(request, progress)) {
+        Ok(scene) => {
+            if matches!(request.source, SceneSource::File(_)) {
+                tell(&request.source.to_string(), &scene);
+            }
+            Ok(scene)
+        }
         Err(LoadError::Format(FormatError::Io { path, reason }))
             if reason.kind() == ErrorKind::NotFound && !looks_like_a_file(&path) =>
         {
@@ -32,6 +42,18 @@ pub fn scene(text: &str, cylinders: &CylinderArgs) -> Result<(SceneRequest, Scen
             )
         }
         Err(error) => Err(error.into()),
+    }
+}
+
+/// Says on standard error what of a file is not as it was found; the whole load report is part of
+/// `measure`'s.
+fn tell(file: &str, scene: &Scene) {
+    let mut out = std::io::stderr().lock();
+    for note in scene.notes() {
+        if !matches!(note.kind, NoteKind::Read | NoteKind::Remark) {
+            // Without a standard error stream there is nobody to tell.
+            let _ = writeln!(out, "bspscope: {file}: {note}");
+        }
     }
 }
 
@@ -82,8 +104,19 @@ pub fn builds(methods: &[Method], args: &BuildArgs) -> Result<Vec<BuildSettings>
     Ok(builds)
 }
 
-/// Render settings for a camera, with the number of threads that is really used.
-pub fn render(camera: Camera, trace: &TraceArgs, picture: &PictureArgs) -> RenderSettings {
+/// The scene's camera, but for what was asked for.
+fn camera(scene: Camera, asked: &CameraArgs) -> Camera {
+    Camera {
+        from: asked.from.unwrap_or(scene.from),
+        at: asked.at.unwrap_or(scene.at),
+        up: asked.up.unwrap_or(scene.up),
+        angle: asked.angle.unwrap_or(scene.angle),
+        ..scene
+    }
+}
+
+/// Render settings for the scene's camera, or the one asked for, with the number of threads that is really used.
+pub fn render(scene: Camera, trace: &TraceArgs, picture: &PictureArgs) -> RenderSettings {
     let [width, height] = picture.resolution;
     RenderSettings {
         width,
@@ -97,7 +130,7 @@ pub fn render(camera: Camera, trace: &TraceArgs, picture: &PictureArgs) -> Rende
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             threads => threads,
         },
-        ..RenderSettings::for_camera(camera)
+        ..RenderSettings::for_camera(camera(scene, &trace.camera))
     }
 }
 

@@ -1,17 +1,24 @@
 //! `bspscope [SCENE]`: the window, or the same job without one.
 
 use super::args::WindowArgs;
-use super::{Outcome, measure, output, render, resolve};
+use super::{Outcome, measure, output, resolve};
 use crate::report::{Report, write_summary};
-use anyhow::{Context, Result};
+use crate::scene::{Scene, SceneRequest};
+use crate::trace::RenderSettings;
+use crate::tree::BuildSettings;
+use crate::workspace::Workspace;
+use crate::{export, files};
+use anyhow::{Context, Result, bail};
 use image::ImageFormat;
 use std::io::Write;
+use std::path::{Path, PathBuf};
 
 /// What is shown where no scene was asked for.
 const FIRST_SCENE: &str = "balls";
 
 pub fn run(args: &WindowArgs) -> Result<Outcome> {
-    let Some(why) = open(args)? else {
+    let workspace = workspace(args)?;
+    let Some(why) = open(args, workspace.clone())? else {
         return Ok(Outcome::Done);
     };
     // Without a standard error stream there is nobody to tell.
@@ -19,24 +26,79 @@ pub fn run(args: &WindowArgs) -> Result<Outcome> {
         std::io::stderr(),
         "bspscope: {why}; measuring, and rendering to a file, without it"
     );
-    without_window(args)
+    match workspace {
+        Some((_, workspace)) => workspace_without_window(&workspace),
+        None => without_window(args),
+    }
+}
+
+/// The workspace asked for, if it is one.
+fn workspace(args: &WindowArgs) -> Result<Option<(PathBuf, Workspace)>> {
+    let path = args.scene.as_deref().map(Path::new);
+    let Some(path) = path.filter(|path| Workspace::is_path(path)) else {
+        return Ok(None);
+    };
+    if !is_plain(args) {
+        bail!(
+            "{}: a workspace has its own settings; open it without options",
+            path.display()
+        );
+    }
+    let path = std::path::absolute(path)?;
+    let workspace = Workspace::read(&path)?;
+    if let Some(scene) = workspace.missing_scene() {
+        bail!(
+            "{}: its scene is not there: {}",
+            path.display(),
+            scene.display()
+        );
+    }
+    Ok(Some((path, workspace)))
+}
+
+/// Whether nothing was set.
+fn is_plain(args: &WindowArgs) -> bool {
+    let WindowArgs {
+        scene: _,
+        lesson: _,
+        cylinders,
+        methods,
+        build,
+        trace,
+        picture,
+    } = args;
+    let plain = WindowArgs::plain();
+    methods.method.is_empty()
+        && *cylinders == plain.cylinders
+        && *build == plain.build
+        && *trace == plain.trace
+        && *picture == plain.picture
 }
 
 /// Opens the window and waits until it is closed; where there can be none, says why.
 #[cfg(feature = "gui")]
-fn open(args: &WindowArgs) -> Result<Option<String>> {
+fn open(args: &WindowArgs, workspace: Option<(PathBuf, Workspace)>) -> Result<Option<String>> {
     use crate::gui::{GuiError, StartOptions};
-    use crate::scene::{SceneRequest, SceneSource};
+    use crate::scene::SceneSource;
 
     let mut start = StartOptions::default();
     // The window shows one method at a time.
     let methods = resolve::methods(&args.methods.method);
     start.build = resolve::builds(&methods, &args.build)?.remove(0);
     start.render = resolve::render(start.render.camera, &args.trace, &args.picture);
+    start.own_camera = match args.trace.camera.given() {
+        0 => false,
+        4 => true,
+        _ => bail!("the window takes a camera as a whole: --from, --at, --up and --angle"),
+    };
     start.scene = SceneRequest {
         source: SceneSource::parse(scene_text(args)),
         cylinders: args.cylinders.cylinders,
     };
+    start.last_session = args.scene.is_none() && args.lesson.is_none() && is_plain(args);
+    start.workspace = workspace;
+    let lesson = args.lesson.as_deref().map(crate::lesson::Lesson::open);
+    start.lesson = lesson.transpose()?;
     match crate::gui::run(start) {
         Ok(()) => Ok(None),
         Err(GuiError::NoDisplay(why)) => Ok(Some(format!("no display ({why})"))),
@@ -46,7 +108,7 @@ fn open(args: &WindowArgs) -> Result<Option<String>> {
 }
 
 #[cfg(not(feature = "gui"))]
-fn open(_: &WindowArgs) -> Result<Option<String>> {
+fn open(_: &WindowArgs, _: Option<(PathBuf, Workspace)>) -> Result<Option<String>> {
     Ok(Some("this build has no window".into()))
 }
 
@@ -60,40 +122,45 @@ fn without_window(args: &WindowArgs) -> Result<Outcome> {
     let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
     let (request, scene) = resolve::scene(scene_text(args), &args.cylinders)?;
     let settings = resolve::render(*scene.camera(), &args.trace, &args.picture);
+    summary(&request, &scene, builds, &settings)
+}
+
+/// The same of a workspace's trees; the second as the first was traced.
+fn workspace_without_window(workspace: &Workspace) -> Result<Outcome> {
+    let request = SceneRequest {
+        source: workspace.scene.source.clone(),
+        cylinders: workspace.a.cylinders,
+    };
+    let scene = resolve::load_scene(&request)?;
+    let camera = workspace.camera.unwrap_or(*scene.camera());
+    let settings = workspace.a.picture.with(camera);
+    let trees = [Some(&workspace.a), workspace.b.as_ref()];
+    let builds = trees.into_iter().flatten().map(|t| t.build.clone());
+    summary(&request, &scene, builds.collect(), &settings)
+}
+
+fn summary(
+    request: &SceneRequest,
+    scene: &Scene,
+    builds: Vec<BuildSettings>,
+    settings: &RenderSettings,
+) -> Result<Outcome> {
     settings.view()?;
     let mut runs = Vec::new();
     let mut last = None;
     for build in &builds {
-        let measured = measure::run_of(&scene, build, &settings)?;
+        let measured = measure::run_of(scene, build, settings)?;
         runs.push(measured.measurement);
         last = Some(measured.picture);
     }
-    let report = Report::new(&scene, &request, runs);
+    let report = Report::new(scene, request, runs);
     output::write_to(None, |out| write_summary(&report, out))?;
 
     let picture = last.context("there is at least one method")?;
-    let bytes = render::encoded(&picture, ImageFormat::Png)?;
-    let (path, mut file) = output::create_free(&file_stem(scene.name()), "png")?;
+    let bytes = export::encoded(&picture, ImageFormat::Png)?;
+    let (path, mut file) = output::create_free(&files::stem(scene.name()), "png")?;
     file.write_all(&bytes)
         .with_context(|| path.display().to_string())?;
     output::write_to(None, |out| writeln!(out, "Picture: {}", path.display()))?;
     Ok(Outcome::Done)
-}
-
-/// A scene's name as the name of a file: `balls:3` becomes `balls-3`.
-fn file_stem(name: &str) -> String {
-    let stem: String = name
-        .chars()
-        .map(|c| match c {
-            '-' | '_' | '.' => c,
-            c if c.is_alphanumeric() => c,
-            _ => '-',
-        })
-        .collect();
-    let stem = stem.trim_start_matches('.');
-    if stem.is_empty() {
-        "scene".into()
-    } else {
-        stem.into()
-    }
 }

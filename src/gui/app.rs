@@ -1,8 +1,12 @@
 //! Puts the window together: bars, panels and panes, and what the window's own keys do.
 
+use super::exporting::{Export, Exports, Shown};
 use super::files::Files;
+use super::first_hint::{Chosen, FirstHint};
 use super::kept::KeptFile;
 use super::layout::{self, Layout, Pane};
+use super::lessons::{Around, Lessons};
+use super::notices::Notices;
 use super::palette::{Command, Palette};
 use super::panels::{self, Side};
 use super::picture_pane::PicturePane;
@@ -13,9 +17,13 @@ use super::status::StatusLine;
 use super::tree_panes::TreePanes;
 use super::view3d::View3d;
 use super::walk::Go;
-use super::{StartOptions, build_bar, help, top_bar, walk_bar};
+use super::workspaces::Workspaces;
+use super::{StartOptions, build_bar, help, keep, top_bar, walk_bar};
 use crate::overlay::COLORINGS;
+use crate::scene::SceneSource;
+use crate::scene::format::names;
 use crate::tree::{BuildSettings, MaxDepth, Method};
+use crate::workspace::{Arrangement, Workspace};
 
 /// The window.
 pub struct App {
@@ -31,6 +39,9 @@ pub struct App {
     status: StatusLine,
     help_open: bool,
     palette: Palette,
+    exports: Exports,
+    lessons: Lessons,
+    first_hint: FirstHint,
 }
 
 struct Panes {
@@ -43,6 +54,8 @@ impl App {
     /// Makes the window's contents and asks for the first scene.
     pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Self {
         let recent = Recent::kept(KeptFile::new(&start, "recent.json"));
+        let mut notices = Notices::default();
+        let (workspaces, workspace) = Workspaces::new(&start, &cc.egui_ctx, &mut notices);
         let layout_file = KeptFile::new(&start, layout::FILE);
         let layout: Option<Layout> = layout_file.read();
         if let Some(dark) = layout.as_ref().and_then(|layout| layout.dark) {
@@ -53,9 +66,10 @@ impl App {
         let largest = cc.egui_ctx.input(|i| i.max_texture_side) as u32;
         start.render.width = start.render.width.min(largest);
         start.render.height = start.render.height.min(largest);
-        App {
+        let first_hint = FirstHint::new(&start);
+        let mut app = App {
             state: State::new(&start, &cc.egui_ctx),
-            files: Files::new(recent),
+            files: Files::new(recent, workspaces),
             panes: Panes {
                 picture: PicturePane::default(),
                 view3d: View3d::new(cc.wgpu_render_state.as_ref(), start.render.camera),
@@ -68,6 +82,41 @@ impl App {
             status: StatusLine::default(),
             help_open: false,
             palette: Palette::default(),
+            exports: Exports::default(),
+            lessons: Lessons::new(start.lesson.take()),
+            first_hint,
+        };
+        app.state.notices = notices;
+        if let Some(workspace) = workspace {
+            app.restore(&workspace, &cc.egui_ctx);
+        }
+        app
+    }
+
+    /// All that is shown, as a workspace.
+    fn workspace(&self) -> Workspace {
+        let mut workspace = self.state.workspace();
+        workspace.view.heatmap = self.panes.picture.heat.kept();
+        workspace.view.view3d = self.panes.view3d.kept();
+        workspace.layout = serde_json::to_value(&self.layout).ok();
+        workspace
+    }
+
+    /// Shows what a workspace says. A layout that is not known leaves panes and bars as they are.
+    fn restore(&mut self, workspace: &Workspace, ctx: &egui::Context) {
+        let largest = ctx.input(|i| i.max_texture_side) as u32;
+        self.state.restore(workspace, largest);
+        let view = &workspace.view;
+        let differences = workspace.b.is_some() && view.arrangement == Arrangement::Difference;
+        self.panes.picture.heat.restore(&view.heatmap, differences);
+        self.panes.view3d.restore(&view.view3d);
+        let layout = workspace.layout.clone();
+        if let Some(layout) = layout.and_then(|value| serde_json::from_value(value).ok()) {
+            self.layout = layout;
+            self.layout_is_new = false;
+            if let Some(dark) = self.layout.dark {
+                top_bar::set_theme(ctx, dark);
+            }
         }
     }
 
@@ -79,11 +128,28 @@ impl App {
             Action::Help => self.help_open ^= true,
             Action::Palette => self.palette.toggle(self.files.recent.sources()),
             Action::Open => self.files.open_dialog(ctx),
+            Action::SaveWorkspace => {
+                let workspace = self.workspace();
+                self.files.workspaces.save(workspace, ctx);
+            }
+            Action::SaveWorkspaceAs => {
+                let workspace = self.workspace();
+                self.files.workspaces.ask(&workspace);
+            }
+            Action::CopyCommand => {
+                let command = keep::command(state);
+                state.notices.say(format!("Copied: {command}"));
+                ctx.copy_text(command);
+            }
             Action::Path => self.files.focus_path(),
             Action::Reload => state.reload(),
             Action::Cancel => {
-                let closed = self.palette.close() || std::mem::take(&mut self.help_open);
-                if !closed && state.failure.take().is_none() && !state.inspect.undo() {
+                let message = self.palette.close()
+                    || std::mem::take(&mut self.help_open)
+                    || self.first_hint.dismiss()
+                    || state.failure.take().is_some()
+                    || state.notices.close();
+                if !message && !state.inspect.undo() {
                     state.cancel();
                 }
             }
@@ -125,6 +191,10 @@ impl App {
                 let threads = state.wanted.render.threads;
                 state.experiment.start_or_cancel(threads, ctx);
             }
+            Action::Lessons | Action::LessonReveal | Action::LessonNext | Action::LessonBack => {
+                let (lessons, mut around) = self.lessons();
+                lessons.act(action, &mut around);
+            }
             Action::Theme => top_bar::toggle_theme(ctx),
             Action::LeftBar => self.layout.left.shown ^= true,
             Action::RightBar => self.layout.right.shown ^= true,
@@ -138,8 +208,21 @@ impl App {
             Action::PreviousRay => state.next_ray(-1),
             Action::NextRay => state.next_ray(1),
             Action::SceneCamera => state.wanted.own_camera = false,
-            action => build_bar::act(action, state, ctx.input(|i| i.time)),
+            action => match Export::of(action) {
+                Some(export) => self.export(|exports, shown| exports.ask(export, shown, ctx)),
+                None => build_bar::act(action, state, ctx.input(|i| i.time)),
+            },
         }
+    }
+
+    /// The lessons, and what they set and bring back.
+    fn lessons(&mut self) -> (&mut Lessons, Around<'_>) {
+        let around = Around {
+            state: &mut self.state,
+            layout: &mut self.layout,
+            heat: &mut self.panes.picture.heat,
+        };
+        (&mut self.lessons, around)
     }
 
     /// Does what was chosen in the palette; what belongs to a pane brings it to the front.
@@ -154,7 +237,7 @@ impl App {
             Command::Method(method) => {
                 top_bar::choose_method(&mut self.state.wanted.build, method);
             }
-            Command::Open(scene) => self.state.open(scene),
+            Command::Open(source) => self.files.open(source, ctx, &mut self.state),
             Command::Heatmap(heatmap) => {
                 self.layout.show(Pane::Picture);
                 self.panes.picture.heat.show(heatmap);
@@ -163,6 +246,7 @@ impl App {
                 self.layout.show(Pane::View3d);
                 self.panes.view3d.color_by(&COLORINGS[place]);
             }
+            Command::Lesson(place) => self.lessons.take(place),
         }
     }
 
@@ -179,11 +263,18 @@ impl App {
             Side::Right => (egui::Panel::right("right"), right, 220.0..=640.0),
         };
         let state = &mut self.state;
+        let hidden = side == Side::Right && self.lessons.hides_figures();
         let shown = panel
             .default_size(bar.width)
             .size_range(widths)
             .show_collapsible(ui, &mut bar.shown, |ui| {
-                panels::show(ui, side, state, unfolded);
+                if hidden {
+                    // The bar keeps its width.
+                    ui.set_width(ui.available_width());
+                    ui.weak(HIDDEN);
+                } else {
+                    panels::show(ui, side, state, unfolded);
+                }
             });
         if let Some(shown) = shown {
             bar.width = shown.response.rect.width();
@@ -210,6 +301,34 @@ impl App {
         if !busy && self.kept_layout.as_ref() != Some(&self.layout) {
             self.layout_file.write(&self.layout);
             self.kept_layout = Some(self.layout.clone());
+        }
+    }
+
+    /// Does something about exports, with what they are made of.
+    fn export(&mut self, act: impl FnOnce(&mut Exports, &mut Shown<'_>)) {
+        let mut shown = Shown {
+            state: &mut self.state,
+            heat: &self.panes.picture.heat,
+            view3d: &self.panes.view3d,
+        };
+        act(&mut self.exports, &mut shown);
+    }
+
+    /// Asks where to save the workspace, while that was asked for.
+    fn save_workspace_as(&mut self, ctx: &egui::Context) {
+        let mut workspaces = std::mem::take(&mut self.files.workspaces);
+        if let Some(path) = workspaces.show(ctx, || self.workspace()) {
+            self.files.recent.add(SceneSource::File(path));
+        }
+        self.files.workspaces = workspaces;
+    }
+
+    /// Keeps what is shown for the next start, once there is something.
+    fn keep_session(&mut self, now: f64, at_once: bool) {
+        if self.state.current.is_some() {
+            let mut workspaces = std::mem::take(&mut self.files.workspaces);
+            workspaces.keep(now, at_once, || self.workspace());
+            self.files.workspaces = workspaces;
         }
     }
 
@@ -246,10 +365,19 @@ impl App {
 
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
-        for source in self.state.receive() {
-            self.files.recent.add(source);
+        let opened = self.state.receive();
+        // A lesson's scenes are not the user's.
+        if !self.lessons.is_on() {
+            for source in opened {
+                self.files.recent.add(source);
+            }
         }
+        self.lessons.take_dropped(ctx);
         self.files.receive(ctx, &mut self.state);
+        if let Some((path, workspace)) = self.files.workspaces.receive(&mut self.state, ctx) {
+            self.restore(&workspace, ctx);
+            self.files.recent.add(SceneSource::File(path));
+        }
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
@@ -264,6 +392,7 @@ impl eframe::App for App {
         for action in pressed(&ctx, Scope::Window, true) {
             self.act(action, &ctx);
         }
+        self.state.restore_selection();
         self.state.follow_rays(&ctx);
         self.state
             .judge_rays(self.panes.picture.heat.is_timing(), &ctx);
@@ -277,6 +406,8 @@ impl eframe::App for App {
         });
         egui::Panel::bottom("walk bar").show(ui, |ui| walk_bar::show(ui, &mut self.state));
         build_bar::show(ui, &mut self.state);
+        let (lessons, mut around) = self.lessons();
+        lessons.show(ui, &mut around);
         self.side_bar(ui, Side::Left);
         self.side_bar(ui, Side::Right);
         egui::CentralPanel::default()
@@ -285,10 +416,20 @@ impl eframe::App for App {
                 let mut behavior = Behavior {
                     panes: &mut self.panes,
                     state: &mut self.state,
+                    hides_figures: self.lessons.hides_figures(),
                 };
                 self.layout.tiles.ui(&mut behavior, ui);
             });
         self.message(&ctx);
+        if self.lessons.is_on() {
+            self.first_hint.dismiss();
+        }
+        if self.first_hint.show(&ctx) == Some(Chosen::FirstLesson) {
+            self.lessons.take(0);
+        }
+        self.state.notices.show(&ctx);
+        self.save_workspace_as(&ctx);
+        self.export(|exports, shown| exports.show(shown, &ctx));
         help::show(&ctx, &mut self.help_open);
         if let Some(command) = self.palette.show(&ctx) {
             self.run(command, &ctx);
@@ -298,14 +439,23 @@ impl eframe::App for App {
         }
         self.state.send();
         self.panes.picture.heat.make_way(&self.state);
-        self.state.trading.make_way(self.state.work.is_none());
-        self.keep_layout(&ctx);
+        self.state.make_way();
+        if !self.lessons.is_on() {
+            self.keep_layout(&ctx);
+            self.keep_session(ctx.input(|i| i.time), false);
+        }
     }
 
     fn on_exit(&mut self) {
+        let (lessons, mut around) = self.lessons();
+        lessons.leave(&mut around);
         self.layout_file.write(&self.layout);
+        self.keep_session(0.0, true);
     }
 }
+
+/// What stands in the place of figures while a lesson waits for a prediction.
+const HIDDEN: &str = "Hidden until you have made your prediction.";
 
 /// Says that a file can be dropped here.
 fn drop_hint(ctx: &egui::Context) {
@@ -315,7 +465,7 @@ fn drop_hint(ctx: &egui::Context) {
     painter.text(
         rect.center(),
         egui::Align2::CENTER_CENTER,
-        "Drop the file to open its scene",
+        format!("Drop the file to open it\n{} or a workspace", names()),
         egui::FontId::proportional(26.0),
         egui::Color32::WHITE,
     );
@@ -325,6 +475,8 @@ fn drop_hint(ctx: &egui::Context) {
 struct Behavior<'a> {
     panes: &'a mut Panes,
     state: &'a mut State,
+    /// Whether a lesson waits for a prediction.
+    hides_figures: bool,
 }
 
 impl egui_tiles::Behavior<Pane> for Behavior<'_> {
@@ -344,6 +496,9 @@ impl egui_tiles::Behavior<Pane> for Behavior<'_> {
             .show(ui, |ui| match pane {
                 Pane::Picture => self.panes.picture.ui(ui, self.state),
                 Pane::View3d => self.panes.view3d.ui(ui, self.state),
+                Pane::Tree(_) if self.hides_figures => {
+                    ui.weak(HIDDEN);
+                }
                 Pane::Tree(pane) => self.panes.tree.ui(*pane, ui, self.state),
             });
         egui_tiles::UiResponse::None

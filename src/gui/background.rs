@@ -2,7 +2,7 @@
 //! next.
 
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::time::Duration;
 
 /// A value that follows a key, worked out in the background.
@@ -91,5 +91,37 @@ impl<K: Clone + PartialEq, T: Send + 'static> Latest<K, T> {
     pub fn ready(&self, key: &K) -> Option<Arc<T>> {
         let (ready, value) = self.ready.as_ref()?;
         (ready == key).then(|| Arc::clone(value))
+    }
+}
+
+/// One piece of work on a thread of its own, whose result is taken once.
+pub struct Task<T>(Receiver<T>);
+
+impl<T: Send + 'static> Task<T> {
+    /// Starts the work; the window is drawn again when it is done.
+    pub fn start(ctx: &egui::Context, work: impl FnOnce() -> T + Send + 'static) -> Self {
+        let (sender, receiver) = channel();
+        let ctx = ctx.clone();
+        std::thread::spawn(move || {
+            // If nobody waits any more, the result is not needed.
+            let _ = sender.send(work());
+            ctx.request_repaint();
+        });
+        Task(receiver)
+    }
+
+    /// Work that is done elsewhere: its result is sent.
+    pub fn promise() -> (Sender<T>, Self) {
+        let (sender, receiver) = channel();
+        (sender, Task(receiver))
+    }
+
+    /// The result, once it is there. The inner `None` says that the work ended without one.
+    pub fn take(&self) -> Option<Option<T>> {
+        match self.0.try_recv() {
+            Ok(result) => Some(Some(result)),
+            Err(TryRecvError::Disconnected) => Some(None),
+            Err(TryRecvError::Empty) => None,
+        }
     }
 }

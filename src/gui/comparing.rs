@@ -4,75 +4,8 @@
 use super::background::Latest;
 use super::state::Current;
 use crate::measure::{Unequal, differing_pixels, unequal};
+pub use crate::workspace::{Arrangement as View, Which};
 use std::sync::Arc;
-
-/// One of the two trees of a comparison. Without one there is only A.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Which {
-    A,
-    B,
-}
-
-impl Which {
-    pub const BOTH: [Which; 2] = [Which::A, Which::B];
-
-    pub const fn name(self) -> &'static str {
-        match self {
-            Which::A => "A",
-            Which::B => "B",
-        }
-    }
-
-    pub const fn other(self) -> Which {
-        match self {
-            Which::A => Which::B,
-            Which::B => Which::A,
-        }
-    }
-}
-
-/// How two pictures share the pane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum View {
-    /// The picture in front alone.
-    One,
-    /// A to the left of a line that can be moved, B to the right of it.
-    Wipe,
-    /// A in the left half, B in the right one.
-    Beside,
-    /// What B has more or less than A.
-    Difference,
-}
-
-impl View {
-    pub const ALL: [View; 4] = [View::One, View::Wipe, View::Beside, View::Difference];
-
-    pub const fn name(self) -> &'static str {
-        match self {
-            View::One => "one",
-            View::Wipe => "wipe",
-            View::Beside => "side by side",
-            View::Difference => "difference",
-        }
-    }
-
-    pub const fn about(self) -> &'static str {
-        match self {
-            View::One => "The picture of the tree in front; hold F for the other's.",
-            View::Wipe => "A to the left of a line, B to the right; drag the line.",
-            View::Beside => "A in the left half, B in the right one, moved and zoomed together.",
-            View::Difference => {
-                "Of a heatmap, pixel by pixel, B less A; of the picture, the pixels that differ."
-            }
-        }
-    }
-
-    /// The view after this one, in a circle.
-    pub fn next(self) -> View {
-        let at = View::ALL.iter().position(|view| *view == self);
-        View::ALL[(at.unwrap_or(0) + 1) % View::ALL.len()]
-    }
-}
 
 /// How two trees are compared.
 pub struct Comparing {
@@ -85,6 +18,8 @@ pub struct Comparing {
     pub asks_for_pixels: bool,
     /// Whether all parameters are listed, or Δ and Λ alone.
     pub all_parameters: bool,
+    /// Whether what rays did is listed kind by kind, too.
+    pub per_kind: bool,
     verdict: Latest<[u64; 2], Verdict>,
 }
 
@@ -96,6 +31,7 @@ impl Default for Comparing {
             flipped: false,
             asks_for_pixels: false,
             all_parameters: false,
+            per_kind: false,
             verdict: Latest::default(),
         }
     }

@@ -1,13 +1,16 @@
 //! Ways to a scene: dialog, dropped file, typed path, generators and the recent list.
 
+use super::background::Task;
+use super::exporting::Exports;
 use super::recent::Recent;
-use super::shortcuts::{Action, tip};
+use super::shortcuts::{Action, choose, text, tip};
 use super::state::State;
+use super::workspaces::Workspaces;
 use crate::scene::SceneSource;
 use crate::scene::builtin::BUILTINS;
-use crate::scene::format::FORMATS;
+use crate::scene::format::{FORMATS, names};
+use crate::workspace::{EXTENSION, Workspace};
 use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// What opening scenes needs to remember.
 pub struct Files {
@@ -17,16 +20,18 @@ pub struct Files {
     /// Put the cursor into the path field.
     focus_path: bool,
     /// The answer of an open dialog.
-    dialog: Option<Receiver<Option<PathBuf>>>,
+    dialog: Option<Task<Option<PathBuf>>>,
+    pub workspaces: Workspaces,
 }
 
 impl Files {
-    pub fn new(recent: Recent) -> Self {
+    pub fn new(recent: Recent, workspaces: Workspaces) -> Self {
         Files {
             recent,
             path: String::new(),
             focus_path: false,
             dialog: None,
+            workspaces,
         }
     }
 
@@ -35,19 +40,23 @@ impl Files {
         if self.dialog.is_some() {
             return;
         }
-        let (sender, receiver) = channel();
-        let ctx = ctx.clone();
-        std::thread::spawn(move || {
-            let mut dialog = rfd::FileDialog::new().set_title("Open a scene");
-            for format in FORMATS {
-                dialog = dialog.add_filter(format.name.to_uppercase(), format.extensions);
+        self.dialog = Some(Task::start(ctx, || {
+            let mut dialog = rfd::FileDialog::new().set_title("Open a scene or a workspace");
+            for (name, extensions) in filters() {
+                dialog = dialog.add_filter(name, &extensions);
             }
-            dialog = dialog.add_filter("All files", &["*"]);
-            // Without a window the answer is not needed.
-            let _ = sender.send(dialog.pick_file());
-            ctx.request_repaint();
-        });
-        self.dialog = Some(receiver);
+            dialog.add_filter("All files", &["*"]).pick_file()
+        }));
+    }
+
+    /// Opens a scene or a workspace.
+    pub fn open(&mut self, source: SceneSource, ctx: &egui::Context, state: &mut State) {
+        match source {
+            SceneSource::File(path) if Workspace::is_path(&path) => {
+                self.workspaces.open(path, ctx);
+            }
+            source => state.open(source),
+        }
     }
 
     pub fn focus_path(&mut self) {
@@ -56,21 +65,15 @@ impl Files {
 
     /// Opens what the dialog answered and what was dropped.
     pub fn receive(&mut self, ctx: &egui::Context, state: &mut State) {
-        if let Some(dialog) = &self.dialog {
-            match dialog.try_recv() {
-                Ok(answer) => {
-                    self.dialog = None;
-                    if let Some(path) = answer {
-                        state.open(SceneSource::File(path));
-                    }
-                }
-                Err(TryRecvError::Disconnected) => self.dialog = None,
-                Err(TryRecvError::Empty) => {}
+        if let Some(answer) = self.dialog.as_ref().and_then(Task::take) {
+            self.dialog = None;
+            if let Some(path) = answer.flatten() {
+                self.open(SceneSource::File(path), ctx, state);
             }
         }
         let dropped = ctx.input(|i| i.raw.dropped_files.first().map(|f| f.path().to_owned()));
         if let Some(path) = dropped {
-            state.open(SceneSource::File(path));
+            self.open(SceneSource::File(path), ctx, state);
         }
     }
 
@@ -93,7 +96,7 @@ impl Files {
         self.size(ui, state);
         ui.menu_button("Recent", |ui| {
             if self.recent.sources().is_empty() {
-                ui.label("No scene was opened yet");
+                ui.label("Nothing was opened yet");
             }
             let mut chosen = None;
             for source in self.recent.sources() {
@@ -102,7 +105,7 @@ impl Files {
                 }
             }
             if let Some(source) = chosen {
-                state.open(source);
+                self.open(source, ui.ctx(), state);
             }
             ui.separator();
             if ui.button("Forget them").clicked() {
@@ -110,21 +113,29 @@ impl Files {
             }
         })
         .response
-        .on_hover_text("Scenes opened lately");
+        .on_hover_text("Scenes and workspaces opened lately");
         if ui
             .add_enabled(self.dialog.is_none(), egui::Button::new("Open…"))
-            .on_hover_text(tip("Open a scene file.", Action::Open))
+            .on_hover_text(tip(
+                &format!("Open a scene ({}) or a workspace.", names()),
+                Action::Open,
+            ))
             .clicked()
         {
             self.open_dialog(ui.ctx());
         }
+        save_menu(ui);
+        Exports::menu(ui);
         let field = egui::TextEdit::singleline(&mut self.path)
             .hint_text("path or generator, Enter")
             .desired_width(170.0);
         let field = ui.add(field).accessible_name("Path of a scene");
         let field = field.on_hover_text(tip(
-            "A file's path, or a generator's name with or without a size, such as balls:3; \
-             then Enter.",
+            &format!(
+                "The path of a scene ({}) or a workspace, or a generator's name with or without a size, such as \
+                 balls:3; then Enter.",
+                names()
+            ),
             Action::Path,
         ));
         if std::mem::take(&mut self.focus_path) {
@@ -132,7 +143,8 @@ impl Files {
         }
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
         if entered && !self.path.trim().is_empty() {
-            state.open(SceneSource::parse(self.path.trim()));
+            let source = SceneSource::parse(self.path.trim());
+            self.open(source, ui.ctx(), state);
         }
     }
 
@@ -182,6 +194,56 @@ impl Files {
                 name: builtin.name.to_owned(),
                 size,
             });
+        }
+    }
+}
+
+/// What keeps the window's state.
+fn save_menu(ui: &mut egui::Ui) {
+    ui.menu_button("Save", |ui| {
+        for (name, action) in [
+            ("Workspace", Action::SaveWorkspace),
+            ("Workspace as…", Action::SaveWorkspaceAs),
+            ("Copy as command", Action::CopyCommand),
+        ] {
+            let item = egui::Button::new(name).shortcut_text(text(action));
+            if ui.add(item).clicked() {
+                choose(ui.ctx(), action);
+            }
+        }
+    })
+    .response
+    .on_hover_text(
+        "Scene, settings, camera, panes, selection and notes in a file, or as a command",
+    );
+}
+
+/// What the dialog can be narrowed to: all scenes and workspaces, workspaces, then each format.
+fn filters() -> Vec<(String, Vec<&'static str>)> {
+    let scenes = FORMATS.iter().flat_map(|f| f.extensions).copied();
+    let all = scenes.chain([EXTENSION]).collect();
+    let workspaces = ("Workspaces".to_owned(), vec![EXTENSION]);
+    let each = FORMATS.iter().map(|format| {
+        let name = format!("{}: {}", format.name.to_uppercase(), format.about);
+        (name, format.extensions.to_vec())
+    });
+    [("Scenes and workspaces".to_owned(), all), workspaces]
+        .into_iter()
+        .chain(each)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_filter_shows_files_of_every_format() {
+        let filters = filters();
+        assert_eq!(filters.len(), FORMATS.len() + 2);
+        for extension in ["nff", "obj", "ply", "gltf", "glb", "stl", EXTENSION] {
+            assert!(filters[0].1.contains(&extension));
+            assert!(filters[1..].iter().any(|(_, e)| e.contains(&extension)));
         }
     }
 }

@@ -66,6 +66,8 @@ impl State {
     /// `timing` says that times are being taken, which must not suffer.
     pub fn judge_rays(&mut self, timing: bool, ctx: &egui::Context) {
         let number = self.current.as_ref().map(|current| current.number);
+        // The worker's times must not suffer, nor those of pixels or of a long measurement.
+        let rests = self.work.is_none() && !timing && self.measuring().is_none();
         let judging = &mut self.judging;
         if judging.number != number {
             judging.number = number;
@@ -75,8 +77,6 @@ impl State {
         if complete {
             judging.running = None;
         }
-        // The worker's times must not suffer, nor those of pixels or of a trade.
-        let rests = self.work.is_none() && !timing && !self.trading.is_running();
         match self
             .current
             .as_ref()

@@ -16,15 +16,8 @@ pub struct KeptFile {
 impl KeptFile {
     /// The file of this name, in the folder that the start options say.
     pub fn new(start: &StartOptions, name: &str) -> Self {
-        let folder = || {
-            start.settings_folder.clone().or_else(|| {
-                let folders = directories::ProjectDirs::from("", "", "bspscope")?;
-                Some(folders.config_dir().to_owned())
-            })
-        };
-        let path = start.remember.then(folder).flatten();
         KeptFile {
-            path: path.map(|folder| folder.join(name)),
+            path: place(start, name),
         }
     }
 
@@ -43,6 +36,18 @@ impl KeptFile {
             let _ = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(path, text));
         }
     }
+}
+
+/// Where a file of this name is kept; `None` where nothing is.
+pub fn place(start: &StartOptions, name: &str) -> Option<PathBuf> {
+    let folder = || {
+        start.settings_folder.clone().or_else(|| {
+            let folders = directories::ProjectDirs::from("", "", "bspscope")?;
+            Some(folders.config_dir().to_owned())
+        })
+    };
+    let folder = start.remember.then(folder).flatten()?;
+    Some(folder.join(name))
 }
 
 #[cfg(test)]

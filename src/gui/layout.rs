@@ -56,6 +56,8 @@ impl Pane {
             Scope::Leaves => Some(Pane::Tree(TreePane::Histograms)),
             Scope::Cost => Some(Pane::Tree(TreePane::Cost)),
             Scope::Trade => Some(Pane::Tree(TreePane::Trade)),
+            Scope::Time => Some(Pane::Tree(TreePane::Time)),
+            Scope::Sweep => Some(Pane::Tree(TreePane::Sweep)),
         }
     }
 }
@@ -169,10 +171,10 @@ fn write_tiles<S: Serializer>(tree: &Tree<Pane>, serializer: S) -> Result<S::Ok,
         Tile::Container(container) => Tile::Container(container.clone()),
     };
     let tiles = tree.tiles.iter();
-    let kept = tree.root.map(|root| KeptTiles {
-        root,
-        tiles: tiles.map(|(&id, tile)| (id, by_title(tile))).collect(),
-    });
+    let mut tiles: Vec<_> = tiles.map(|(&id, tile)| (id, by_title(tile))).collect();
+    // The same layout is the same file.
+    tiles.sort_by_key(|(id, _)| id.0);
+    let kept = tree.root.map(|root| KeptTiles { root, tiles });
     kept.serialize(serializer)
 }
 

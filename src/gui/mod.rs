@@ -5,7 +5,10 @@
 //! actions, which keys, help and the command [`palette`] share. [`panels`] are one file and one line
 //! each; the panes are [`picture_pane`], [`view3d`] and [`tree_panes`], which share what [`inspect`]
 //! knows of the tree. [`comparing`] is what two trees side by side need; [`build_bar`] goes through
-//! the build of a tree; [`trading`] takes what accuracy costs in the background.
+//! the build of a tree. [`keep`] and [`workspaces`] save what is shown and bring it back;
+//! [`exporting`] writes it for other programs. Long measurements take [`turns`] in the background: [`trading`] what accuracy
+//! costs, [`modelling`] what the terms of equation (1) take, [`sweeping`] a grid of settings.
+//! [`lessons`] guides through it all.
 
 mod app;
 mod background;
@@ -13,42 +16,55 @@ mod build_bar;
 mod build_view;
 mod compare_bar;
 mod comparing;
+mod exporting;
 mod files;
+mod first_hint;
 mod heat;
 mod help;
 mod inspect;
 mod judging;
+mod keep;
 mod kept;
 mod layout;
+mod lessons;
+mod modelling;
+mod notices;
 mod palette;
 mod panels;
 mod picture_marks;
 mod picture_pane;
 mod picture_pass;
+mod picture_region;
 mod recent;
 mod rows;
+mod save_as;
 mod scale_bar;
 mod selection;
 mod shortcuts;
 mod state;
 mod status;
 mod step_text;
+mod sweeping;
 mod symbol;
 mod top_bar;
 mod trading;
 mod tree_panes;
+mod turns;
 mod view3d;
 mod visits;
 mod walk;
 mod walk_bar;
+mod workspaces;
 
 pub use app::App;
 pub use shortcuts::{Action, SHORTCUTS, Scope, Shortcut};
 
 use crate::geometry::Vec3;
+use crate::lesson::Lesson;
 use crate::scene::{Camera, SceneRequest};
 use crate::trace::RenderSettings;
 use crate::tree::BuildSettings;
+use crate::workspace::Workspace;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -66,7 +82,7 @@ fn name_widget(ui: &egui::Ui, response: &egui::Response, name: &str) {
 }
 
 /// What the window opens with.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct StartOptions {
     pub scene: SceneRequest,
     pub build: BuildSettings,
@@ -74,8 +90,14 @@ pub struct StartOptions {
     pub render: RenderSettings,
     /// Whether `render` has its own camera; if not, the scene's is used.
     pub own_camera: bool,
+    /// The lesson that the window opens with.
+    pub lesson: Option<Lesson>,
     /// Whether recent scenes and the window's layout are read from and kept in the settings folder.
     pub remember: bool,
+    /// A workspace to open, with its path; it takes the place of scene and settings above.
+    pub workspace: Option<(PathBuf, Workspace)>,
+    /// Whether to go on where the last session ended, if that was kept.
+    pub last_session: bool,
     /// The settings folder; `None` for the one that the system has for the user.
     pub settings_folder: Option<PathBuf>,
 }
@@ -97,7 +119,10 @@ impl Default for StartOptions {
             build: BuildSettings::default(),
             render: RenderSettings::for_camera(camera),
             own_camera: false,
+            lesson: None,
             remember: true,
+            workspace: None,
+            last_session: false,
             settings_folder: None,
         }
     }
@@ -121,6 +146,12 @@ pub enum GuiError {
     Ended(String),
 }
 
+/// The program's own: a box split by planes.
+fn icon() -> egui::IconData {
+    eframe::icon_data::from_png_bytes(include_bytes!("../../assets/bspscope.png"))
+        .expect("a test reads it")
+}
+
 /// Opens the window and returns once it is closed.
 ///
 /// # Errors
@@ -136,6 +167,7 @@ pub fn run(start: StartOptions) -> Result<(), GuiError> {
         viewport: egui::ViewportBuilder::default()
             .with_title("bspscope")
             .with_app_id("bspscope")
+            .with_icon(icon())
             .with_inner_size(size)
             .with_min_inner_size(layout::LEAST_SIZE),
         ..Default::default()
@@ -188,5 +220,17 @@ pub fn run(start: StartOptions) -> Result<(), GuiError> {
                 GuiError::NoDisplay(text)
             })
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_icon_is_a_picture() {
+        let icon = super::icon();
+        assert_eq!((icon.width, icon.height), (256, 256));
+        // The corners are round: nothing there, something in the middle.
+        assert_eq!(icon.rgba[3], 0);
+        assert_eq!(icon.rgba[(128 * 256 + 128) * 4 + 3], 255);
     }
 }

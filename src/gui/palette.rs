@@ -3,11 +3,13 @@
 
 use super::layout::Pane;
 use super::shortcuts::{Action, SHORTCUTS};
+use crate::lesson::LESSONS;
 use crate::measure::heat::HEATMAPS;
 use crate::overlay::COLORINGS;
 use crate::scene::SceneSource;
 use crate::scene::builtin::BUILTINS;
 use crate::tree::Method;
+use crate::workspace::Workspace;
 use egui::{Key, Modifiers};
 use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher};
@@ -22,6 +24,8 @@ pub enum Command {
     Heatmap(Option<usize>),
     /// Place in [`COLORINGS`].
     Color(usize),
+    /// Place in [`LESSONS`].
+    Lesson(usize),
 }
 
 /// A line of the palette.
@@ -186,6 +190,10 @@ fn entries(recent: &[SceneSource]) -> Vec<Entry> {
         let text = format!("Colour leaves by: {}", coloring.title);
         plain(text, Command::Color(place))
     });
+    let lessons = LESSONS.iter().enumerate().map(|(place, known)| {
+        let text = format!("Lesson: {}", known.read().title);
+        plain(text, Command::Lesson(place))
+    });
     let scenes = BUILTINS.iter().map(|builtin| SceneSource::Builtin {
         name: builtin.name.to_owned(),
         size: None,
@@ -194,12 +202,21 @@ fn entries(recent: &[SceneSource]) -> Vec<Entry> {
     let opened: Vec<SceneSource> = recent.clone().collect();
     let scenes = recent
         .chain(scenes.filter(|scene| !opened.contains(scene)))
-        .map(|scene| plain(format!("Scene: {scene}"), Command::Open(scene)));
+        .map(|source| {
+            let path = std::path::PathBuf::from(source.to_string());
+            let what = if Workspace::is_path(&path) {
+                "Workspace"
+            } else {
+                "Scene"
+            };
+            plain(format!("{what}: {source}"), Command::Open(source))
+        });
     actions
         .chain(methods)
         .chain([picture])
         .chain(heatmaps)
         .chain(colorings)
+        .chain(lessons)
         .chain(scenes)
         .collect()
 }

@@ -5,6 +5,7 @@ use super::compare_bar;
 use super::comparing::{View, Which};
 use super::heat::HeatView;
 use super::picture_marks::PictureMarks;
+use super::picture_region;
 use super::shortcuts::{Action, Scope, pressed};
 use super::state::{Current, Fresh, State};
 use crate::trace::{Picture, Tile};
@@ -25,6 +26,8 @@ pub struct PicturePane {
     offset: Vec2,
     /// The pixel under the pointer.
     pub hovered: Option<[u32; 2]>,
+    /// Where a region is being dragged from.
+    region_from: Option<Pos2>,
     pub heat: HeatView,
     marks: PictureMarks,
 }
@@ -198,6 +201,10 @@ impl PicturePane {
         if let (true, Some(current)) = (in_front, &state.current) {
             self.marks.paint(&painter, rect, current, &state.inspect);
         }
+        if let Some(region) = state.modelling.region {
+            picture_region::frame(&painter, rect, picture, region);
+        }
+        pins(&painter, rect, picture, &state.pinned);
         if let Some([x, y]) = picked
             && x < picture[0]
             && y < picture[1]
@@ -275,7 +282,22 @@ impl PicturePane {
         {
             self.offset += response.drag_delta();
         }
-        let is_wipe = state.other.is_some() && state.comparing.view == View::Wipe;
+        let shift = ui.input(|i| i.modifiers.shift);
+        if response.drag_started_by(egui::PointerButton::Primary) {
+            self.region_from = ui.input(|i| i.pointer.press_origin()).filter(|_| shift);
+        }
+        if let (Some(from), Some(to)) = (self.region_from, response.interact_pointer_pos())
+            && response.dragged_by(egui::PointerButton::Primary)
+        {
+            let parts = self.parts(response.rect, state);
+            if let Some(part) = parts.iter().find(|part| part.clip.contains(from)) {
+                let rect = self.place(part.pane, picture);
+                state.modelling.region = Some(picture_region::between(rect, picture, from, to));
+            }
+        }
+        let is_wipe = self.region_from.is_none()
+            && state.other.is_some()
+            && state.comparing.view == View::Wipe;
         if is_wipe
             && response.dragged_by(egui::PointerButton::Primary)
             && let Some(pointer) = response.interact_pointer_pos()
@@ -316,6 +338,8 @@ impl PicturePane {
                     self.offset = Vec2::ZERO;
                 }
                 Action::Unpick => current.unpick(),
+                Action::ClearRegion => state.modelling.region = None,
+                Action::Pin => state.pin_or_unpin(),
                 Action::PickLeft => step(current, -1, 0),
                 Action::PickRight => step(current, 1, 0),
                 Action::PickUp => step(current, 0, -1),
@@ -465,6 +489,28 @@ fn cross_hair(painter: &egui::Painter, rect: Rect, [width, height]: [u32; 2], [x
                 stroke,
             );
         }
+    }
+}
+
+/// Numbers the pinned pixels.
+fn pins(painter: &egui::Painter, rect: Rect, picture: [u32; 2], pinned: &[[u32; 2]]) {
+    let pixel = rect.size() / vec2(picture[0] as f32, picture[1] as f32);
+    for (i, [x, y]) in pinned.iter().enumerate() {
+        if *x >= picture[0] || *y >= picture[1] {
+            continue;
+        }
+        let at = rect.min + pixel * vec2(*x as f32 + 0.5, *y as f32 + 0.5);
+        painter.circle(
+            at,
+            8.0,
+            Color32::from_black_alpha(190),
+            (1.0, Color32::WHITE),
+        );
+        let (font, middle) = (
+            egui::FontId::proportional(11.0),
+            egui::Align2::CENTER_CENTER,
+        );
+        painter.text(at, middle, i + 1, font, Color32::WHITE);
     }
 }
 

@@ -12,10 +12,12 @@ pub enum Scope {
     Leaves,
     Cost,
     Trade,
+    Time,
+    Sweep,
 }
 
 impl Scope {
-    pub const ALL: [Scope; 7] = [
+    pub const ALL: [Scope; 9] = [
         Scope::Window,
         Scope::Picture,
         Scope::View3d,
@@ -23,6 +25,8 @@ impl Scope {
         Scope::Leaves,
         Scope::Cost,
         Scope::Trade,
+        Scope::Time,
+        Scope::Sweep,
     ];
 
     pub const fn title(self) -> &'static str {
@@ -34,6 +38,8 @@ impl Scope {
             Scope::Leaves => "Pointer over the leaf histograms",
             Scope::Cost => "Pointer over the split cost",
             Scope::Trade => "Pointer over the trade",
+            Scope::Time => "Pointer over the time by term",
+            Scope::Sweep => "Pointer over the sweep",
         }
     }
 }
@@ -44,6 +50,15 @@ pub enum Action {
     Help,
     Palette,
     Open,
+    SaveWorkspace,
+    SaveWorkspaceAs,
+    CopyCommand,
+    ExportPicture,
+    ExportHeatmap,
+    ExportView3d,
+    ExportFigures,
+    ExportLeaves,
+    ExportPage,
     Path,
     Reload,
     Cancel,
@@ -63,6 +78,10 @@ pub enum Action {
     Compare,
     OtherTree,
     Paper,
+    Lessons,
+    LessonReveal,
+    LessonNext,
+    LessonBack,
     Theme,
     LeftBar,
     RightBar,
@@ -89,6 +108,7 @@ pub enum Action {
     PickUp,
     PickDown,
     Unpick,
+    Pin,
     NextView,
     Flip,
     WipeLeft,
@@ -143,6 +163,14 @@ pub enum Action {
     PreviousOutcome,
     NextError,
     ErrorMap,
+    MeasureTimes,
+    NextExtent,
+    NextTimes,
+    ClearRegion,
+    RunSweep,
+    NextParameter,
+    PreviousParameter,
+    SweepMap,
     FoldLegend,
     /// Done with the mouse; listed for the help window alone.
     Mouse,
@@ -161,12 +189,12 @@ pub struct Shortcut {
 }
 
 macro_rules! shortcuts {
-    ($( $scope:ident $action:ident $modifiers:ident [$($key:ident)*] $text:literal $about:literal; )*) => {
+    ($( $scope:ident $action:ident $modifiers:ident $(+ $more:ident)? [$($key:ident)*] $text:literal $about:literal; )*) => {
         /// Every shortcut.
         pub static SHORTCUTS: &[Shortcut] = &[$( Shortcut {
             action: Action::$action,
             scope: Scope::$scope,
-            modifiers: Modifiers::$modifiers,
+            modifiers: Modifiers::$modifiers$(.plus(Modifiers::$more))?,
             keys: &[$(Key::$key),*],
             text: $text,
             about: $about,
@@ -177,7 +205,16 @@ macro_rules! shortcuts {
 shortcuts! {
     Window Help NONE [Questionmark F1] "? or F1" "Show or hide the list of shortcuts";
     Window Palette COMMAND [K P] "Ctrl+K or Ctrl+P" "Search for a command and do it";
-    Window Open COMMAND [O] "Ctrl+O" "Open a scene file";
+    Window Open COMMAND [O] "Ctrl+O" "Open a scene or a workspace";
+    Window SaveWorkspaceAs COMMAND+SHIFT [S] "Ctrl+Shift+S" "Save the workspace under another name";
+    Window SaveWorkspace COMMAND [S] "Ctrl+S" "Save the workspace: scene, settings, camera, panes, selection, notes";
+    Window CopyCommand COMMAND+SHIFT [C] "Ctrl+Shift+C" "Copy settings and camera as a command";
+    Window ExportPicture ALT [Num1] "Alt+1" "Export the picture: PNG or EXR";
+    Window ExportHeatmap ALT [Num2] "Alt+2" "Export the heatmap: PNG with its legend, or EXR";
+    Window ExportView3d ALT [Num3] "Alt+3" "Export the 3D view: PNG";
+    Window ExportFigures ALT [Num4] "Alt+4" "Export the figures: text, JSON, CSV, Markdown, LaTeX";
+    Window ExportLeaves ALT [Num5] "Alt+5" "Export the leaf boxes shown: OBJ or PLY";
+    Window ExportPage ALT [Num6] "Alt+6" "Export a report: one HTML file";
     Window Path COMMAND [L] "Ctrl+L" "Type a path or a generator's name";
     Window Reload NONE [F5] "F5" "Read the scene's file again";
     Window Cancel NONE [Escape] "Esc" "Close a message, or cancel what is being worked on";
@@ -197,6 +234,10 @@ shortcuts! {
     Window Compare COMMAND [E] "Ctrl+E" "Compare with another tree, B, or end that";
     Window OtherTree NONE [J] "J" "Bring the other of two compared trees to the front";
     Window Paper COMMAND [U] "Ctrl+U" "Repeat the paper's experiment, or cancel that";
+    Window Lessons COMMAND [J] "Ctrl+J" "List the lessons, or leave the one that is taken";
+    Window LessonReveal ALT [Enter] "Alt+Enter" "Lesson: show the figures after your prediction";
+    Window LessonNext ALT [PageDown] "Alt+Page down" "Lesson: the next step";
+    Window LessonBack ALT [PageUp] "Alt+Page up" "Lesson: the step before";
     Window Theme COMMAND [T] "Ctrl+T" "Light or dark window";
     Window LeftBar COMMAND [B] "Ctrl+B" "Show or hide the bar on the left";
     Window RightBar COMMAND [I] "Ctrl+I" "Show or hide the bar on the right";
@@ -216,7 +257,7 @@ shortcuts! {
     Window BuildLast ALT [End] "Alt+End" "Last moment of the build: the finished tree";
     Window PlayBuild ALT [P] "Alt+P" "Play the build, or pause it";
     Window BuildByNode ALT [N] "Alt+N" "Go through the build by nodes or by depths";
-    Window Mouse NONE [] "Drop a file" "Open it";
+    Window Mouse NONE [] "Drop a file" "Open it, a scene or a workspace";
     Picture Mouse NONE [] "Click" "Name the object in a pixel and follow its ray";
     Picture Mouse NONE [] "Wheel" "Zoom to the pointer";
     Picture Mouse NONE [] "Right-drag" "Move the picture";
@@ -224,7 +265,10 @@ shortcuts! {
     Picture PickRight NONE [ArrowRight] "Right" "Pick the pixel to the right";
     Picture PickUp NONE [ArrowUp] "Up" "Pick the pixel above";
     Picture PickDown NONE [ArrowDown] "Down" "Pick the pixel below";
+    Picture Mouse NONE [] "Shift+drag" "Mark a region, whose time by term the pane Time shows";
+    Picture ClearRegion SHIFT [Delete] "Shift+Delete" "Mark no region";
     Picture Unpick NONE [Delete] "Delete" "Pick no pixel";
+    Picture Pin NONE [P] "P" "Pin the picked pixel to come back to it, or unpin it";
     Picture OutlineSelection NONE [S] "S" "Outline the selected cell and object in the picture, or not";
     Picture PreviousHeatmap SHIFT [H] "Shift+H" "Show the heatmap before";
     Picture NextHeatmap NONE [H] "H" "Show the next heatmap";
@@ -289,6 +333,13 @@ shortcuts! {
     Trade NextOutcome NONE [ArrowDown] "Down" "Load the settings of the next outcome";
     Trade NextError NONE [E] "E" "Another measure of the error";
     Trade ErrorMap NONE [M] "M" "Beside the plot the table of outcomes, or the chosen one's error of every pixel";
+    Time MeasureTimes NONE [Enter] "Enter" "Measure what nodes and tests take; Esc ends it";
+    Time NextExtent NONE [W] "W" "Time of the whole picture, the marked region or the picked pixel";
+    Time NextTimes NONE [C] "C" "Times of the terms by regression or in place";
+    Sweep RunSweep NONE [Enter] "Enter" "Take the sweep over depths and leaf sizes; Esc ends it";
+    Sweep PreviousParameter SHIFT [E] "Shift+E" "Parameter of the sweep before";
+    Sweep NextParameter NONE [E] "E" "Next parameter of the sweep";
+    Sweep SweepMap NONE [M] "M" "Curves of the sweep, or its map";
 }
 
 /// Flying and flipping go on while a key is held; all else happens once.
@@ -297,6 +348,22 @@ fn is_held(action: Action) -> bool {
     matches!(
         action,
         Flip | FlyForward | FlyBack | FlyLeft | FlyRight | FlyUp | FlyDown
+    )
+}
+
+/// Whether keys do it while text is typed: they are none that edit it.
+fn goes_while_typing(action: Action) -> bool {
+    use Action::{LessonBack, LessonNext, LessonReveal, Lessons, Open, Palette};
+    use Action::{SaveWorkspace, SaveWorkspaceAs};
+    matches!(
+        action,
+        Open | Palette
+            | Lessons
+            | LessonReveal
+            | LessonNext
+            | LessonBack
+            | SaveWorkspace
+            | SaveWorkspaceAs
     )
 }
 
@@ -361,7 +428,7 @@ fn keys(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
             .iter()
             .filter(|s| s.scope == scope)
             .filter(|s| !focused || s.modifiers != Modifiers::NONE)
-            .filter(|s| !typing || matches!(s.action, Action::Open | Action::Palette))
+            .filter(|s| !typing || goes_while_typing(s.action))
             .filter(|s| {
                 s.keys.iter().any(|&key| {
                     if is_held(s.action) {

@@ -7,8 +7,12 @@ use super::StartOptions;
 use super::comparing::{Comparing, Verdict, Which};
 use super::inspect::Inspect;
 use super::judging::Judging;
+use super::keep::Restoring;
+use super::modelling::Modelling;
+use super::notices::Notices;
 use super::panels::paper::Experiment;
 use super::selection::Selection;
+use super::sweeping::Sweeping;
 use super::trading::Trading;
 use super::walk::{Picked, Walking, Wish};
 use crate::measure::heat::PixelCounts;
@@ -55,6 +59,18 @@ pub struct State {
     pub experiment: Experiment,
     /// What accuracy costs.
     pub trading: Trading,
+    /// What the terms of equation (1) take.
+    pub modelling: Modelling,
+    /// What the user wrote down.
+    pub notes: String,
+    /// Pixels marked to come back to.
+    pub pinned: Vec<[u32; 2]>,
+    /// What is to be selected again, until it is.
+    pub restoring: Option<Restoring>,
+    /// What was done, for a moment.
+    pub notices: Notices,
+    /// A grid of settings, measured.
+    pub sweeping: Sweeping,
 }
 
 /// The tree of a comparison that is not in front.
@@ -75,9 +91,9 @@ impl Other {
 
 /// What is wanted of A and, while two trees are compared, of B.
 #[derive(Clone, PartialEq)]
-struct Wanted {
-    a: Request,
-    b: Option<Request>,
+pub struct Wanted {
+    pub a: Request,
+    pub b: Option<Request>,
 }
 
 /// A request that failed.
@@ -195,6 +211,12 @@ impl State {
             judging: Judging::default(),
             experiment: Experiment::default(),
             trading: Trading::default(),
+            modelling: Modelling::default(),
+            notes: String::new(),
+            pinned: Vec::new(),
+            restoring: None,
+            notices: Notices::default(),
+            sweeping: Sweeping::default(),
         }
     }
 
@@ -221,7 +243,8 @@ impl State {
         }
     }
 
-    fn all_wanted(&self) -> Wanted {
+    /// What is wanted of both trees.
+    pub fn all_wanted(&self) -> Wanted {
         let front = self.wanted.clone();
         match &self.other {
             None => Wanted { a: front, b: None },
@@ -232,7 +255,8 @@ impl State {
         }
     }
 
-    fn want(&mut self, Wanted { a, b }: Wanted) {
+    /// Wants this; begins or ends a comparison where that takes it.
+    pub fn want(&mut self, Wanted { a, b }: Wanted) {
         if self.other.is_some() != b.is_some() {
             self.show(Which::A);
             self.compare_or_not();
@@ -354,7 +378,28 @@ impl State {
             self.stopped = true;
         }
         self.inspect.visits.cancel();
-        self.trading.cancel();
+        self.trading.turns.cancel();
+        self.modelling.turns.cancel();
+        self.sweeping.turns.cancel();
+    }
+
+    /// Which long measurement is on its way, in words: nothing else may take times meanwhile.
+    pub fn measuring(&self) -> Option<&'static str> {
+        [
+            (self.trading.turns.is_running(), "the trade"),
+            (self.modelling.turns.is_running(), "the time model"),
+            (self.sweeping.turns.is_running(), "the sweep"),
+        ]
+        .into_iter()
+        .find_map(|(runs, name)| runs.then_some(name))
+    }
+
+    /// Lets long measurements go on, one at a time, while the worker rests.
+    pub fn make_way(&self) {
+        let rests = self.work.is_none();
+        let rests = self.trading.turns.make_way(rests);
+        let rests = self.modelling.turns.make_way(rests);
+        self.sweeping.turns.make_way(rests);
     }
 
     /// Whether what is shown was made with other settings than the widgets say.
@@ -424,6 +469,7 @@ impl State {
     fn fail(&mut self, which: Which, why: String) {
         let loading = matches!(self.work, Some((Stage::Loading, _)));
         self.work = None;
+        self.restoring = None;
         if which != self.which {
             let what = format!("Tree {} could not be shown", which.name());
             self.failure = Some(Failure { what, why });

@@ -21,6 +21,16 @@ pub fn show(ui: &mut egui::Ui, state: &mut State, files: &mut Files, help: &mut 
         {
             *help = !*help;
         }
+        if ui
+            .button("Lessons")
+            .on_hover_text(tip(
+                "Guided tours that ask for a prediction, then show.",
+                Action::Lessons,
+            ))
+            .clicked()
+        {
+            choose(ui.ctx(), Action::Lessons);
+        }
         view_menu(ui);
         let dark = ui.visuals().dark_mode;
         if ui

@@ -1,13 +1,13 @@
-//! The trade of time for accuracy in the background: turn by turn, and only while the worker rests, so
-//! that neither's times suffer. A turn that the worker interrupts is taken again.
+//! The trade of time for accuracy in the background, turn by turn.
 
 use super::state::State;
+use super::turns::{Doing, Stop, Turns};
 use crate::measure::trade::{self, Trade, choices, reference};
 use crate::progress::Progress;
 use crate::scene::{Cylinders, Scene, SceneRequest, load};
 use crate::trace::RenderSettings;
 use crate::worker::Request;
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 /// The most bytes that the errors of all pixels of all choices may take; in a trade of larger pictures
 /// they are not kept.
@@ -23,7 +23,7 @@ pub struct Trading {
     pub chosen: Option<usize>,
     /// How many trades were begun.
     begun: u64,
-    run: Option<Run>,
+    pub turns: Turns<Found>,
 }
 
 impl Default for Trading {
@@ -33,7 +33,7 @@ impl Default for Trading {
             rounds: 3,
             chosen: None,
             begun: 0,
-            run: None,
+            turns: Turns::default(),
         }
     }
 }
@@ -54,16 +54,6 @@ pub struct Found {
     pub taken: usize,
     /// Turns in all; 0 until the scene is there.
     pub turns: usize,
-    /// How it ended; `None` while it goes on.
-    pub end: Option<End>,
-}
-
-/// How a trade ended.
-#[derive(Clone, Debug, PartialEq)]
-pub enum End {
-    Complete,
-    Cancelled,
-    Failed(String),
 }
 
 impl Found {
@@ -75,115 +65,26 @@ impl Found {
     }
 }
 
-/// A trade on its thread; dropping it ends the thread's work.
-struct Run {
-    gate: Arc<Gate>,
-    found: Arc<Mutex<Arc<Found>>>,
-}
-
-impl Drop for Run {
-    fn drop(&mut self) {
-        self.gate.cancel();
-    }
-}
-
-/// Lets turns begin, or not.
-#[derive(Default)]
-struct Gate {
-    state: Mutex<GateState>,
-    changed: Condvar,
-}
-
-#[derive(Default)]
-struct GateState {
-    open: bool,
-    cancelled: bool,
-    /// Of the turn that is being taken.
-    turn: Progress,
-}
-
-impl Gate {
-    fn lock(&self) -> MutexGuard<'_, GateState> {
-        lock(&self.state)
-    }
-
-    /// Opens or closes it; closing interrupts the turn that is being taken.
-    fn set(&self, open: bool) {
-        let mut state = self.lock();
-        if state.open != open {
-            state.open = open;
-            if !open {
-                state.turn.cancel();
-            }
-            self.changed.notify_all();
-        }
-    }
-
-    fn cancel(&self) {
-        let mut state = self.lock();
-        state.cancelled = true;
-        state.turn.cancel();
-        self.changed.notify_all();
-    }
-
-    /// Waits until a turn may be taken, and gives its progress; `None` once all is cancelled.
-    fn pass(&self) -> Option<Progress> {
-        let mut state = self.lock();
-        while !state.open && !state.cancelled {
-            state = self
-                .changed
-                .wait(state)
-                .unwrap_or_else(PoisonError::into_inner);
-        }
-        state.turn = Progress::new();
-        (!state.cancelled).then(|| state.turn.clone())
-    }
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 impl Trading {
     /// What is known of the last trade; `None` before the first.
     pub fn found(&self) -> Option<Arc<Found>> {
-        let run = self.run.as_ref()?;
-        Some(Arc::clone(&lock(&run.found)))
-    }
-
-    pub fn is_running(&self) -> bool {
-        self.found().is_some_and(|found| found.end.is_none())
+        self.turns.found()
     }
 
     /// How much of the trade is done, 0 to 1, and whether it waits for the worker; `None` while none
     /// is being taken.
     pub fn progress(&self) -> Option<(f64, bool)> {
-        let run = self.run.as_ref()?;
-        let found = self.found().filter(|found| found.end.is_none())?;
-        let gate = run.gate.lock();
-        let taken = found.taken as f64 + gate.turn.fraction();
-        Some((taken / found.turns.max(1) as f64, !gate.open))
-    }
-
-    /// Ends the trade; what is known of it stays.
-    pub fn cancel(&self) {
-        if let Some(run) = &self.run {
-            run.gate.cancel();
-        }
-    }
-
-    /// Lets the trade go on where the worker `rests`, and interrupts it where not.
-    pub fn make_way(&self, rests: bool) {
-        if let Some(run) = &self.run {
-            run.gate.set(rests);
-        }
+        let (turn, waits) = self.turns.turn()?;
+        let found = self.found()?;
+        let share = (found.taken as f64 + turn) / found.turns.max(1) as f64;
+        Some((share, waits))
     }
 }
 
 impl State {
     /// Whether a trade can be taken: of a finished picture with the settings that are wanted.
     pub fn may_trade(&self) -> bool {
-        !self.trading.is_running()
+        !self.trading.turns.is_running()
             && self.work.is_none()
             && !self.is_previous()
             && self.current.as_ref().is_some_and(|current| current.done)
@@ -214,22 +115,11 @@ impl State {
             pixel_errors: Vec::new(),
             taken: 0,
             turns: 0,
-            end: None,
         };
-        let run = Run {
-            gate: Arc::default(),
-            found: Arc::new(Mutex::new(Arc::new(found))),
-        };
-        let task = Task {
-            gate: Arc::clone(&run.gate),
-            found: Arc::clone(&run.found),
-            scene: Arc::clone(&shown.scene),
-            of,
-            rounds: trading.rounds,
-            ctx: ctx.clone(),
-        };
-        std::thread::spawn(move || task.run());
-        trading.run = Some(run);
+        let (scene, rounds) = (Arc::clone(&shown.scene), trading.rounds);
+        trading
+            .turns
+            .begin(found, ctx, move |doing| take(doing, &scene, &of, rounds));
     }
 
     /// Wants the settings of an outcome, of the scene and camera that it was traced with.
@@ -256,73 +146,36 @@ impl State {
     }
 }
 
-/// What the thread of a trade needs.
-struct Task {
-    gate: Arc<Gate>,
-    found: Arc<Mutex<Arc<Found>>>,
-    /// The scene on view; the trade begins with its cylinders exact.
-    scene: Arc<Scene>,
-    of: Request,
-    rounds: u32,
-    ctx: egui::Context,
-}
-
-impl Task {
-    fn run(self) {
-        let end = match self.take() {
-            Ok(()) => End::Complete,
-            Err(_) if self.gate.lock().cancelled => End::Cancelled,
-            Err(why) => End::Failed(why),
+/// Takes the trade of a scene on view; it begins with its cylinders exact.
+fn take(doing: &Doing<Found>, scene: &Arc<Scene>, of: &Request, rounds: u32) -> Result<(), Stop> {
+    let scene = if of.scene.cylinders == Cylinders::Exact {
+        Arc::clone(scene)
+    } else {
+        let exact = SceneRequest {
+            cylinders: Cylinders::Exact,
+            ..of.scene.clone()
         };
-        self.tell(|found| found.end = Some(end));
+        Arc::new(load(&exact, &Progress::new())?)
+    };
+    let render = &of.render;
+    let choices = choices(&reference(&of.build, render), &scene);
+    let pixels = render.width as usize * render.height as usize;
+    let keeps = choices.len() * pixels * size_of::<f32>() <= MOST_BYTES;
+    let mut trading = trade::Trading::new(&scene, choices, rounds)?;
+    let turns = trading.turns();
+    doing.tell(|found| found.turns = turns);
+    while let Some(turn) = doing.turn(|progress| trading.turn(progress))? {
+        doing.tell(|found| {
+            let outcome = trading.outcomes()[turn.place].clone();
+            match found.trade.outcomes.get_mut(turn.place) {
+                Some(known) => *known = outcome,
+                None => found.trade.outcomes.push(outcome),
+            }
+            found
+                .pixel_errors
+                .extend(turn.pixel_errors.filter(|_| keeps).map(Arc::new));
+            found.taken += 1;
+        });
     }
-
-    fn take(&self) -> Result<(), String> {
-        let words = |error: &dyn std::fmt::Display| error.to_string();
-        let scene = if self.of.scene.cylinders == Cylinders::Exact {
-            Arc::clone(&self.scene)
-        } else {
-            let exact = SceneRequest {
-                cylinders: Cylinders::Exact,
-                ..self.of.scene.clone()
-            };
-            Arc::new(load(&exact, &Progress::new()).map_err(|e| words(&e))?)
-        };
-        let render = &self.of.render;
-        let choices = choices(&reference(&self.of.build, render), &scene);
-        let pixels = render.width as usize * render.height as usize;
-        let keeps = choices.len() * pixels * size_of::<f32>() <= MOST_BYTES;
-        let mut trading =
-            trade::Trading::new(&scene, choices, self.rounds).map_err(|e| words(&e))?;
-        let turns = trading.turns();
-        self.tell(|found| found.turns = turns);
-        loop {
-            let Some(progress) = self.gate.pass() else {
-                return Err("cancelled".to_owned());
-            };
-            let turn = match trading.turn(&progress) {
-                Ok(Some(turn)) => turn,
-                Ok(None) => return Ok(()),
-                // The worker came in between: once more, when it rests.
-                Err(error) if error.is_cancelled() => continue,
-                Err(error) => return Err(words(&error)),
-            };
-            self.tell(|found| {
-                let outcome = trading.outcomes()[turn.place].clone();
-                match found.trade.outcomes.get_mut(turn.place) {
-                    Some(known) => *known = outcome,
-                    None => found.trade.outcomes.push(outcome),
-                }
-                found
-                    .pixel_errors
-                    .extend(turn.pixel_errors.filter(|_| keeps).map(Arc::new));
-                found.taken += 1;
-            });
-        }
-    }
-
-    fn tell(&self, news: impl FnOnce(&mut Found)) {
-        news(Arc::make_mut(&mut lock(&self.found)));
-        self.ctx.request_repaint();
-    }
+    Ok(())
 }

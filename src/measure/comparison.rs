@@ -3,7 +3,7 @@
 //! The paper's precondition (section 4): parameters of class S, and thus of class D, are equal, and
 //! so is the image. Everything else is the result.
 
-use super::{Class, Measurement, PARAMETERS, Parameter, Unit};
+use super::{Class, Measurement, PARAMETERS, Unit};
 use crate::trace::Picture;
 
 /// What keeps two measurements from being compared.
@@ -23,6 +23,9 @@ pub enum Unequal {
     Size,
 }
 
+/// Parameters of class S that not every structure has.
+const TREE_SETTINGS: [&str; 2] = ["D_MAX", "N_OILF"];
+
 /// How many unequal pixels are named.
 const PIXELS_NAMED: usize = 5;
 
@@ -33,7 +36,9 @@ pub fn unequal(a: (&Measurement, &Picture), b: (&Measurement, &Picture)) -> Vec<
         .filter(|p| matches!(p.class, Class::S | Class::D))
         .filter_map(|p| {
             let (a, b) = ((p.value)(a.0), (p.value)(b.0));
-            (a != b).then_some(Unequal::Parameter {
+            // Where one of the two has no use for a setting of the tree, nothing of it can differ.
+            let applies = !TREE_SETTINGS.contains(&p.symbol) || a.is_some() && b.is_some();
+            (applies && a != b).then_some(Unequal::Parameter {
                 symbol: p.symbol,
                 a,
                 b,
@@ -106,12 +111,21 @@ pub enum Change {
 
 /// The second value relative to the first, as the paper's Tables 5 and 6 have it. `None` where
 /// either has no value or the first is zero.
-pub fn change(parameter: &Parameter, first: Option<f64>, second: Option<f64>) -> Option<Change> {
+pub fn change(unit: Unit, first: Option<f64>, second: Option<f64>) -> Option<Change> {
     let (first, second) = (first?, second?);
-    match parameter.unit {
+    match unit {
         Unit::Percent => Some(Change::Points((second - first) * 100.0)),
         _ if first == 0.0 => None,
         _ => Some(Change::Ratio(second / first)),
+    }
+}
+
+impl Change {
+    /// The ratio, or the points, as a plain number.
+    pub fn value(self) -> f64 {
+        match self {
+            Change::Ratio(value) | Change::Points(value) => value,
+        }
     }
 }
 
@@ -144,7 +158,7 @@ mod tests {
     #[test]
     fn changes_are_written_as_in_the_paper() {
         let text = |symbol, a, b| {
-            change(parameter(symbol), Some(a), Some(b))
+            change(parameter(symbol).unit, Some(a), Some(b))
                 .unwrap()
                 .to_string()
         };
@@ -155,7 +169,7 @@ mod tests {
         assert_eq!(text("N_ADL", 45.05, 13.37), "-3168 points");
         assert_eq!(text("N_LS", 1e6, 1.5), "0.000150 %");
         assert_eq!(text("N_ELS", 5.0, 0.0), "0 %");
-        assert_eq!(change(parameter("N_ELS"), Some(0.0), Some(1.0)), None);
-        assert_eq!(change(parameter("N_RPRT"), None, Some(1.0)), None);
+        assert_eq!(change(parameter("N_ELS").unit, Some(0.0), Some(1.0)), None);
+        assert_eq!(change(parameter("N_RPRT").unit, None, Some(1.0)), None);
     }
 }

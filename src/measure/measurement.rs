@@ -1,11 +1,12 @@
 //! One scene, one tree, one picture: everything the parameters are computed from.
 
+use super::heat::PixelCounts;
 use super::{SceneFacts, TreeFacts};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
 use crate::trace::{
-    ChosenPrecision, CountedPass, Picture, RayKind, RenderError, RenderSettings, Tally, TimedPass,
-    counted_pass, thread_pool, timed_pass,
+    ChosenPrecision, CountedPass, CountedTile, Picture, RayKind, RenderError, RenderSettings,
+    Tally, TimedPass, counted_pass, thread_pool, timed_pass,
 };
 use crate::tree::{BuildError, BuildSettings, MaxDepth, Tree, build};
 use cpu_time::ThreadTime;
@@ -164,6 +165,37 @@ pub fn measure(
     render_settings: &RenderSettings,
     progress: &Progress,
 ) -> Result<Measured, MeasureError> {
+    measure_with(scene, build_settings, render_settings, progress, |_| ())
+}
+
+/// As [`measure`], with what every pixel's rays did.
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_pixels(
+    scene: &Scene,
+    build_settings: &BuildSettings,
+    render_settings: &RenderSettings,
+    progress: &Progress,
+) -> Result<(Measured, PixelCounts), MeasureError> {
+    let counts = PixelCounts::new(render_settings.width, render_settings.height);
+    let counts = Mutex::new(counts);
+    let add = |tile: CountedTile| {
+        let mut counts = counts.lock().unwrap_or_else(PoisonError::into_inner);
+        counts.add(&tile);
+    };
+    let measured = measure_with(scene, build_settings, render_settings, progress, add)?;
+    let counts = counts.into_inner().unwrap_or_else(PoisonError::into_inner);
+    Ok((measured, counts))
+}
+
+fn measure_with(
+    scene: &Scene,
+    build_settings: &BuildSettings,
+    render_settings: &RenderSettings,
+    progress: &Progress,
+    on_counted: impl Fn(CountedTile) + Sync,
+) -> Result<Measured, MeasureError> {
     let pool = thread_pool(render_settings.threads)?;
     let (tree, building) = Times::of(&pool, || build(scene, build_settings, progress));
     let tree = tree?;
@@ -187,7 +219,7 @@ pub fn measure(
         render_settings,
         &pool,
         progress,
-        |_| (),
+        on_counted,
     )?);
     Ok(Measured {
         tree,

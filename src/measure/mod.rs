@@ -9,6 +9,7 @@ pub mod model;
 pub mod paper;
 mod parameter;
 mod parameters;
+mod ray_figures;
 pub mod stability;
 pub mod sweep;
 pub mod trade;
@@ -16,9 +17,10 @@ mod verify;
 
 pub use comparison::{Change, Unequal, change, differing_pixels, unequal};
 pub use facts::{SceneFacts, TreeFacts};
-pub use measurement::{MeasureError, Measured, Measurement, Times, measure};
+pub use measurement::{MeasureError, Measured, Measurement, Times, measure, measure_pixels};
 pub use parameter::{Class, Parameter, Table, Unit, grouped, significant};
 pub use parameters::{DELTA, LAMBDA, PARAMETERS, parameter};
+pub use ray_figures::{RAY_FIGURES, RayFigure};
 pub use verify::{
     Answers, RaySample, Verification, answer, ask, compare, sample_rays, unsplit, verify_sample,
 };

@@ -69,6 +69,15 @@ impl Unit {
             Unit::Bytes => " B",
         }
     }
+
+    /// A value as people read it, without the unit.
+    pub fn number(self, value: f64) -> String {
+        match self {
+            Unit::Count | Unit::Bytes => grouped(value),
+            Unit::Percent => significant(value * 100.0),
+            Unit::Ratio | Unit::Volume | Unit::Seconds => significant(value),
+        }
+    }
 }
 
 /// One parameter: what it is, and how it follows from a measurement.
@@ -99,11 +108,7 @@ impl Parameter {
 
     /// The value as people read it, without its unit.
     pub fn number(&self, value: f64) -> String {
-        match self.unit {
-            Unit::Count | Unit::Bytes => grouped(value),
-            Unit::Percent => significant(value * 100.0),
-            Unit::Ratio | Unit::Volume | Unit::Seconds => significant(value),
-        }
+        self.unit.number(value)
     }
 }
 

@@ -6,8 +6,9 @@
 //! and balls N_RPRT 63.3 (22.3/34.8 = 64.1 %). The printed N_AT and N_RPRT cannot be had from trees
 //! that match the paper's to the integer; ours are counted and left as they are.
 
-use super::{Class, Parameter, Table, Unit};
+use super::{Class, Measurement, Parameter, Table, Unit};
 use crate::trace::RayKind;
+use crate::tree::split::Structure;
 
 /// The septet Δ by symbol, in the paper's order (equation 2).
 pub const DELTA: [&str; 7] = [
@@ -31,6 +32,12 @@ pub fn parameter(symbol: &str) -> &'static Parameter {
 /// `a / b`, without a value where `b` is zero.
 fn ratio(a: f64, b: f64) -> Option<f64> {
     (b != 0.0).then(|| a / b)
+}
+
+/// Whether rays pass planes from the root down, as in all but grids: to those, parameters of depth and
+/// of inner nodes do not apply.
+fn passes_planes(m: &Measurement) -> bool {
+    m.build.method.structure != Structure::Grid
 }
 
 macro_rules! parameters {
@@ -82,17 +89,17 @@ parameters! {
         |m| Some(f64::from(m.render.d_arec));
     "D_MAX", "greatest tree depth", Scene S Count,
         "Greatest depth that a leaf may have; the root has depth 0.", "",
-        |m| Some(f64::from(m.depth_limit));
+        |m| passes_planes(m).then(|| f64::from(m.depth_limit));
     "N_OILF", "objects in a leaf to stop at", Scene S Count,
         "A cell with at most this many objects becomes a leaf.", "",
-        |m| Some(f64::from(m.build.n_oilf));
+        |m| passes_planes(m).then(|| f64::from(m.build.n_oilf));
     // Table 2
     "D_REACH", "depth reached", Static C Count, "Greatest depth of any leaf.", "≤ D_MAX",
-        |m| Some(m.tree.depth_reached as f64);
+        |m| passes_planes(m).then_some(m.tree.depth_reached as f64);
     "N_LS", "leaves", Static C Count, "Leaves of the tree, empty ones included.", "",
         |m| Some(m.tree.leaves as f64);
     "N_IN", "inner nodes", Static C Count, "Inner nodes of the tree.", "N_LS − 1",
-        |m| Some(m.tree.inner_nodes as f64);
+        |m| passes_planes(m).then_some(m.tree.inner_nodes as f64);
     "N_ELS", "empty leaves", Static C Count, "Leaves without an object.", "",
         |m| Some(m.tree.empty_leaves as f64);
     "R_ETNLS", "empty leaf ratio", Static C Percent,
@@ -156,7 +163,7 @@ parameters! {
         "Leaves with objects that rays visited.", "N_VLS − N_VELS",
         |m| m.all_rays().map(|t| (t.leaves - t.empty_leaves) as f64);
     "N_INODES", "traversed inner nodes", Dynamic R Count, "Inner nodes that rays traversed.", "",
-        |m| m.all_rays().map(|t| t.inner_nodes as f64);
+        |m| m.all_rays().filter(|_| passes_planes(m)).map(|t| t.inner_nodes as f64);
     "N_NODES", "traversed nodes", Dynamic R Count,
         "Inner nodes and leaves that rays traversed.", "N_INODES + N_VLS",
         |m| m.all_rays().map(|t| (t.inner_nodes + t.leaves) as f64);

@@ -4,9 +4,11 @@ use super::{Coloring, Leaf, Ranges, in_ranges, ranges_need_visits};
 use crate::geometry::Vec3;
 use crate::trace::Visits;
 use crate::tree::{Moment, Tree};
+use serde::{Deserialize, Serialize};
 
 /// Leaves by whether rays of the picture visited them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Visited {
     /// All leaves.
     #[default]

@@ -1,6 +1,6 @@
 //! CSV for spreadsheets and statistics: one line for every parameter of every run.
 
-use super::{Report, Writer, exact_value};
+use super::{Report, Writer, exact_value, per_kind};
 use crate::measure::{DELTA, LAMBDA, PARAMETERS, Unit};
 use serde_json::Value;
 use std::io::{Result, Write};
@@ -26,10 +26,7 @@ fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
             } else {
                 ""
             };
-            let value = match exact_value(parameter, run) {
-                Value::Null => String::new(),
-                value => value.to_string(),
-            };
+            let value = text(&exact_value(parameter, run));
             csv.write_record([
                 report.scene.name.as_str(),
                 run.build.method.name,
@@ -42,7 +39,32 @@ fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
             ])?;
         }
     }
+    for line in per_kind::lines(report) {
+        let figure = line.figure;
+        let (method, unit) = match line.run {
+            Some(run) => (report.runs[run].build.method.name, unit(figure.unit)),
+            None => ("2/1", "ratio"),
+        };
+        csv.write_record([
+            report.scene.name.as_str(),
+            method,
+            figure.key,
+            figure.name,
+            line.kind.name(),
+            "R",
+            unit,
+            &text(&line.value),
+        ])?;
+    }
     csv.flush()
+}
+
+/// A value as a cell; empty where there is none.
+fn text(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        value => value.to_string(),
+    }
 }
 
 /// The unit of [`exact_value`], which is not always the one that people read.

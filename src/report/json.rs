@@ -1,6 +1,6 @@
 //! JSON for programs: the paper's symbols as keys, shares as fractions, times in seconds.
 
-use super::{Report, SceneSummary, Writer, exact_value};
+use super::{Report, SceneSummary, Writer, exact_value, per_kind};
 use crate::measure::{DELTA, LAMBDA, Measurement, PARAMETERS, parameter};
 use crate::tree::MaxDepth;
 use serde_json::{Map, Value, json};
@@ -14,10 +14,13 @@ pub(super) const WRITER: Writer = Writer {
 };
 
 fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
-    let value = json!({
+    let mut value = json!({
         "scene": scene(&report.scene)?,
         "runs": report.runs.iter().map(run).collect::<Result<Vec<_>>>()?,
     });
+    if let Some(per_kind) = per_kind::json(report) {
+        value["per_kind"] = per_kind;
+    }
     serde_json::to_writer_pretty(&mut *out, &value)?;
     writeln!(out)
 }

@@ -1,7 +1,7 @@
 //! LaTeX tables for papers, in the manner of the paper's Table 5; no package is needed.
 
 use super::sections::{Section, delta_and_lambda, rows, tables, value_titles};
-use super::{Report, Writer, words};
+use super::{Report, Writer, per_kind, words};
 use std::io::{Result, Write};
 
 pub(super) const WRITER: Writer = Writer {
@@ -23,7 +23,8 @@ fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
     for section in delta_and_lambda().into_iter().chain(tables()) {
         write_section(&section, report, out)?;
     }
-    Ok(())
+    let mut grids = per_kind::grids(report).into_iter();
+    grids.try_for_each(|grid| grid.write_latex(out))
 }
 
 fn write_section(section: &Section, report: &Report, out: &mut dyn Write) -> Result<()> {

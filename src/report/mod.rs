@@ -4,19 +4,24 @@ mod csv;
 pub mod grid;
 mod json;
 mod latex;
+mod machine;
 mod markdown;
+mod page;
 pub mod paper;
+mod per_kind;
 pub mod pixel;
 mod sections;
 mod text;
 pub mod trade;
 mod words;
 
+pub use machine::{Machine, now};
+pub use page::{Figure, Page};
 pub use text::{plain_table, write_summary};
 
 use crate::geometry::Aabb;
 use crate::measure::{Measurement, Parameter, Unit};
-use crate::scene::{Camera, Requirements, Scene, SceneRequest};
+use crate::scene::{Camera, Note, Requirements, Scene, SceneRequest};
 use serde_json::Value;
 use std::io::Write;
 
@@ -47,6 +52,8 @@ pub struct Report {
     pub scene: SceneSummary,
     /// One for every method, in the order in which they were asked for.
     pub runs: Vec<Measurement>,
+    /// Whether what rays did is told kind by kind, too.
+    pub per_kind: bool,
 }
 
 /// What a report says of the scene itself.
@@ -60,8 +67,8 @@ pub struct SceneSummary {
     pub objects: usize,
     pub lights: usize,
     pub requirements: Requirements,
-    /// What the reader had to say about the file.
-    pub notes: Vec<String>,
+    /// The load report: what the reader had to say about the file.
+    pub notes: Vec<Note>,
     /// The scene's own camera.
     pub camera: Camera,
 }
@@ -80,14 +87,20 @@ impl Report {
                 camera: *scene.camera(),
             },
             runs,
+            per_kind: false,
         }
     }
 }
 
-/// A parameter's value for machines: whole numbers for what is counted, fractions for shares;
-/// null where there is no value.
+/// A parameter's value for machines, as [`exact`].
 fn exact_value(parameter: &Parameter, measurement: &Measurement) -> Value {
-    match ((parameter.value)(measurement), parameter.unit) {
+    exact((parameter.value)(measurement), parameter.unit)
+}
+
+/// A value for machines: whole numbers for what is counted, fractions for shares; null where there is
+/// no value.
+fn exact(value: Option<f64>, unit: Unit) -> Value {
+    match (value, unit) {
         (None, _) => Value::Null,
         (Some(value), Unit::Count | Unit::Bytes) => Value::from(value as u64),
         (Some(value), Unit::Ratio | Unit::Percent | Unit::Volume | Unit::Seconds) => {

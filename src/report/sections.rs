@@ -4,7 +4,7 @@ use super::Report;
 use crate::measure::{Class, DELTA, LAMBDA, PARAMETERS, Parameter, Table, change, parameter};
 
 /// What stands where there is no value.
-const NO_VALUE: &str = "–";
+pub const NO_VALUE: &str = "–";
 
 /// One table.
 pub struct Section {
@@ -61,7 +61,7 @@ pub fn rows(section: &Section, report: &Report) -> Vec<Row> {
                     // What is given is the same for both.
                     [_, _] if parameter.class == Class::S => Some(String::new()),
                     [first, second] => {
-                        let change = change(parameter, first, second);
+                        let change = change(parameter.unit, first, second);
                         Some(change.map_or_else(|| NO_VALUE.into(), |c| c.to_string()))
                     }
                     _ => None,

@@ -1,7 +1,7 @@
 //! Plain text for a terminal: Δ and Λ first, then every parameter.
 
 use super::sections::{Section, delta_and_lambda, rows, tables, value_titles};
-use super::{Report, Writer, words};
+use super::{Report, Writer, per_kind, words};
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
 use std::io::{Result, Write};
 
@@ -21,7 +21,8 @@ fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
     for section in tables() {
         write_section(&section, report, true, out)?;
     }
-    Ok(())
+    let mut grids = per_kind::grids(report).into_iter();
+    grids.try_for_each(|grid| grid.write_text(out))
 }
 
 /// The scene, Δ and Λ, and the times.

@@ -12,7 +12,7 @@ pub struct TradeReport<'a> {
     pub trade: &'a Trade,
 }
 
-const TITLES: [&str; 11] = [
+const TITLES: [&str; 12] = [
     "choice",
     "front",
     "time",
@@ -23,6 +23,7 @@ const TITLES: [&str; 11] = [
     "max",
     "PSNR dB",
     "SSIM",
+    "FLIP",
     "objects",
 ];
 
@@ -66,7 +67,7 @@ pub fn write_text(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
     Ok(())
 }
 
-fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 11] {
+fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 12] {
     let [least, median, most] = trade.ratios(outcome);
     let error = &outcome.error;
     [
@@ -80,6 +81,7 @@ fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 11] {
         significant(error.max),
         error.psnr.map_or("∞".into(), |psnr| format!("{psnr:.1}")),
         format!("{:.5}", error.ssim),
+        significant(error.flip),
         format!("{} KiB", outcome.object_bytes.div_ceil(1024)),
     ]
 }
@@ -135,6 +137,7 @@ pub fn write_csv(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
         "max",
         "psnr_db",
         "ssim",
+        "flip",
         "object_bytes",
     ])?;
     for (outcome, front) in trade.outcomes.iter().zip(trade.front()) {
@@ -153,6 +156,7 @@ pub fn write_csv(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
             error.max.to_string(),
             error.psnr.map_or(String::new(), |psnr| psnr.to_string()),
             error.ssim.to_string(),
+            error.flip.to_string(),
             outcome.object_bytes.to_string(),
         ])?;
     }

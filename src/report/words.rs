@@ -4,6 +4,7 @@ use super::Report;
 use crate::geometry::Vec3;
 use crate::measure::Measurement;
 use crate::scene::Sampling;
+use crate::tree::split::Structure;
 
 /// The scene and what rendering it leaves out, a sentence a line.
 pub fn scene(report: &Report) -> Vec<String> {
@@ -42,7 +43,7 @@ pub fn scene(report: &Report) -> Vec<String> {
     if !left_out.is_empty() {
         lines.push(format!("Left out: {}", left_out.join("; ")));
     }
-    lines.extend(scene.notes.iter().map(|note| format!("Note: {note}")));
+    lines.extend(scene.notes.iter().map(ToString::to_string));
     lines
 }
 
@@ -97,11 +98,15 @@ pub fn times(report: &Report) -> Vec<String> {
 /// What a tree was built with.
 fn tree(run: &Measurement) -> String {
     let build = &run.build;
+    let ends = match build.method.structure {
+        Structure::Bintree | Structure::Octree => {
+            format!("D_MAX {}, N_OILF {}", run.depth_in_words(), build.n_oilf)
+        }
+        Structure::Grid => "D_MAX and N_OILF do not apply".into(),
+    };
     let mut line = format!(
-        "{}: D_MAX {}, N_OILF {}, root margin {}, overlap {} ({}), first axis {}",
+        "{}: {ends}, root margin {}, overlap {} ({}), first axis {}",
         build.method.name,
-        run.depth_in_words(),
-        build.n_oilf,
         build.root_margin,
         build.overlap.name(),
         build.method.overlap_in_words(build.overlap),

@@ -4,6 +4,7 @@ pub mod builtin;
 mod camera;
 pub mod format;
 mod material;
+mod note;
 mod prepared;
 mod requirements;
 mod source;
@@ -11,6 +12,7 @@ mod tessellate;
 
 pub use camera::{Camera, CameraError, Sampling, View};
 pub use material::{Light, Material};
+pub use note::{Note, NoteKind};
 pub use requirements::Requirements;
 pub use source::{LoadError, SceneRequest, SceneSource, load};
 pub use tessellate::Cylinders;
@@ -33,8 +35,8 @@ pub struct SceneParts {
     /// Linear colour of rays that hit nothing.
     pub background: Vec3,
     pub camera: Camera,
-    /// What the reader has to say: lines skipped, values assumed. One sentence each.
-    pub notes: Vec<String>,
+    /// The load report: what was read, skipped, changed and made up, and the author's remarks.
+    pub notes: Vec<Note>,
 }
 
 /// A scene, complete and immutable: derived facts are worked out once, here.
@@ -112,8 +114,8 @@ impl Scene {
             .get(precision, &self.parts.objects, &self.bounds)
     }
 
-    /// What the reader had to say about the file.
-    pub fn notes(&self) -> &[String] {
+    /// The load report: what the reader had to say about the file.
+    pub fn notes(&self) -> &[Note] {
         &self.parts.notes
     }
 

@@ -27,11 +27,20 @@ pub struct SceneRequest {
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     #[error(transparent)]
-    Format(#[from] format::FormatError),
+    Format(format::FormatError),
     #[error(transparent)]
     Builtin(#[from] builtin::BuiltinError),
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+impl From<format::FormatError> for LoadError {
+    fn from(error: format::FormatError) -> Self {
+        match error {
+            format::FormatError::Cancelled(cancelled) => LoadError::Cancelled(cancelled),
+            error => LoadError::Format(error),
+        }
+    }
 }
 
 impl SceneSource {
@@ -39,19 +48,24 @@ impl SceneSource {
     /// optional size (`balls`, `balls:4`).
     pub fn parse(text: &str) -> Self {
         let path = PathBuf::from(text);
+        match SceneSource::generator(text) {
+            Some(generator) if !path.exists() => generator,
+            _ => SceneSource::File(path),
+        }
+    }
+
+    /// The generator of this name, with or without a size (`balls`, `balls:4`); `None` where there
+    /// is none.
+    pub fn generator(text: &str) -> Option<Self> {
         let (name, size) = match text.split_once(':') {
-            Some((name, size)) => (name, size.parse().ok()),
+            Some((name, size)) => (name, Some(size.parse().ok()?)),
             None => (text, None),
         };
-        let sized = size.is_some() || !text.contains(':');
-        if !path.exists() && sized && builtin::find(name).is_some() {
-            SceneSource::Builtin {
-                name: name.to_owned(),
-                size,
-            }
-        } else {
-            SceneSource::File(path)
-        }
+        builtin::find(name)?;
+        Some(SceneSource::Builtin {
+            name: name.to_owned(),
+            size,
+        })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Kernels over batches of rays: closest hit and any hit, timed or counted.
 
 use super::space::{Inside, Space, World};
-use super::{LeafVisitor, PixelTallies, Probe, RayCounts, Scratch, Tally};
+use super::{LeafVisitor, MostOfARay, PixelTallies, Probe, RayCounts, Scratch, Tally};
 use crate::geometry::Ray;
 use crate::primitive::{Form, Shapes};
 use crate::progress::Progress;
@@ -367,6 +367,8 @@ pub struct Counting<'a> {
     counts: Vec<RayCounts>,
     /// What the rays of each kind did, by [`RayKind`].
     pub tallies: [Tally; 4],
+    /// The most that a ray of each kind did, by [`RayKind`].
+    pub most: [MostOfARay; 4],
     /// CPU time of walking all rays to their known ends, without tests and shading.
     pub walking: Duration,
     /// The same for every pixel of the batches.
@@ -383,6 +385,7 @@ impl<'a> Counting<'a> {
             scratch: Scratch::default(),
             counts: Vec::new(),
             tallies: Default::default(),
+            most: Default::default(),
             walking: Duration::ZERO,
             pixels: vec![PixelTallies::default(); pixels],
         }
@@ -409,6 +412,7 @@ impl<'a> Counting<'a> {
         for ((&pixel, counts), &answer) in answered {
             let hit = Q::is_hit(answer);
             self.tallies[batch.kind as usize].add(counts, hit);
+            self.most[batch.kind as usize].add(counts);
             self.pixels[pixel as usize][batch.kind as usize].add(counts, hit);
         }
         self.walk(batch.rays);

@@ -16,6 +16,7 @@ mod record;
 mod render;
 mod settings;
 mod space;
+mod through_voxels;
 mod traverse;
 mod visits;
 mod waiting;
@@ -31,7 +32,7 @@ pub use lanes::{InstructionSet, KernelChoice, LaneKernel, LaneTree, TimedKernel}
 pub(crate) use line::{Line, Meeting, WideLine};
 pub use picture::{Picture, TILE, Tile, srgb8, tiles};
 pub use precision::{ChosenPrecision, NotInF32, PrecisionChoice, fits_f32, objects_fit_f32};
-pub use probe::{PixelTallies, Probe, RayCounts, Tally, Way};
+pub use probe::{MostOfARay, PixelTallies, Probe, RayCounts, Tally, Way};
 pub use record::{
     After, InnerStep, LeafStep, PixelRecord, RayPath, RecordedRay, Step, TestStep, record_pixel,
     record_pixel_within, record_ray,

@@ -69,6 +69,49 @@ impl Probe for RayCounts {
     }
 }
 
+/// The most that any one ray did; every count may be that of another ray.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct MostOfARay {
+    /// Inner nodes and leaves traversed.
+    pub nodes: u32,
+    /// Inner nodes traversed.
+    pub inner_nodes: u32,
+    /// Leaves visited, empty ones included.
+    pub leaves: u32,
+    /// Empty leaves visited.
+    pub empty_leaves: u32,
+    /// Leaves with objects visited.
+    pub full_leaves: u32,
+    /// Intersection tests.
+    pub tests: u32,
+}
+
+impl MostOfARay {
+    /// Takes in another ray.
+    pub fn add(&mut self, counts: &RayCounts) {
+        *self = self.merge(MostOfARay {
+            nodes: counts.inner_nodes + counts.leaves,
+            inner_nodes: counts.inner_nodes,
+            leaves: counts.leaves,
+            empty_leaves: counts.empty_leaves,
+            full_leaves: counts.leaves - counts.empty_leaves,
+            tests: counts.tests,
+        });
+    }
+
+    /// The most of both.
+    pub fn merge(self, other: MostOfARay) -> MostOfARay {
+        MostOfARay {
+            nodes: self.nodes.max(other.nodes),
+            inner_nodes: self.inner_nodes.max(other.inner_nodes),
+            leaves: self.leaves.max(other.leaves),
+            empty_leaves: self.empty_leaves.max(other.empty_leaves),
+            full_leaves: self.full_leaves.max(other.full_leaves),
+            tests: self.tests.max(other.tests),
+        }
+    }
+}
+
 /// What all rays of one kind did; `N` counts them. Adding tallies in any order gives the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally<N = u64> {

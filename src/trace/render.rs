@@ -1,8 +1,8 @@
 //! Whole passes over a picture: a coarse preview, the timed pass, the counted pass.
 
 use super::{
-    Counting, PixelTallies, RayKind, RenderSettings, Scratch, Shading, Tally, Tile, Timed,
-    TimedKernel, objects_along, tiles, trace_samples,
+    Counting, MostOfARay, PixelTallies, RayKind, RenderSettings, Scratch, Shading, Tally, Tile,
+    Timed, TimedKernel, objects_along, tiles, trace_samples,
 };
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
@@ -74,6 +74,8 @@ pub struct TimedPass {
 pub struct CountedPass {
     /// By [`RayKind`].
     pub tallies: [Tally; 4],
+    /// The most that a single ray did, by [`RayKind`].
+    pub most: [MostOfARay; 4],
     /// CPU time of walking all rays to their known ends without tests and shading, `T_TT`.
     pub walking: Duration,
     /// Objects met by all primary rays together: `D_COMPX` times the number of primary rays.
@@ -95,7 +97,9 @@ impl CountedPass {
     /// Both together.
     pub fn merge(mut self, other: CountedPass) -> CountedPass {
         for kind in RayKind::ALL {
-            self.tallies[kind as usize] += other.tallies[kind as usize];
+            let kind = kind as usize;
+            self.tallies[kind] += other.tallies[kind];
+            self.most[kind] = self.most[kind].merge(other.most[kind]);
         }
         self.walking += other.walking;
         self.objects_met += other.objects_met;
@@ -207,6 +211,7 @@ pub fn counted_pass(
                 .collect();
             let sum = CountedPass {
                 tallies: tracer.tallies,
+                most: tracer.most,
                 walking: tracer.walking,
                 objects_met: depth_complexity.iter().copied().map(u64::from).sum(),
             };

@@ -1,6 +1,7 @@
 //! The numbers a ray is traced in: those of the world, or those of an `f32` near the scene.
 
-use super::line::{NarrowLine, WideLine};
+use super::line::{Line, NarrowLine, WideLine};
+use super::through_voxels::through_voxels;
 use super::traverse::traverse;
 use super::{LeafVisitor, Probe, Scratch, Way};
 use crate::geometry::Ray;
@@ -23,7 +24,7 @@ pub(super) trait Inside {
     /// A distance in here as one on the ray of the world.
     fn to_world(&self, t: f64) -> f64;
 
-    /// [`traverse`] with this ray; the visitor's distances are those in here, the probe's those of
+    /// [`traverse`] or [`through_voxels`] with this ray; the visitor's distances are those in here, the probe's those of
     /// the world.
     fn walk<V: LeafVisitor, P: Probe>(
         &self,
@@ -32,6 +33,22 @@ pub(super) trait Inside {
         visitor: &mut V,
         probe: &mut P,
     );
+}
+
+/// Walks as the tree's structure has it.
+#[inline(always)]
+fn walk_line<L: Line, V: LeafVisitor, P: Probe>(
+    tree: &Tree,
+    interval: [f64; 2],
+    line: &L,
+    scratch: &mut Scratch,
+    visitor: &mut V,
+    probe: &mut P,
+) {
+    match tree.voxels() {
+        None => traverse(tree, interval, line, scratch, visitor, probe),
+        Some(voxels) => through_voxels(tree, voxels, interval, line, visitor, probe),
+    }
 }
 
 /// The world itself, in `f64`.
@@ -66,7 +83,7 @@ impl Inside for Ray {
         probe: &mut P,
     ) {
         let line = WideLine::new(tree, self);
-        traverse(tree, self.interval(), &line, scratch, visitor, probe);
+        walk_line(tree, self.interval(), &line, scratch, visitor, probe);
     }
 }
 
@@ -100,7 +117,7 @@ impl Inside for PackedRay {
     ) {
         let line = NarrowLine::new(tree, &self.frame, &self.wide);
         let mut probe = InWorld { ray: self, probe };
-        traverse(tree, self.interval(), &line, scratch, visitor, &mut probe);
+        walk_line(tree, self.interval(), &line, scratch, visitor, &mut probe);
     }
 }
 

@@ -14,6 +14,7 @@ mod node;
 mod settings;
 pub mod split;
 mod validate;
+mod voxels;
 
 pub use build::{BuildError, build};
 pub use cost::{CostCurve, NodeCost, SplitCost};
@@ -24,6 +25,7 @@ pub use moment::Moment;
 pub use node::{Node, NodeKind, StopReason};
 pub use settings::{BuildSettings, Constants, MaxDepth, Method, OverlapRule, SettingsError};
 pub use validate::{Invalid, validate};
+pub use voxels::Voxels;
 
 use crate::geometry::{Aabb, Axis};
 
@@ -35,6 +37,7 @@ use crate::geometry::{Aabb, Axis};
 pub struct Tree {
     nodes: Vec<Node>,
     references: Vec<u32>,
+    voxels: Option<Voxels>,
     frame: Frame,
     settings: BuildSettings,
     depth_limit: u32,
@@ -78,6 +81,12 @@ impl Tree {
         &self.references
     }
 
+    /// The grid that the leaves form, if they do: rays then go from voxel to voxel.
+    #[inline]
+    pub fn voxels(&self) -> Option<&Voxels> {
+        self.voxels.as_ref()
+    }
+
     /// The root cell and the coordinates in which split planes are stored.
     pub fn frame(&self) -> &Frame {
         &self.frame
@@ -93,7 +102,7 @@ impl Tree {
         &self.settings
     }
 
-    /// The greatest depth that was allowed, `D_MAX`, automatic or not.
+    /// The greatest depth that was allowed, `D_MAX`, automatic or not; a grid may be deeper.
     pub fn depth_limit(&self) -> u32 {
         self.depth_limit
     }
@@ -111,9 +120,11 @@ impl Tree {
         self.derived.get(make)
     }
 
-    /// Bytes held by nodes and references.
+    /// Bytes held by nodes, references and the places of voxels.
     pub fn bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice()) + size_of_val(self.references.as_slice())
+        size_of_val(self.nodes.as_slice())
+            + size_of_val(self.references.as_slice())
+            + self.voxels.as_ref().map_or(0, Voxels::bytes)
     }
 
     /// The root with its cell.

@@ -56,10 +56,12 @@ pub enum StopReason {
     TooThin,
     /// The method never splits.
     NotSplit,
+    /// It is a voxel of a grid and holds an object.
+    Voxel,
 }
 
 impl StopReason {
-    pub const ALL: [StopReason; 8] = [
+    pub const ALL: [StopReason; 9] = [
         StopReason::Empty,
         StopReason::CutOut,
         StopReason::FewObjects,
@@ -68,6 +70,7 @@ impl StopReason {
         StopReason::NoCandidate,
         StopReason::TooThin,
         StopReason::NotSplit,
+        StopReason::Voxel,
     ];
 
     /// One short phrase for people.
@@ -81,6 +84,7 @@ impl StopReason {
             StopReason::NoCandidate => "no plane to split at",
             StopReason::TooThin => "too thin to split",
             StopReason::NotSplit => "the method does not split",
+            StopReason::Voxel => "a voxel of the grid",
         }
     }
 }

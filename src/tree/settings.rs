@@ -10,6 +10,12 @@ use std::collections::BTreeMap;
 pub struct Method(&'static MethodInfo);
 
 impl Method {
+    /// A method that is not in the registry, of a program that uses the library. Settings with it
+    /// can be written, but not be read again.
+    pub const fn new(info: &'static MethodInfo) -> Method {
+        Method(info)
+    }
+
     /// All methods in the order of the registry.
     pub fn all() -> impl Iterator<Item = Method> {
         SPLIT_RULES.iter().map(Method)
@@ -76,8 +82,7 @@ impl<'de> Deserialize<'de> for Method {
 }
 
 /// The greatest depth allowed, `D_MAX`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaxDepth {
     Fixed(u32),
     /// 1.2 · log₂ `N_O` + 2, rounded to the nearest integer (V. Havran, "Heuristic ray shooting
@@ -122,6 +127,32 @@ impl std::fmt::Display for MaxDepth {
             MaxDepth::Fixed(depth) => write!(f, "{depth}"),
             MaxDepth::Automatic => f.write_str("auto"),
         }
+    }
+}
+
+/// A number, or `"auto"`.
+impl Serialize for MaxDepth {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            MaxDepth::Fixed(depth) => serializer.serialize_u32(*depth),
+            MaxDepth::Automatic => serializer.collect_str(self),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for MaxDepth {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Written {
+            Number(i64),
+            Text(String),
+        }
+        let text = match Written::deserialize(deserializer)? {
+            Written::Number(number) => number.to_string(),
+            Written::Text(text) => text,
+        };
+        text.parse().map_err(serde::de::Error::custom)
     }
 }
 
@@ -284,5 +315,49 @@ impl BuildSettings {
             }
         }
         Ok(())
+    }
+}
+
+impl std::str::FromStr for BuildSettings {
+    type Err = String;
+
+    /// Reads settings such as `method=sah-cut,d-max=16,gap-fraction=0.1`: a method, and any of
+    /// `d-max`, `n-oilf`, `overlap`, `root-margin`, `first-axis` and the method's own constants.
+    fn from_str(text: &str) -> Result<Self, String> {
+        fn value<T>(text: &str) -> Result<T, String>
+        where
+            T: std::str::FromStr<Err: ToString>,
+        {
+            text.parse().map_err(|error: T::Err| error.to_string())
+        }
+        let pairs: Vec<(&str, &str)> = text
+            .split(',')
+            .map(|pair| {
+                pair.split_once('=')
+                    .map(|(name, value)| (name.trim(), value.trim()))
+                    .ok_or_else(|| format!("expected NAME=VALUE, found '{pair}'"))
+            })
+            .collect::<Result<_, _>>()?;
+        let method = pairs.iter().find(|(name, _)| *name == "method");
+        let (_, method) = method.ok_or("expected method=NAME among the settings")?;
+        let mut settings = BuildSettings::for_method(value(method)?);
+        for (name, text) in pairs {
+            match name {
+                "method" => {}
+                "d-max" => settings.d_max = value(text)?,
+                "n-oilf" => settings.n_oilf = value(text)?,
+                "overlap" => settings.overlap = value(text)?,
+                "root-margin" => settings.root_margin = value(text)?,
+                "first-axis" => settings.first_axis = value(text)?,
+                _ => {
+                    let number = text
+                        .parse()
+                        .map_err(|_| format!("{name}: expected a number, found '{text}'"))?;
+                    settings.constants.insert(name.to_owned(), number);
+                }
+            }
+        }
+        settings.check().map_err(|error| error.to_string())?;
+        Ok(settings)
     }
 }

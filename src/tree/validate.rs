@@ -59,7 +59,7 @@ pub fn validate(scene: &Scene, tree: &Tree) -> Result<(), Invalid> {
             NodeKind::Leaf { first, count, .. } => {
                 leaves += 1;
                 volume += cell.bounds.volume();
-                if cell.depth > tree.depth_limit() {
+                if cell.depth > tree.depth_limit() && tree.voxels().is_none() {
                     return Err(Invalid::Depth {
                         node,
                         depth: cell.depth,

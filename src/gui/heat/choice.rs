@@ -62,6 +62,11 @@ impl Choice {
         }
     }
 
+    /// The rays that were chosen, be they told apart by the heatmap or not.
+    pub fn chosen_rays(&self) -> RayFilter {
+        self.rays
+    }
+
     pub fn set_rays(&mut self, rays: RayFilter) {
         self.rays = rays;
     }
@@ -76,6 +81,19 @@ impl Choice {
     /// The colour map in use, by its place.
     pub fn colors(&self) -> usize {
         self.colors[usize::from(self.differences)]
+    }
+
+    /// The colour maps of values and of differences, by their places.
+    pub fn both_colors(&self) -> [usize; 2] {
+        self.colors
+    }
+
+    /// The default with these colour maps of values and of differences.
+    pub fn with_colors(colors: [usize; 2]) -> Choice {
+        Choice {
+            colors,
+            ..Choice::default()
+        }
     }
 
     pub fn set_colors(&mut self, place: usize) {

@@ -38,7 +38,7 @@ pub struct Values {
     /// `None` where no pixel has a value.
     pub statistics: Option<HeatStatistics>,
     /// Of the whole picture; `None` where it has no value, and for a difference.
-    total: Option<f64>,
+    pub total: Option<f64>,
 }
 
 impl Values {

@@ -3,6 +3,8 @@
 
 mod choice;
 mod controls;
+mod export;
+mod kept;
 mod layer;
 mod legend;
 mod look;
@@ -162,7 +164,7 @@ impl HeatView {
                 shown.render,
             );
             let pass = &mut self.timings[which as usize];
-            let resting = state.work.is_none() && !state.trading.is_running();
+            let resting = state.work.is_none() && state.measuring().is_none();
             pass.get(current, resting, ctx, move |progress| {
                 let pool = thread_pool(render.threads)?;
                 let mut counts = PixelCounts::new(render.width, render.height);
@@ -261,6 +263,11 @@ impl HeatView {
     /// Shows a heatmap, by its place in the registry; `None` for the picture alone.
     pub fn show(&mut self, heatmap: Option<usize>) {
         self.choice.heatmap = heatmap;
+    }
+
+    /// The heatmap on view, by its place in the registry; `None` for the picture alone.
+    pub fn shown(&self) -> Option<usize> {
+        self.choice.heatmap
     }
 
     /// Does what a key asks for.
@@ -374,12 +381,10 @@ impl HeatView {
                 Standing::Waiting | Standing::Done if state.stopped && !current.done => {
                     "Not timed: the picture was cancelled. Resume it first.".to_owned()
                 }
-                Standing::Waiting if state.trading.is_running() => {
-                    "timing … begins when the trade has ended".to_owned()
-                }
-                Standing::Waiting | Standing::Done => {
-                    "timing … begins when the picture is finished".to_owned()
-                }
+                Standing::Waiting | Standing::Done => match state.measuring() {
+                    Some(what) => format!("timing … begins when {what} has ended"),
+                    None => "timing … begins when the picture is finished".to_owned(),
+                },
             };
         }
         if current.pixel_counts.is_some() {

@@ -7,7 +7,11 @@ use crate::gui::comparing::{Verdict, View, Which};
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::{Current, State};
 use crate::gui::symbol::symbol;
-use crate::measure::{DELTA, LAMBDA, PARAMETERS, Parameter, Unequal, change, parameter};
+use crate::measure::{
+    DELTA, LAMBDA, Measurement, PARAMETERS, Parameter, RAY_FIGURES, Unequal, Unit, change,
+    parameter,
+};
+use crate::trace::RayKind;
 
 pub(super) const PANEL: Panel = Panel {
     title: "A and B",
@@ -34,6 +38,11 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
     gate(ui, state, verdict.as_deref());
     ui.checkbox(&mut state.comparing.all_parameters, "all parameters")
         .on_hover_text("All of the paper's Tables 1 to 3, or Δ and Λ alone.");
+    ui.checkbox(&mut state.comparing.per_kind, "per kind of ray")
+        .on_hover_text(
+            "What primary, shadow, reflected and refracted rays did: all together, a ray on average, \
+             and the ray with the most.",
+        );
     let [Some(a), Some(b)] = state.both() else {
         return;
     };
@@ -44,6 +53,11 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         DELTA.iter().chain(&LAMBDA).map(|s| parameter(s)).collect()
     };
     columns(ui, &rows, [a, b], may_compare);
+    if state.comparing.per_kind {
+        for kind in RayKind::ALL {
+            of_kind(ui, kind, [a, b], may_compare);
+        }
+    }
 }
 
 /// The settings of both; the one chosen comes to the front.
@@ -122,27 +136,68 @@ fn columns(ui: &mut egui::Ui, rows: &[&'static Parameter], [a, b]: [&Current; 2]
         .num_columns(4)
         .striped(true)
         .show(ui, |ui| {
-            ui.label("");
-            for (title, about) in [
-                ("A", "The first tree"),
-                ("B", "The second tree"),
-                (
-                    "B/A",
-                    "The second in percent of the first; of percentages the difference in points",
-                ),
-            ] {
-                ui.strong(title).on_hover_text(about);
-            }
-            ui.end_row();
+            titles(ui);
             for &p in rows {
                 symbol(ui, p, &a.shown.measurement);
                 value(ui, p, a);
                 value(ui, p, b);
                 let [of_a, of_b] = [a, b].map(|side| (p.value)(&side.shown.measurement));
-                let change = change(p, of_a, of_b).filter(|_| may);
-                let text = change.map_or_else(|| "–".to_owned(), |change| change.to_string());
-                ui.label(egui::RichText::new(text).monospace());
+                relation(ui, p.unit, of_a, of_b, may);
                 ui.end_row();
             }
         });
+}
+
+/// What the rays of a kind did; nothing where there are none.
+fn of_kind(ui: &mut egui::Ui, kind: RayKind, both: [&Current; 2], may: bool) {
+    let [a, b] = both.map(|side| &side.shown.measurement);
+    let has_rays = |m: &Measurement| m.tally(kind).is_some_and(|tally| tally.rays > 0);
+    if !has_rays(a) && !has_rays(b) {
+        return;
+    }
+    ui.add_space(4.0);
+    ui.strong(format!("{} rays", kind.name()));
+    egui::Grid::new(kind.name())
+        .num_columns(4)
+        .striped(true)
+        .show(ui, |ui| {
+            titles(ui);
+            for figure in RAY_FIGURES {
+                ui.label(figure.name).on_hover_text(figure.meaning);
+                let [of_a, of_b] = [a, b].map(|m| figure.of(m, kind));
+                for value in [of_a, of_b] {
+                    let text = value.map_or_else(none, |value| figure.unit.number(value));
+                    ui.label(egui::RichText::new(text).monospace());
+                }
+                relation(ui, figure.unit, of_a, of_b, may);
+                ui.end_row();
+            }
+        });
+}
+
+/// What stands where there is no value.
+fn none() -> String {
+    "–".to_owned()
+}
+
+fn titles(ui: &mut egui::Ui) {
+    ui.label("");
+    for (title, about) in [
+        ("A", "The first tree"),
+        ("B", "The second tree"),
+        (
+            "B/A",
+            "The second in percent of the first; of percentages the difference in points",
+        ),
+    ] {
+        ui.strong(title).on_hover_text(about);
+    }
+    ui.end_row();
+}
+
+/// The second value relative to the first, if the two may be compared.
+fn relation(ui: &mut egui::Ui, unit: Unit, a: Option<f64>, b: Option<f64>, may: bool) {
+    let change = change(unit, a, b).filter(|_| may);
+    let text = change.map_or_else(none, |change| change.to_string());
+    ui.label(egui::RichText::new(text).monospace());
 }

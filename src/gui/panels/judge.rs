@@ -34,8 +34,13 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
             grouped(rays as usize),
             share * 100.0
         )),
-        None if state.trading.is_running() => ui.weak("Waits for the end of the trade"),
-        None => ui.weak("Waits for the finished picture"),
+        None => ui.weak(format!(
+            "Waits for {}",
+            match state.measuring() {
+                Some(what) => format!("the end of {what}"),
+                None => "the finished picture".to_owned(),
+            }
+        )),
     };
     if rays == 0 {
         return;

@@ -4,6 +4,7 @@ mod build_settings;
 mod comparison;
 mod figures;
 mod judge;
+mod notes;
 pub mod paper;
 mod parameters;
 mod picture_settings;
@@ -36,6 +37,7 @@ pub static PANELS: &[Panel] = &[
     build_settings::PANEL,
     picture_settings::PANEL,
     scene_facts::PANEL,
+    notes::PANEL,
     comparison::PANEL,
     judge::PANEL,
     figures::DELTA_PANEL,

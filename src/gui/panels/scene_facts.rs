@@ -1,8 +1,9 @@
-//! What the scene holds, what rendering it requires, what is left out, and the reader's notes.
+//! What the scene holds, what rendering it requires, what is left out, and the load report.
 
 use super::{Panel, Side};
 use crate::gui::state::State;
 use crate::gui::symbol::grouped;
+use crate::scene::{Note, NoteKind};
 
 pub(super) const PANEL: Panel = Panel {
     title: "Scene",
@@ -33,6 +34,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         ))
         .on_hover_text("Width, depth and height (x, y, z) of the tight box around all objects");
     }
+    load_report(ui, scene.notes());
     list(
         ui,
         "Rendering takes",
@@ -48,7 +50,19 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         .collect::<Vec<_>>(),
     );
     list(ui, "Left out", &requirements.left_out());
-    list(ui, "Notes of the reader", scene.notes());
+}
+
+/// What the reader found, left out, changed and made up.
+fn load_report(ui: &mut egui::Ui, notes: &[Note]) {
+    if notes.iter().any(|note| note.kind == NoteKind::Read) {
+        ui.add_space(4.0);
+        ui.strong("Load report");
+    }
+    for kind in NoteKind::ALL {
+        let of_kind = notes.iter().filter(|note| note.kind == kind);
+        let texts: Vec<_> = of_kind.map(|note| note.text.clone()).collect();
+        list(ui, kind.title(), &texts);
+    }
 }
 
 fn list(ui: &mut egui::Ui, title: &str, items: &[String]) {

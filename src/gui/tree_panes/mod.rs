@@ -1,12 +1,16 @@
 //! The panes about the tree: its outline, histograms of its leaves, its shape, the cost of splitting
-//! the selected node, and what accuracy costs. A pane is one file and one line in [`TreePane::ALL`].
+//! the selected node, what accuracy costs, where the time goes, and a grid of
+//! settings. A pane is one file and one line in [`TreePane::ALL`].
 
 mod cost;
 mod find_bar;
 mod histograms;
 mod icicle;
+mod log_axis;
 mod outline;
 mod rows;
+mod sweep;
+mod time;
 mod trade;
 
 use super::state::State;
@@ -19,15 +23,19 @@ pub enum TreePane {
     Icicle,
     Cost,
     Trade,
+    Time,
+    Sweep,
 }
 
 impl TreePane {
-    pub const ALL: [TreePane; 5] = [
+    pub const ALL: [TreePane; 7] = [
         TreePane::Outline,
         TreePane::Histograms,
         TreePane::Icicle,
         TreePane::Cost,
         TreePane::Trade,
+        TreePane::Time,
+        TreePane::Sweep,
     ];
 
     /// What its tab says.
@@ -38,6 +46,8 @@ impl TreePane {
             TreePane::Icicle => "Icicle",
             TreePane::Cost => "Split cost",
             TreePane::Trade => "Trade",
+            TreePane::Time => "Time",
+            TreePane::Sweep => "Sweep",
         }
     }
 }
@@ -50,6 +60,8 @@ pub struct TreePanes {
     icicle: icicle::Icicle,
     cost: cost::CostPane,
     trade: trade::TradePane,
+    time: time::TimePane,
+    sweep: sweep::SweepPane,
 }
 
 impl TreePanes {
@@ -64,6 +76,8 @@ impl TreePanes {
             TreePane::Icicle => self.icicle.ui(ui, state),
             TreePane::Cost => self.cost.ui(ui, state),
             TreePane::Trade => self.trade.ui(ui, state),
+            TreePane::Time => self.time.ui(ui, state),
+            TreePane::Sweep => self.sweep.ui(ui, state),
         }
     }
 }

@@ -3,6 +3,7 @@
 use crate::geometry::{Aabb, Axis, Vec3};
 use crate::gui::name_widget;
 use crate::gui::shortcuts::{Action, text, tip};
+use crate::workspace::CutSettings;
 
 /// How far a key moves the plane: a share of the root cell.
 const STEP: f64 = 0.02;
@@ -31,6 +32,26 @@ impl Default for Cut {
 }
 
 impl Cut {
+    /// As a workspace has it.
+    pub fn kept(&self) -> CutSettings {
+        CutSettings {
+            on: self.on,
+            axis: self.axis,
+            places: self.places,
+            hides_less: self.hides_less,
+        }
+    }
+
+    /// As a workspace says; places beyond the root cell at its ends.
+    pub fn of(kept: &CutSettings) -> Self {
+        Cut {
+            on: kept.on,
+            axis: kept.axis,
+            places: kept.places.map(|place| place.clamp(0.0, 1.0)),
+            hides_less: kept.hides_less,
+        }
+    }
+
     /// Where the plane lies, in units of length.
     pub fn at(&self, root: &Aabb) -> f64 {
         let k = self.axis.index();

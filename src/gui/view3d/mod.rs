@@ -3,6 +3,7 @@
 mod camera;
 mod controls;
 mod cut;
+mod kept;
 mod leaf_boxes;
 mod legend;
 mod marks;
@@ -20,6 +21,7 @@ use crate::overlay::{self, Line};
 use crate::primitive::Precision;
 use crate::scene::{Camera, Scene};
 use crate::trace::{Scratch, closest_hit};
+use crate::workspace::View3dSettings;
 use camera::ViewCamera;
 use controls::Settings;
 use eframe::egui_wgpu::{self, wgpu};
@@ -56,6 +58,10 @@ pub struct View3d {
     legend_open: Option<bool>,
     /// Whether there is room for an unfolded legend.
     roomy: bool,
+    /// What a workspace shows, until its scene is there.
+    restoring: Option<View3dSettings>,
+    /// Where it was shown last, and in which frame.
+    shown: Option<(u64, Rect)>,
 }
 
 /// What draws.
@@ -95,6 +101,8 @@ impl View3d {
             moved: f64::NEG_INFINITY,
             legend_open: None,
             roomy: true,
+            restoring: None,
+            shown: None,
         }
     }
 
@@ -110,6 +118,7 @@ impl View3d {
         });
         self.camera.aspect = f64::from(rect.width() / rect.height());
         self.roomy = legend::fits(rect);
+        self.shown = Some((ui.ctx().cumulative_frame_nr(), rect));
         let framed = self.frame_wanted(state);
         if self.steer(ui, &response, state) || framed {
             self.moved = ui.input(|i| i.time);
@@ -175,6 +184,21 @@ impl View3d {
         self.settings.coloring = coloring;
     }
 
+    /// Where it is on the screen; `None` where another pane hides it, or nothing can be drawn.
+    pub fn on_screen(&self, ctx: &egui::Context) -> Option<Rect> {
+        let (frame, rect) = self.shown?;
+        let fresh = frame + 1 >= ctx.cumulative_frame_nr();
+        (fresh && self.adapter.is_some()).then_some(rect)
+    }
+
+    /// Which leaves are shown; of the finished tree.
+    pub fn filter(&self) -> overlay::Filter {
+        overlay::Filter {
+            moment: None,
+            ..self.settings.filter
+        }
+    }
+
     fn is_legend_open(&self) -> bool {
         self.legend_open.unwrap_or(self.roomy)
     }
@@ -201,6 +225,12 @@ impl View3d {
         if !known {
             self.scene = Some(Arc::clone(&shown.scene));
             self.settings.filter.depth = overlay::Filter::default().depth;
+        }
+        if !state.is_previous()
+            && let Some(kept) = self.restoring.take()
+        {
+            self.camera.camera = shown.render.camera;
+            self.take_over(&kept);
         }
     }
 

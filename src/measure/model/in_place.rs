@@ -1,6 +1,7 @@
 //! The same times measured directly: tests that were made are made again, apart by kind and result;
 //! rays are walked through the tree without tests.
 
+use super::Term;
 use super::observe::each_ray;
 use crate::geometry::Ray;
 use crate::measure::MeasureError;
@@ -22,6 +23,19 @@ pub struct InPlace {
     pub hit: [Option<f64>; PrimitiveKind::ALL.len()],
     /// Of a test that misses, `T_IUN`.
     pub miss: [Option<f64>; PrimitiveKind::ALL.len()],
+}
+
+impl InPlace {
+    /// The time of a term; `None` where nothing of it was done, and for the constant, which is not
+    /// measured.
+    pub fn seconds(&self, term: Term) -> Option<f64> {
+        match term {
+            Term::Node => self.node,
+            Term::Hit(kind) => self.hit[kind as usize],
+            Term::Miss(kind) => self.miss[kind as usize],
+            Term::Constant => None,
+        }
+    }
 }
 
 /// A test to be made again.

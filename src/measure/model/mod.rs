@@ -7,10 +7,12 @@
 mod fit;
 mod in_place;
 mod observe;
+mod picture;
 
 pub use fit::{Coefficient, Fit, FitError, fit};
 pub use in_place::{InPlace, time_in_place};
 pub use observe::{Observation, Terms, observe};
+pub use picture::{Part, PictureTerms, RayTerms, Region, TermTimes};
 
 use crate::primitive::PrimitiveKind;
 use crate::scene::Scene;
@@ -66,6 +68,28 @@ impl Term {
             .chain(kinds().map(Term::Miss))
             .chain(kinds().map(Term::Hit))
             .collect()
+    }
+
+    /// What it stands for, in a sentence.
+    pub fn meaning(self) -> String {
+        match self {
+            Term::Node => {
+                "T_T + T_P: the time of a traversal step (T_T) and of the decision in the \
+                           parent node (T_P), for one node; the two only occur as a sum."
+                    .into()
+            }
+            Term::Miss(kind) => format!(
+                "T_IUN: the time of one intersection test of a {} that misses.",
+                kind.name()
+            ),
+            Term::Hit(kind) => format!(
+                "T_I: the time of one intersection test of a {} that hits.",
+                kind.name()
+            ),
+            Term::Constant => "const: what is the same for every tree, such as shading and making \
+                               rays; shared out ray by ray."
+                .into(),
+        }
     }
 
     /// Its symbol in the paper, with the kind of primitive.

@@ -16,6 +16,8 @@ const KINDS: usize = PrimitiveKind::ALL.len();
 /// The counts of equation (1) for one tree; arrays are by [`PrimitiveKind`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Terms {
+    /// Rays of all kinds, the same for every tree.
+    pub rays: u64,
     /// Nodes traversed, `N_NODES`.
     pub nodes: u64,
     /// Tests.
@@ -90,6 +92,7 @@ fn count(
 ) -> Result<Terms, MeasureError> {
     let mut terms = Terms::default();
     each_ray(scene, tree, render, progress, |ray, watcher| {
+        terms.rays += 1;
         terms.nodes += watcher.nodes;
         for &(object, hit) in &watcher.tests {
             let kind = scene.objects()[object as usize].kind() as usize;
@@ -112,6 +115,8 @@ fn count(
 pub(super) struct Traced<'a> {
     pub kind: RayKind,
     pub ray: &'a crate::geometry::Ray,
+    /// Column and row of the pixel that it belongs to.
+    pub pixel: (u32, u32),
 }
 
 /// What one ray did.
@@ -152,12 +157,16 @@ pub(super) fn each_ray(
         shapes: shading.shapes,
         scratch: Scratch::default(),
         watcher: Watcher::default(),
+        pixels: Vec::new(),
         tell,
     };
     let mut colors = Vec::new();
-    for tile in tiles(render.width, render.height) {
+    let tiles = tiles(render.width, render.height);
+    for (done, tile) in tiles.iter().enumerate() {
         progress.check()?;
+        progress.set(done as f64 / tiles.len() as f64);
         let pixels: Vec<_> = (0..tile.len() as u32).map(|i| tile.pixel(i)).collect();
+        tracer.pixels.clone_from(&pixels);
         trace_samples(&shading, &pixels, 0, &mut tracer, &mut colors);
     }
     Ok(())
@@ -169,6 +178,8 @@ struct Telling<'a, F> {
     shapes: &'a Shapes,
     scratch: Scratch,
     watcher: Watcher,
+    /// Of the tile that is traced.
+    pixels: Vec<(u32, u32)>,
     tell: F,
 }
 
@@ -183,7 +194,7 @@ impl<F: FnMut(&Traced<'_>, &Watcher)> Telling<'_, F> {
 impl<F: FnMut(&Traced<'_>, &Watcher)> RayTracer for Telling<'_, F> {
     fn closest_hits(&mut self, batch: Batch<'_>, hits: &mut Vec<Hit>) {
         hits.clear();
-        for ray in batch.rays {
+        for (ray, &pixel) in batch.rays.iter().zip(batch.pixels) {
             self.clear();
             let (scratch, watcher) = (&mut self.scratch, &mut self.watcher);
             let hit = closest_hit(self.tree, self.shapes, ray, scratch, watcher);
@@ -192,6 +203,7 @@ impl<F: FnMut(&Traced<'_>, &Watcher)> RayTracer for Telling<'_, F> {
                 &Traced {
                     kind: batch.kind,
                     ray,
+                    pixel: self.pixels[pixel as usize],
                 },
                 watcher,
             );
@@ -201,7 +213,7 @@ impl<F: FnMut(&Traced<'_>, &Watcher)> RayTracer for Telling<'_, F> {
 
     fn any_hits(&mut self, batch: Batch<'_>, blocked: &mut Vec<bool>) {
         blocked.clear();
-        for ray in batch.rays {
+        for (ray, &pixel) in batch.rays.iter().zip(batch.pixels) {
             self.clear();
             let (scratch, watcher) = (&mut self.scratch, &mut self.watcher);
             let hit = any_hit(self.tree, self.shapes, ray, scratch, watcher);
@@ -210,6 +222,7 @@ impl<F: FnMut(&Traced<'_>, &Watcher)> RayTracer for Telling<'_, F> {
                 &Traced {
                     kind: batch.kind,
                     ray,
+                    pixel: self.pixels[pixel as usize],
                 },
                 watcher,
             );

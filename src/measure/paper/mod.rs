@@ -174,7 +174,7 @@ pub fn reproduce(
         scene,
         runs: [None, None],
         unequal: None,
-        notes: loaded.notes().to_vec(),
+        notes: loaded.notes().iter().map(|n| n.text.clone()).collect(),
     };
     let mut first: Option<Measured> = None;
     for (i, method) in Method::of_the_paper().into_iter().enumerate() {
@@ -217,10 +217,11 @@ impl Reproduction {
             let parameter = parameter(symbol);
             let [one, two] = [0, 1].map(|run| self.value(parameter, run));
             let fractions = [0, 1].map(|run| (parameter.value)(self.runs[run].as_ref()?));
-            let ratio = change(parameter, fractions[0], fractions[1]).map(|change| match change {
-                Change::Ratio(ratio) => ratio * 100.0,
-                Change::Points(points) => points,
-            });
+            let ratio =
+                change(parameter.unit, fractions[0], fractions[1]).map(|change| match change {
+                    Change::Ratio(ratio) => ratio * 100.0,
+                    Change::Points(points) => points,
+                });
             let same_direction = one.zip(two).is_some_and(|(one, two)| {
                 let in_print = number(printed[1]) - number(printed[0]);
                 (two - one) * in_print > 0.0

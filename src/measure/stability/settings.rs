@@ -75,7 +75,9 @@ fn depths(trial: &Trial<'_>) -> Outcome {
             ..trial.settings()
         };
         match build(&scene, &settings, trial.progress) {
-            Ok(tree) if tree.depth_reached() <= depth => trial.check_tree(&scene, &tree, &rays),
+            Ok(tree) if tree.depth_reached() <= depth || tree.voxels().is_some() => {
+                trial.check_tree(&scene, &tree, &rays)
+            }
             Ok(tree) => Outcome::fail(format!("a leaf at depth {}", tree.depth_reached())),
             Err(BuildError::MemoryLimit { .. }) => Outcome::Pass { rays: 0 },
             Err(error) => Outcome::fail(error.to_string()),
@@ -95,7 +97,7 @@ fn leaf_sizes(trial: &Trial<'_>) -> Outcome {
             ..trial.settings()
         };
         let outcome = match trial.tree(&scene, &settings) {
-            Ok(tree) if n_oilf >= above && tree.nodes().len() != 1 => {
+            Ok(tree) if n_oilf >= above && tree.nodes().len() != 1 && tree.voxels().is_none() => {
                 Outcome::fail("more than one leaf")
             }
             Ok(tree) => trial.check_tree(&scene, &tree, &rays),

@@ -1,8 +1,9 @@
 //! A parameter of a sweep over the greatest depth, a curve for every method and leaf size, as PNG or
 //! SVG. The font is part of the program.
 
+use super::curves::{Curve, CurvePoint, curves, is_wide};
 use super::{Row, rule_depth};
-use crate::measure::{Parameter, Unit, parameter};
+use crate::measure::Parameter;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
@@ -40,18 +41,6 @@ const COLORS: [RGBColor; 6] = [
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),
 ];
-
-/// Values that differ by more than this factor are drawn by their logarithm.
-const WIDE: f64 = 20.0;
-
-/// One line of a chart.
-struct Curve {
-    name: String,
-    color: RGBColor,
-    /// Tells the curves of one method apart, from 0.
-    mark: usize,
-    points: Vec<(f64, f64)>,
-}
 
 /// The chart as a PNG file's bytes.
 ///
@@ -96,19 +85,19 @@ fn draw<B: DrawingBackend>(
 ) -> Result<(), ChartError> {
     register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
         .map_err(|_| ChartError::Drawing("the font of the program is not one".into()))?;
-    let curves = curves(chart);
+    let curves = curves(chart.rows, chart.parameter);
     let points = || curves.iter().flat_map(|curve| &curve.points);
-    let range = |axis: fn(&(f64, f64)) -> f64| {
+    let range = |axis: fn(&CurvePoint) -> f64| {
         let values = || points().map(axis);
         values().fold(f64::INFINITY, f64::min)..values().fold(f64::NEG_INFINITY, f64::max)
     };
-    let (depths, values) = (range(|p| p.0), range(|p| p.1));
+    let (depths, values) = (range(|p| p.depth), range(|p| p.value));
     if depths.is_empty() && depths.start != depths.end {
         return Err(ChartError::Nothing(chart.parameter.symbol));
     }
     area.fill(&WHITE).map_err(drawing)?;
     let depths = depths.start - 0.5..depths.end + 0.5;
-    if values.start > 0.0 && values.end > WIDE * values.start {
+    if is_wide(values.start, values.end) {
         let wider = values.start / 1.2..values.end * 1.2;
         draw_on(chart, area, &curves, depths, wider.log_scale())
     } else {
@@ -183,12 +172,10 @@ fn add_curve<'a, B: DrawingBackend + 'a, Y: Ranged<ValueType = f64>>(
     context: &mut Context<'a, B, Y>,
     curve: &Curve,
 ) -> Result<(), ChartError> {
-    let (color, mark) = (curve.color, curve.mark);
+    let (color, mark) = (COLORS[curve.method % COLORS.len()], curve.mark);
+    let points = || curve.points.iter().map(|point| (point.depth, point.value));
     context
-        .draw_series(LineSeries::new(
-            curve.points.iter().copied(),
-            color.stroke_width(2),
-        ))
+        .draw_series(LineSeries::new(points(), color.stroke_width(2)))
         .map_err(drawing)?
         .label(curve.name.clone())
         .legend(move |(x, y)| {
@@ -197,7 +184,7 @@ fn add_curve<'a, B: DrawingBackend + 'a, Y: Ranged<ValueType = f64>>(
                 + PathElement::new(outline(mark, 9), color.stroke_width(1))
         });
     context
-        .draw_series(curve.points.iter().map(|&at| {
+        .draw_series(points().map(|at| {
             EmptyElement::at(at) + PathElement::new(outline(mark, 0), color.stroke_width(1))
         }))
         .map_err(drawing)?;
@@ -215,44 +202,4 @@ fn outline(mark: usize, right: i32) -> Vec<(i32, i32)> {
         _ => &[(0, 4), (4, -3), (-4, -3), (0, 4)],
     };
     shape.iter().map(|&(x, y)| (x + right, y)).collect()
-}
-
-/// A curve for every method and leaf size, in the order of rows; points by depth. Shares are drawn
-/// in per cent.
-fn curves(chart: &Chart<'_>) -> Vec<Curve> {
-    let factor = if chart.parameter.unit == Unit::Percent {
-        100.0
-    } else {
-        1.0
-    };
-    let depth = parameter("D_MAX");
-    let mut methods: Vec<&str> = Vec::new();
-    let mut curves: Vec<Curve> = Vec::new();
-    for row in chart.rows {
-        let (Some(depth), Some(value)) = (row.value(depth), row.value(chart.parameter)) else {
-            continue;
-        };
-        let method = row.key.method.as_str();
-        let place = methods.iter().position(|known| *known == method);
-        let place = place.unwrap_or_else(|| {
-            methods.push(method);
-            methods.len() - 1
-        });
-        let color = COLORS[place % COLORS.len()];
-        let name = format!("{method}, N_OILF {}", row.key.n_oilf);
-        let point = (depth, value * factor);
-        match curves.iter_mut().find(|curve| curve.name == name) {
-            Some(curve) => curve.points.push(point),
-            None => curves.push(Curve {
-                name,
-                color,
-                mark: curves.iter().filter(|curve| curve.color == color).count(),
-                points: vec![point],
-            }),
-        }
-    }
-    for curve in &mut curves {
-        curve.points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    }
-    curves
 }

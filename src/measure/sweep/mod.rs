@@ -3,9 +3,13 @@
 //! on where it was; points can be spread over machines.
 
 mod chart;
+mod curves;
+mod plan;
 mod rows;
 
 pub use chart::{Chart, ChartError, png, svg};
+pub use curves::{Curve, CurvePoint, curves, is_wide};
+pub use plan::{Plan, Point};
 pub use rows::{Form, Key, MergeError, Row, RowError, header, line, merge, read_rows};
 
 use super::{Measurement, PARAMETERS, Parameter};
@@ -116,6 +120,40 @@ pub struct Answer<'a> {
     pub at_rule: Option<&'a Row>,
 }
 
+impl Answer<'_> {
+    /// The answer in a sentence.
+    pub fn sentence(&self, shown: &Parameter) -> String {
+        let of = |row: &Row| {
+            let depth = super::parameter("D_MAX");
+            format!(
+                "D_MAX {}, N_OILF {}: {}",
+                depth.format(row.value(depth)),
+                row.key.n_oilf,
+                shown.format(row.value(shown))
+            )
+        };
+        let mut text = format!(
+            "{}: least {} at {}",
+            self.best.key.method,
+            shown.symbol,
+            of(self.best)
+        );
+        text += &format!("; the rule 1.2 log2 N + 2 gives D_MAX {}", self.rule);
+        match self.at_rule {
+            None => text += ", which is not among the points",
+            Some(row) => {
+                text += &format!(", where the least is at {}", of(row));
+                let both = row.value(shown).zip(self.best.value(shown));
+                let ratio = both.map(|(a, b)| a / b);
+                if let Some(ratio) = ratio.filter(|ratio| ratio.is_finite()) {
+                    text += &format!(" ({:+.1} %)", (ratio - 1.0) * 100.0);
+                }
+            }
+        }
+        text
+    }
+}
+
 /// The best settings of every method, by the least value of a parameter; methods in the order of
 /// their first rows. Rows without a value are passed over.
 pub fn answers<'a>(rows: &'a [Row], parameter: &Parameter) -> Vec<Answer<'a>> {
@@ -147,8 +185,8 @@ pub fn answers<'a>(rows: &'a [Row], parameter: &Parameter) -> Vec<Answer<'a>> {
         .collect()
 }
 
-/// The automatic depth for a row's scene.
-fn rule_depth(row: &Row) -> Option<u32> {
+/// The automatic depth, 1.2 · log₂ `N_O` + 2, for a row's scene.
+pub fn rule_depth(row: &Row) -> Option<u32> {
     let objects = row.value(super::parameter("N_O"))?;
     Some(MaxDepth::Automatic.resolve(objects as usize))
 }

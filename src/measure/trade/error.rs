@@ -1,5 +1,7 @@
 //! How far a picture is from another: on linear light, clipped to what a display shows, 0 to 1.
 
+use super::filter::{filtered, gaussian};
+use super::flip::flip;
 use serde::Serialize;
 
 /// The error of a picture p against a reference r of the same size.
@@ -13,6 +15,8 @@ pub struct ImageError {
     pub psnr: Option<f64>,
     /// Mean structural similarity of the luminance, at most 1, which it is if equal.
     pub ssim: f64,
+    /// How different the two look when one flips between them, 0 (the same) to 1: mean FLIP.
+    pub flip: f64,
 }
 
 impl ImageError {
@@ -34,6 +38,7 @@ impl ImageError {
             max,
             psnr: (rmse > 0.0).then(|| -20.0 * rmse.log10()),
             ssim: ssim(&luminance(picture), &luminance(reference), width),
+            flip: flip(picture, reference, width),
         }
     }
 }
@@ -80,10 +85,12 @@ fn ssim(picture: &[f64], reference: &[f64], width: usize) -> f64 {
     const C2: f64 = 0.03 * 0.03;
     let product =
         |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
-    let [p, r] = [picture, reference].map(|v| blurred(v, width));
-    let pp = blurred(&product(picture, picture), width);
-    let rr = blurred(&product(reference, reference), width);
-    let pr = blurred(&product(picture, reference), width);
+    let kernel = gaussian(5, 1.5);
+    let blurred = |values: &[f64]| filtered(values, width, &kernel, &kernel);
+    let [p, r] = [picture, reference].map(blurred);
+    let pp = blurred(&product(picture, picture));
+    let rr = blurred(&product(reference, reference));
+    let pr = blurred(&product(picture, reference));
     let sum: f64 = (0..picture.len())
         .map(|i| {
             let (p, r) = (p[i], r[i]);
@@ -92,30 +99,6 @@ fn ssim(picture: &[f64], reference: &[f64], width: usize) -> f64 {
         })
         .sum();
     sum / picture.len().max(1) as f64
-}
-
-/// A Gaussian blur, first along rows, then along columns.
-fn blurred(values: &[f64], width: usize) -> Vec<f64> {
-    const RADIUS: i64 = 5;
-    let weight = |offset: i64| (-(offset * offset) as f64 / (2.0 * 1.5 * 1.5)).exp();
-    let total: f64 = (-RADIUS..=RADIUS).map(weight).sum();
-    let weights: Vec<f64> = (-RADIUS..=RADIUS).map(|o| weight(o) / total).collect();
-    let height = values.len() / width;
-    let along = |values: &[f64], count: usize, step: usize, other: usize, stride: usize| {
-        let mut out = vec![0.0; values.len()];
-        for line in 0..other {
-            for i in 0..count {
-                let sum = weights.iter().zip(-RADIUS..).map(|(weight, offset)| {
-                    let at = (i as i64 + offset).clamp(0, count as i64 - 1) as usize;
-                    weight * values[line * stride + at * step]
-                });
-                out[line * stride + i * step] = sum.sum();
-            }
-        }
-        out
-    };
-    let rows = along(values, width, 1, height, width);
-    along(&rows, height, width, width, 1)
 }
 
 #[cfg(test)]
@@ -128,6 +111,7 @@ mod tests {
         let error = ImageError::between(&picture, &picture, 20);
         assert_eq!((error.rmse, error.max, error.psnr), (0.0, 0.0, None));
         assert!((error.ssim - 1.0).abs() < 1e-12);
+        assert_eq!(error.flip, 0.0);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::Setting;
 use crate::scene::{Cylinders, Scene};
-use crate::trace::{PrecisionChoice, RenderSettings};
+use crate::trace::{KernelChoice, PrecisionChoice, RenderSettings};
 use crate::tree::{BuildSettings, MaxDepth, Method};
 
 /// One choice that costs or saves time.
@@ -54,6 +54,12 @@ pub static KNOBS: &[Knob] = &[
         about: "pixels of the picture, each shown as a square of the reference's",
         moves_image: true,
         values: resolution,
+    },
+    Knob {
+        name: "kernel",
+        about: "how rays are walked through the tree: one by one, or in the lanes of vectors",
+        moves_image: false,
+        values: kernel,
     },
     Knob {
         name: "method",
@@ -182,6 +188,20 @@ fn resolution(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
             };
             let words = format!("{} × {}", render.width, render.height);
             with_render(at, words, render)
+        })
+        .collect()
+}
+
+fn kernel(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
+    [KernelChoice::Plain, KernelChoice::Lanes]
+        .into_iter()
+        .filter(|kernel| kernel.instructions() != at.render.kernel.instructions())
+        .map(|kernel| {
+            let render = RenderSettings {
+                kernel,
+                ..at.render
+            };
+            with_render(at, kernel.name().into(), render)
         })
         .collect()
 }

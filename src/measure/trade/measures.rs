@@ -29,6 +29,12 @@ pub static ERROR_MEASURES: &[ErrorMeasure] = &[
         value: |outcome| 1.0 - outcome.error.ssim,
     },
     ErrorMeasure {
+        name: "FLIP",
+        about: "How different it looks when one flips between the pictures, 0.7 m from a display 0.7 m \
+                wide with 3840 pixels (Andersson et al. 2020), 0 to 1.",
+        value: |outcome| outcome.error.flip,
+    },
+    ErrorMeasure {
         name: "wrong hits",
         about: "Share of the pixels whose primary ray meets another object than it should, 0 to 1.",
         value: |outcome| outcome.wrong_hits,

@@ -2,10 +2,11 @@
 //! error against a reference.
 //!
 //! Times are CPU times of the picture with all its samples, medians over rounds in which every choice
-//! has its turn, so that a machine that slows down slows all of them. FLIP is left out: its one
-//! implementation takes a C++ compiler.
+//! has its turn, so that a machine that slows down slows all of them.
 
 mod error;
+mod filter;
+mod flip;
 mod front;
 mod knobs;
 mod measures;

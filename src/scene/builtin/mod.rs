@@ -9,7 +9,7 @@ mod room;
 mod teaching;
 mod tetra;
 
-use super::SceneParts;
+use super::{Note, NoteKind, SceneParts};
 use crate::geometry::Vec3;
 
 /// A scene generator.
@@ -41,11 +41,12 @@ pub static BUILTINS: &[Builtin] = &[
 const SPD_BACKGROUND: Vec3 = Vec3::new(0.078, 0.361, 0.753);
 
 /// What a scene says that stands in for one that was never published.
-fn reconstruction_note(name: &str) -> String {
-    format!(
+fn reconstruction_note(name: &str) -> Note {
+    let text = format!(
         "A reconstruction: the scene '{name}' of the paper was never published. This one was made \
          anew to meet its figures in Table 4 and the directions in Table 6."
-    )
+    );
+    Note::new(NoteKind::Remark, text)
 }
 
 /// Why a generator gave no scene.

@@ -7,8 +7,8 @@ mod limits;
 mod overlap;
 mod part;
 
-use super::split::{Cell, Decision, SplitRule};
-use super::{BuildSettings, Frame, Node, ObjectPlanes, SettingsError, StopReason, Tree};
+use super::split::{Cell, Decision, SplitRule, Structure};
+use super::{BuildSettings, Frame, Node, ObjectPlanes, SettingsError, StopReason, Tree, Voxels};
 use crate::geometry::{Aabb, Axis};
 use crate::primitive::{Primitive, Shape};
 use crate::progress::{Cancelled, Progress};
@@ -105,6 +105,7 @@ fn in_pool(
         bounds: frame.cell(),
         local: [[-1.0, 1.0]; 3],
         depth: 0,
+        failed_splits: 0,
         waiting: objects.len(),
     };
     let all: Vec<u32> = (0..objects.len() as u32).collect();
@@ -119,8 +120,10 @@ fn in_pool(
     } = part;
     nodes.shrink_to_fit();
     references.shrink_to_fit();
+    let voxels = (settings.method.structure == Structure::Grid).then(|| Voxels::of(&nodes));
     Ok(Tree {
         nodes,
+        voxels,
         references,
         frame,
         settings: settings.clone(),
@@ -142,6 +145,8 @@ struct Place {
     bounds: Aabb,
     local: Local,
     depth: u32,
+    /// Splits from the root to this cell that gained too little.
+    failed_splits: u32,
     /// Objects in the lists of the cells from the root to this one.
     waiting: usize,
 }
@@ -179,19 +184,29 @@ impl Driver<'_> {
             Decision::Split { axis, plane } => {
                 self.split(part, objects, place, axis, [plane, plane])
             }
+            Decision::FailedSplit { axis, plane } => {
+                let place = Place {
+                    failed_splits: place.failed_splits + 1,
+                    ..*place
+                };
+                self.split(part, objects, &place, axis, [plane, plane])
+            }
             Decision::Cut { axis, slab } => self.split(part, objects, place, axis, slab),
         }
     }
 
     fn decide(&self, objects: &[u32], place: &Place) -> Decision {
-        if objects.is_empty() {
-            return Decision::Leaf(StopReason::Empty);
-        }
-        if objects.len() <= self.settings.n_oilf as usize {
-            return Decision::Leaf(StopReason::FewObjects);
-        }
-        if place.depth >= self.depth_limit {
-            return Decision::Leaf(StopReason::MaxDepth);
+        let structure = self.settings.method.structure;
+        if structure.ends_at(place.depth) {
+            if objects.is_empty() {
+                return Decision::Leaf(StopReason::Empty);
+            }
+            if objects.len() <= self.settings.n_oilf as usize {
+                return Decision::Leaf(StopReason::FewObjects);
+            }
+            if place.depth + structure.levels() > self.depth_limit {
+                return Decision::Leaf(StopReason::MaxDepth);
+            }
         }
         let cell = Cell {
             frame: self.frame,
@@ -199,6 +214,7 @@ impl Driver<'_> {
             local: place.local,
             depth: place.depth,
             depth_limit: self.depth_limit,
+            failed_splits: place.failed_splits,
             objects,
             primitives: self.objects,
             object_bounds: self.bounds,
@@ -206,7 +222,9 @@ impl Driver<'_> {
             progress: self.progress,
         };
         match self.rule.decide(&cell) {
-            Decision::Split { axis, plane } if !cell.divides(axis, plane) => {
+            Decision::Split { axis, plane } | Decision::FailedSplit { axis, plane }
+                if !cell.divides(axis, plane) =>
+            {
                 Decision::Leaf(StopReason::TooThin)
             }
             decision => {
@@ -299,6 +317,7 @@ impl Driver<'_> {
                 bounds,
                 local,
                 depth: place.depth + 1,
+                failed_splits: place.failed_splits,
                 waiting: place.waiting + objects,
             };
             (HalfCell::new(self.frame, bounds, side, axis, plane), place)

@@ -1,6 +1,6 @@
 //! The paper's method 1: the middle of the cell, axes in cyclic order.
 
-use super::{Cell, Decision, MethodInfo, SplitRule};
+use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
 use crate::geometry::Axis;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
@@ -11,6 +11,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
              Ray tracing with the BSP tree, Graphics Gems III, 1992; the paper's method 1",
     paper: Some(1),
     paper_spheres_exactly: true,
+    structure: Structure::Bintree,
     constants: &[],
     rule: |settings| Box::new(Midpoint(settings.first_axis)),
 };

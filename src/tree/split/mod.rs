@@ -1,10 +1,16 @@
 //! Build methods. A method is one file here and one line in [`SPLIT_RULES`].
 
+mod grid;
 mod midpoint;
+mod midpoint_longest;
 mod none;
 mod object_median;
+mod octree;
 mod sah;
+mod sah_auto;
 mod sah_cut;
+mod sah_sampled;
+mod sweep;
 
 use super::{BuildSettings, Frame, ObjectPlanes, OverlapRule, StopReason};
 use crate::geometry::{Aabb, Axis};
@@ -15,8 +21,13 @@ use crate::progress::Progress;
 pub static SPLIT_RULES: &[MethodInfo] = &[
     midpoint::METHOD,
     sah_cut::METHOD,
+    sah_auto::METHOD,
+    sah_sampled::METHOD,
     sah::METHOD,
+    midpoint_longest::METHOD,
     object_median::METHOD,
+    octree::METHOD,
+    grid::METHOD,
     none::METHOD,
 ];
 
@@ -34,6 +45,8 @@ pub struct MethodInfo {
     pub paper: Option<u32>,
     /// What [`OverlapRule::Paper`] means for it: whether spheres are held against cells exactly.
     pub paper_spheres_exactly: bool,
+    /// What its cells form.
+    pub structure: Structure,
     /// Its own constants.
     pub constants: &'static [Constant],
     /// Makes the rule for checked settings.
@@ -49,6 +62,38 @@ impl MethodInfo {
             }
             OverlapRule::Paper | OverlapRule::Bounds => "bounds",
             OverlapRule::Exact => "exactly",
+        }
+    }
+}
+
+/// What the cells of a method form, and so where they may end and how rays walk through them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Structure {
+    /// A cell with at most `N_OILF` objects or at depth `D_MAX` is a leaf.
+    Bintree,
+    /// The same, but only at every third level: the three levels of planes between are one node of an
+    /// octree with its eight children.
+    Octree,
+    /// The leaves are the voxels of a uniform grid. `D_MAX` and `N_OILF` do not apply, and rays go from
+    /// voxel to voxel: the planes are passed by none, and only say where the voxels are.
+    Grid,
+}
+
+impl Structure {
+    /// Whether a cell at this depth may become a leaf for holding few objects or for its depth.
+    pub(super) fn ends_at(self, depth: u32) -> bool {
+        match self {
+            Structure::Bintree => true,
+            Structure::Octree => depth.is_multiple_of(3),
+            Structure::Grid => false,
+        }
+    }
+
+    /// Levels that a cell is split by at once.
+    pub(super) fn levels(self) -> u32 {
+        match self {
+            Structure::Octree => 3,
+            Structure::Bintree | Structure::Grid => 1,
         }
     }
 }
@@ -84,6 +129,12 @@ pub enum Decision {
         axis: Axis,
         plane: f32,
     },
+    /// A split that gains too little to be worth itself, made in the hope of better ones below it:
+    /// see [`Cell::failed_splits`].
+    FailedSplit {
+        axis: Axis,
+        plane: f32,
+    },
     /// Cuts an empty slab out: below | empty | above. Counts as one level of depth.
     Cut {
         axis: Axis,
@@ -100,6 +151,8 @@ pub struct Cell<'a> {
     pub local: [[f32; 2]; 3],
     pub depth: u32,
     pub depth_limit: u32,
+    /// How many of the splits between the root and the cell were [`Decision::FailedSplit`]s.
+    pub failed_splits: u32,
     /// Numbers of its objects, ascending.
     pub objects: &'a [u32],
     /// All objects of the scene, by number.

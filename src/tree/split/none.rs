@@ -1,6 +1,6 @@
 //! No tree at all: one leaf that holds every object. The naive tracer, and the judge of all others.
 
-use super::{Cell, Decision, MethodInfo, SplitRule};
+use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
 use crate::tree::StopReason;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
@@ -10,6 +10,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     source: "T. Whitted, An improved illumination model for shaded display, 1980",
     paper: None,
     paper_spheres_exactly: false,
+    structure: Structure::Bintree,
     constants: &[],
     rule: |_| Box::new(Never),
 };

@@ -1,6 +1,6 @@
 //! The object median: as many objects below the plane as above it.
 
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule};
+use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
 use crate::geometry::Axis;
 use crate::tree::{BuildSettings, StopReason};
 
@@ -12,6 +12,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
              K. S. Booth, Heuristics for ray tracing using space subdivision, 1990, section 3",
     paper: None,
     paper_spheres_exactly: false,
+    structure: Structure::Bintree,
     constants: &[Constant {
         name: "longest-axis",
         default: 0.0,

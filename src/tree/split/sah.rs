@@ -11,7 +11,7 @@ mod every_plane;
 mod extents;
 mod grid;
 
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule};
+use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
 use crate::geometry::Axis;
 use crate::tree::{BuildSettings, StopReason};
 use bins::Bins;
@@ -27,6 +27,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
              Heuristic ray shooting algorithms, 2000",
     paper: None,
     paper_spheres_exactly: false,
+    structure: Structure::Bintree,
     constants: &[
         Constant {
             name: "block",
@@ -70,19 +71,22 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
                     64 bins.",
             source: "measured: from 1024 on, more gains nothing",
         },
-        Constant {
-            name: "clip",
-            default: 0.0,
-            lowest: 0.0,
-            highest: 1.0,
-            step: 1.0,
-            unit: "",
-            about: "1 counts an object by the bounds of its part within the cell, 0 by its bounds cut \
-                    off at the cell; best with objects held against cells exactly.",
-            source: "V. Havran, Heuristic ray shooting algorithms, 2000 (split clipping)",
-        },
+        CLIP,
     ],
     rule: |settings| Box::new(Sah::new(settings)),
+};
+
+/// Whether objects are clipped to the cell before they are counted.
+pub(super) const CLIP: Constant = Constant {
+    name: "clip",
+    default: 0.0,
+    lowest: 0.0,
+    highest: 1.0,
+    step: 1.0,
+    unit: "",
+    about: "1 counts an object by the bounds of its part within the cell, 0 by its bounds cut off at \
+            the cell; best with objects held against cells exactly.",
+    source: "V. Havran, Heuristic ray shooting algorithms, 2000 (split clipping)",
 };
 
 /// The ends of an extent along an axis, as planes.
@@ -131,7 +135,7 @@ impl Sah {
             traversal_cost: settings.constant("traversal-cost") as f32,
             empty_factor: settings.constant("empty-factor") as f32,
             exact: settings.constant("exact") as usize,
-            clip: settings.constant("clip") > 0.5,
+            clip: settings.constant(CLIP.name) > 0.5,
         }
     }
 

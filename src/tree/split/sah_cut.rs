@@ -5,8 +5,9 @@
 //! bounds, clipped to the cell. The best split must pay before a gap is cut; a cut takes both ends
 //! of the gap at once and counts as one level of depth.
 
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule};
-use crate::geometry::{Aabb, Axis};
+use super::sweep::{Areas, Beside, Sweep};
+use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
+use crate::geometry::Axis;
 use crate::tree::{BuildSettings, StopReason};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
@@ -18,6 +19,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
              1990; the paper's method 2",
     paper: Some(2),
     paper_spheres_exactly: false,
+    structure: Structure::Bintree,
     constants: &[
         Constant {
             name: "epsilon",
@@ -123,35 +125,26 @@ impl SahCut {
             .map(|&object| cell.clipped(object, axis))
             .collect();
         extents.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
-        let lows: Vec<f64> = extents.iter().map(|e| e[0]).collect();
-        let mut highs: Vec<f64> = extents.iter().map(|e| e[1]).collect();
-        highs.sort_unstable_by(f64::total_cmp);
+        let sweep = Sweep::new(extents.iter().copied());
 
         let spatial_median = cell_lo * 0.5 + cell_hi * 0.5;
-        let object_median = upper_median(&lows, &highs);
+        let object_median = upper_median(&sweep.lows, &sweep.highs);
         let reach = self.median_interval * width;
         let from = spatial_median.min(object_median) - reach;
         let to = spatial_median.max(object_median) + reach;
 
         let areas = Areas::new(&cell.bounds, axis);
-        let slack = cell.frame.slack();
-        let below_lows = lows
-            .iter()
-            .map(|&lo| cell.frame.plane_below(axis, lo - self.epsilon));
-        let above_highs = highs
-            .iter()
-            .map(|&hi| cell.frame.plane_above(axis, hi + self.epsilon));
-        let mut last = f32::NAN;
-        for plane in below_lows.chain(above_highs) {
-            let world = cell.frame.to_world(axis, f64::from(plane));
-            if plane == last || !cell.divides(axis, plane) || world < from || world > to {
+        for Beside {
+            plane,
+            world,
+            below,
+            above,
+        } in sweep.planes(cell, axis, self.epsilon)
+        {
+            if world < from || world > to {
                 continue;
             }
-            last = plane;
-            // As the driver counts: an object within the slack of the plane is on both sides.
-            let below = lows.partition_point(|&lo| lo <= world + slack);
-            let above = highs.len() - highs.partition_point(|&hi| hi < world - slack);
-            let mut cost = below as f64 * areas.below(world) + above as f64 * areas.above(world);
+            let mut cost = areas.weigh(world, below, above);
             if below == 0 || above == 0 {
                 cost *= self.empty_factor;
             }
@@ -212,37 +205,6 @@ impl SplitRule for SahCut {
             axis: best.axis,
             plane: best.plane,
         }
-    }
-}
-
-/// Surface areas of the two parts of a cell, as linear functions of the plane.
-struct Areas {
-    lo: f64,
-    hi: f64,
-    /// Area of the two faces parallel to the plane.
-    faces: f64,
-    /// Area of the other four faces a unit of length.
-    rim: f64,
-}
-
-impl Areas {
-    fn new(bounds: &Aabb, axis: Axis) -> Self {
-        let (k, size) = (axis.index(), bounds.size());
-        let (u, v) = (size[(k + 1) % 3], size[(k + 2) % 3]);
-        Areas {
-            lo: bounds.lo[k],
-            hi: bounds.hi[k],
-            faces: 2.0 * u * v,
-            rim: 2.0 * (u + v),
-        }
-    }
-
-    fn below(&self, plane: f64) -> f64 {
-        self.faces + self.rim * (plane - self.lo)
-    }
-
-    fn above(&self, plane: f64) -> f64 {
-        self.faces + self.rim * (self.hi - plane)
     }
 }
 

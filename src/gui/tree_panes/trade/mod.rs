@@ -8,7 +8,8 @@ mod table;
 use super::is_under_pointer;
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::State;
-use crate::gui::trading::{End, Found};
+use crate::gui::trading::Found;
+use crate::gui::turns::End;
 use crate::measure::significant;
 use crate::measure::trade::{ERROR_MEASURES, ErrorMeasure, Outcome, Trade};
 use egui::vec2;
@@ -33,7 +34,7 @@ impl TradePane {
             self.act(action, state, ui.ctx());
         }
         let found = state.trading.found();
-        ui.horizontal_wrapped(|ui| self.toolbar(ui, state, found.as_deref()));
+        ui.horizontal_wrapped(|ui| self.toolbar(ui, state));
         let Some(found) = found.filter(|found| !found.trade.outcomes.is_empty()) else {
             ui.weak(
                 "What does accuracy cost? Every choice that buys time with it, alone and together, \
@@ -95,7 +96,7 @@ impl TradePane {
         }
     }
 
-    fn toolbar(&mut self, ui: &mut egui::Ui, state: &mut State, found: Option<&Found>) {
+    fn toolbar(&mut self, ui: &mut egui::Ui, state: &mut State) {
         if let Some((share, waits)) = state.trading.progress() {
             if ui
                 .button("Cancel trade")
@@ -105,7 +106,7 @@ impl TradePane {
                 ))
                 .clicked()
             {
-                state.trading.cancel();
+                state.trading.turns.cancel();
             }
             ui.label(format!("{:.0} %", share * 100.0));
             ui.weak(if waits {
@@ -146,7 +147,7 @@ impl TradePane {
                     .accessible_name(name)
                     .on_hover_text(about);
             }
-            match found.and_then(|found| found.end.as_ref()) {
+            match state.trading.turns.end() {
                 Some(End::Cancelled) => {
                     ui.label("cancelled: what was found stays");
                 }

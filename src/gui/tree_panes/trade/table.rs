@@ -5,7 +5,7 @@ use crate::measure::trade::{Outcome, Trade};
 use egui::{Align, Sense};
 use egui_extras::{Column, TableBuilder};
 
-const COLUMNS: [(&str, f32, &str); 10] = [
+const COLUMNS: [(&str, f32, &str); 11] = [
     (
         "choice",
         170.0,
@@ -51,6 +51,11 @@ const COLUMNS: [(&str, f32, &str); 10] = [
         "SSIM",
         58.0,
         "Mean structural similarity of the luminance, at most 1 (Wang et al. 2004)",
+    ),
+    (
+        "FLIP",
+        54.0,
+        "How different it looks when one flips between the pictures, 0 to 1 (Andersson et al. 2020)",
     ),
     (
         "objects",
@@ -134,7 +139,7 @@ pub fn show(
     clicked
 }
 
-fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 10] {
+fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 11] {
     let [least, median, most] = trade.ratios(outcome);
     let error = &outcome.error;
     [
@@ -149,6 +154,7 @@ fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 10] {
             .psnr
             .map_or("∞".to_owned(), |psnr| format!("{psnr:.1} dB")),
         format!("{:.5}", error.ssim),
+        significant(error.flip),
         format!("{} KiB", outcome.object_bytes.div_ceil(1024)),
     ]
 }

@@ -25,11 +25,42 @@ mod write;
 pub use read::read;
 pub use write::write;
 
-use super::Format;
+use super::lines::Lines;
+use super::{Format, complete};
+use crate::progress::Progress;
 
 pub(super) const FORMAT: Format = Format {
     name: "nff",
+    about: "Neutral File Format of the Standard Procedural Databases",
     extensions: &["nff"],
-    read,
-    write,
+    recognizes,
+    read: |input, progress| {
+        let mut parts = read(input.bytes, progress)?;
+        complete::lights(&mut parts);
+        Ok(parts)
+    },
+    write: Some(write),
 };
+
+/// How far into a file its view is looked for, in bytes.
+const LOOKED_AT: usize = 1 << 16;
+
+/// A `v` alone is OBJ's vertex, too: what follows tells.
+fn recognizes(bytes: &[u8]) -> bool {
+    let progress = Progress::new();
+    let mut lines = Lines::new(&bytes[..bytes.len().min(LOOKED_AT)], &progress);
+    let mut last_is_v = false;
+    while let Ok(Some(line)) = lines.next() {
+        let before_comment = line.bytes.split(|b| *b == b'#').next();
+        for word in before_comment
+            .unwrap_or_default()
+            .split(u8::is_ascii_whitespace)
+        {
+            if last_is_v && !word.is_empty() {
+                return word == b"from";
+            }
+            last_is_v |= word == b"v";
+        }
+    }
+    false
+}

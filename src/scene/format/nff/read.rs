@@ -3,21 +3,18 @@
 use super::words::{Word, Words, syntax};
 use super::write::Point;
 use crate::geometry::Vec3;
-use crate::primitive::{Cone, Polygon, Primitive, ShapeError, Sphere, Triangle};
+use crate::primitive::{Cone, Primitive, Sphere};
 use crate::progress::Progress;
-use crate::scene::format::ReadError;
-use crate::scene::{Camera, CameraError, Light, Material, SceneParts};
-use std::collections::HashMap;
+use crate::scene::format::gather::Gatherer;
+use crate::scene::format::{Place, ReadError};
+use crate::scene::{Camera, CameraError, Light, Material, Note, NoteKind, SceneParts};
 
 /// The most pixels a side that a file may ask for.
 const MAX_RESOLUTION: u32 = 65_536;
 
-/// How many remarks of one kind name their lines; those after them are only counted.
-const REMARKS_LISTED: usize = 10;
-
 /// Reads a whole NFF file. The scene's name stays empty, since the bytes carry none.
 ///
-/// Comments that begin with `# Note: ` are the scene's notes.
+/// Comments that begin with `# Note: ` are remarks among the scene's notes.
 ///
 /// Three vertices make a triangle, more a polygon. Equal materials become one, and a material that
 /// no object has is left out. Repaired, with a note for each:
@@ -42,50 +39,12 @@ pub fn read(bytes: &[u8], progress: &Progress) -> Result<SceneParts, ReadError> 
     Ok(parts)
 }
 
-/// What was repaired while reading, in the words of a note.
-#[derive(Clone, Copy)]
-enum Remark {
-    NoArea,
-    NoLength,
-    NotPlanar,
-    NormalWithoutLength,
-}
-
-impl Remark {
-    const ALL: [Remark; 4] = [
-        Remark::NoArea,
-        Remark::NoLength,
-        Remark::NotPlanar,
-        Remark::NormalWithoutLength,
-    ];
-
-    const fn text(self) -> &'static str {
-        match self {
-            Remark::NoArea => "polygon without area skipped",
-            Remark::NoLength => "cylinder or cone without length skipped",
-            Remark::NotPlanar => "polygon off a common plane split into triangles",
-            Remark::NormalWithoutLength => "vertex normal without length, the polygon's own taken",
-        }
-    }
-}
-
 /// What has been read so far.
 struct Reader<'a> {
     words: Words<'a>,
-    camera: Option<Camera>,
-    background: Option<Vec3>,
-    lights: Vec<Light>,
-    objects: Vec<Primitive>,
-    material_of: Vec<u32>,
-    materials: Vec<Material>,
-    /// Where each material stands in `materials`, by the bits of its numbers.
-    places: HashMap<[u64; 8], u32>,
-    /// The numbers of the last `f`; `None` before the first.
-    fill: Option<[f64; 8]>,
-    /// The place of `fill` in `materials`, once an object has it.
-    place: Option<u32>,
-    notes: Vec<String>,
-    remarks: [usize; Remark::ALL.len()],
+    found: Gatherer,
+    /// Whether there was a material.
+    has_fill: bool,
     /// Letter and line of the entity read last.
     last_entity: Option<(&'static str, usize)>,
     /// Vertices and normals (none for `p`) of the polygon being read, kept to be filled again.
@@ -97,17 +56,8 @@ impl<'a> Reader<'a> {
     fn new(words: Words<'a>) -> Self {
         Reader {
             words,
-            camera: None,
-            background: None,
-            lights: Vec::new(),
-            objects: Vec::new(),
-            material_of: Vec::new(),
-            materials: Vec::new(),
-            places: HashMap::new(),
-            fill: None,
-            place: None,
-            notes: Vec::new(),
-            remarks: [0; Remark::ALL.len()],
+            found: Gatherer::default(),
+            has_fill: false,
             last_entity: None,
             vertices: Vec::new(),
             normals: Vec::new(),
@@ -205,9 +155,8 @@ impl<'a> Reader<'a> {
                 format_args!("up {}", Point(up)),
             ),
         })?;
-        if self.camera.replace(camera).is_some() {
-            self.notes
-                .push(format!("line {line}: this view replaces the one before"));
+        if self.found.camera.replace(camera).is_some() {
+            self.replaced("view", line);
         }
         Ok(())
     }
@@ -234,12 +183,15 @@ impl<'a> Reader<'a> {
 
     fn background(&mut self, line: usize) -> Result<(), ReadError> {
         let color = self.words.color("the background")?;
-        if self.background.replace(color).is_some() {
-            self.notes.push(format!(
-                "line {line}: this background replaces the one before"
-            ));
+        if self.found.background.replace(color).is_some() {
+            self.replaced("background", line);
         }
         Ok(())
+    }
+
+    fn replaced(&mut self, what: &str, line: usize) {
+        let text = format!("{what} replaced by a later one");
+        self.found.note(NoteKind::Skipped, &text, Place::Line(line));
     }
 
     fn light(&mut self) -> Result<(), ReadError> {
@@ -249,7 +201,7 @@ impl<'a> Reader<'a> {
         } else {
             None
         };
-        self.lights.push(Light { position, color });
+        self.found.lights.push(Light { position, color });
         Ok(())
     }
 
@@ -268,19 +220,34 @@ impl<'a> Reader<'a> {
         for (number, name) in numbers.iter_mut().zip(names) {
             *number = self.words.number(format_args!("{name} of the material"))?;
         }
-        self.fill = Some(numbers);
-        self.place = None;
+        let [
+            r,
+            g,
+            b,
+            diffuse,
+            specular,
+            shine,
+            transmittance,
+            index_of_refraction,
+        ] = numbers;
+        self.found.set_material(Material {
+            color: Vec3::new(r, g, b),
+            diffuse,
+            specular,
+            shine,
+            transmittance,
+            index_of_refraction,
+        });
+        self.has_fill = true;
         Ok(())
     }
 
     fn sphere(&mut self, line: usize) -> Result<(), ReadError> {
         let center = self.words.point("the sphere's centre")?;
         let radius = self.words.radius("the sphere's radius")?;
-        self.add(
-            line,
-            "a sphere",
-            Sphere::new(center, radius).map(Primitive::Sphere),
-        )
+        let sphere = Sphere::new(center, radius).map(Primitive::Sphere);
+        self.begin_object(line);
+        self.found.object(Place::Line(line), "a sphere", sphere)
     }
 
     fn cone(&mut self, line: usize) -> Result<(), ReadError> {
@@ -288,8 +255,10 @@ impl<'a> Reader<'a> {
         let base_radius = self.words.radius("the cone's radius at its base")?;
         let apex = self.words.point("the cone's apex")?;
         let apex_radius = self.words.radius("the cone's radius at its apex")?;
-        let cone = Cone::new(base, base_radius, apex, apex_radius);
-        self.add(line, "a cylinder or cone", cone.map(Primitive::Cone))
+        let cone = Cone::new(base, base_radius, apex, apex_radius).map(Primitive::Cone);
+        self.begin_object(line);
+        let place = Place::Line(line);
+        self.found.object(place, "a cylinder or cone", cone)
     }
 
     fn polygon(&mut self, line: usize, with_normals: bool) -> Result<(), ReadError> {
@@ -301,7 +270,6 @@ impl<'a> Reader<'a> {
             .ok_or_else(|| word.instead_of(expected))?;
         self.vertices.clear();
         self.normals.clear();
-        let mut without_length = false;
         // The count is not trusted with memory: the lists grow as vertices are really found.
         for number in 1..=count {
             let vertex = self
@@ -311,179 +279,40 @@ impl<'a> Reader<'a> {
             if with_normals {
                 let of = format_args!("the normal at vertex {number} of {count}");
                 let normal = self.words.point(of)?;
-                without_length |= normal == Vec3::ZERO;
                 self.normals.push(normal);
             }
         }
-        if without_length {
-            self.remark(line, Remark::NormalWithoutLength);
-        }
-        if let &[a, b, c] = self.vertices.as_slice() {
-            let triangle = self.triangle([0, 1, 2], [a, b, c]);
-            return self.add(line, "a triangle", triangle);
-        }
-        let normals = with_normals.then(|| self.normals.clone());
-        match Polygon::new(self.vertices.clone(), normals) {
-            Err(ShapeError::NotPlanar(_)) => self.split_polygon(line),
-            polygon => self.add(line, "a polygon", polygon.map(Primitive::Polygon)),
-        }
+        self.begin_object(line);
+        let normals = with_normals.then_some(self.normals.as_slice());
+        self.found.face(Place::Line(line), &self.vertices, normals)
     }
 
-    /// A triangle of the polygon being read, by the numbers of its vertices.
-    fn triangle(&self, numbers: [u32; 3], vertices: [Vec3; 3]) -> Result<Primitive, ShapeError> {
-        let smooth = !self.normals.is_empty();
-        let normals = smooth.then(|| numbers.map(|i| self.normals[i as usize]));
-        Triangle::new(vertices, normals).map(Primitive::Triangle)
-    }
-
-    /// Adds the polygon being read as triangles; those without area are left out silently.
-    fn split_polygon(&mut self, line: usize) -> Result<(), ReadError> {
-        let before = self.objects.len();
-        for numbers in Polygon::triangulate(&self.vertices) {
-            let vertices = numbers.map(|i| self.vertices[i as usize]);
-            match self.triangle(numbers, vertices) {
-                Err(ShapeError::ZeroArea) => {}
-                triangle => self.add(line, "a triangle", triangle)?,
-            }
-        }
-        let remark = if self.objects.len() > before {
-            Remark::NotPlanar
-        } else {
-            Remark::NoArea
-        };
-        self.remark(line, remark);
-        Ok(())
-    }
-
-    /// Adds an object of the current material, or skips it where it has no extent.
-    fn add(
-        &mut self,
-        line: usize,
-        what: &str,
-        object: Result<Primitive, ShapeError>,
-    ) -> Result<(), ReadError> {
-        match object {
-            Ok(object) => {
-                let place = self.material(line);
-                self.objects.push(object);
-                self.material_of.push(place);
-            }
-            Err(ShapeError::ZeroArea) => self.remark(line, Remark::NoArea),
-            Err(ShapeError::NoLength) => self.remark(line, Remark::NoLength),
-            Err(reason) => {
-                return Err(syntax(
-                    line,
-                    format_args!("numbers that make {what}"),
-                    reason,
-                ));
-            }
-        }
-        Ok(())
-    }
-
-    /// The place of the current material, which is entered when its first object is met.
-    fn material(&mut self, line: usize) -> u32 {
-        if let Some(place) = self.place {
-            return place;
-        }
-        let [
-            r,
-            g,
-            b,
-            diffuse,
-            specular,
-            shine,
-            transmittance,
-            index_of_refraction,
-        ] = self.fill.unwrap_or_else(|| {
-            self.notes.push(format!(
-                "line {line}: no material before this object, white matt taken"
-            ));
-            let m = Material::default();
-            let [r, g, b] = m.color.to_array();
-            let index = m.index_of_refraction;
-            [
-                r,
-                g,
-                b,
-                m.diffuse,
-                m.specular,
-                m.shine,
-                m.transmittance,
-                index,
-            ]
-        });
-        let numbers = [
-            r,
-            g,
-            b,
-            diffuse,
-            specular,
-            shine,
-            transmittance,
-            index_of_refraction,
-        ];
-        let materials = &mut self.materials;
-        let place = *self
-            .places
-            .entry(numbers.map(f64::to_bits))
-            .or_insert_with(|| {
-                materials.push(Material {
-                    color: Vec3::new(r, g, b),
-                    diffuse,
-                    specular,
-                    shine,
-                    transmittance,
-                    index_of_refraction,
-                });
-                (materials.len() - 1) as u32
-            });
-        self.place = Some(place);
-        place
-    }
-
-    fn remark(&mut self, line: usize, remark: Remark) {
-        let count = &mut self.remarks[remark as usize];
-        *count += 1;
-        if *count <= REMARKS_LISTED {
-            self.notes.push(format!("line {line}: {}", remark.text()));
+    /// Notes where the first object has no material.
+    fn begin_object(&mut self, line: usize) {
+        if !self.has_fill {
+            self.has_fill = true;
+            const TEXT: &str = "no material before this object, white matt taken";
+            self.found.note(NoteKind::MadeUp, TEXT, Place::Line(line));
         }
     }
 
     fn finish(mut self) -> Result<SceneParts, ReadError> {
-        let camera = self.camera.ok_or_else(|| {
+        let camera = self.found.camera.ok_or_else(|| {
             syntax(
                 self.words.last_line(),
                 "a view ('v') somewhere in the file",
                 "the end of the file",
             )
         })?;
-        self.notes
-            .splice(0..0, std::mem::take(&mut self.words.notes));
-        for remark in Remark::ALL {
-            let count = self.remarks[remark as usize];
-            if count > REMARKS_LISTED {
-                let more = count - REMARKS_LISTED;
-                self.notes
-                    .push(format!("{more} more times: {}", remark.text()));
-            }
+        let remarks = std::mem::take(&mut self.words.notes).into_iter();
+        self.found.notes = remarks
+            .map(|text| Note::new(NoteKind::Remark, text))
+            .collect();
+        if self.found.background.is_none() {
+            const TEXT: &str = "no background, black taken";
+            self.found.notes.push(Note::new(NoteKind::MadeUp, TEXT));
         }
-        if self.background.is_none() {
-            self.notes.push("no background, black taken".into());
-        }
-        if self.objects.is_empty() {
-            self.notes.push("no objects".into());
-        }
-        Ok(SceneParts {
-            name: String::new(),
-            objects: self.objects,
-            material_of: self.material_of,
-            materials: self.materials,
-            lights: self.lights,
-            background: self.background.unwrap_or(Vec3::ZERO),
-            camera,
-            notes: self.notes,
-        })
+        Ok(self.found.finish(camera))
     }
 }
 

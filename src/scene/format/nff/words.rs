@@ -3,7 +3,8 @@
 use super::write::NOTE;
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
-use crate::scene::format::ReadError;
+use crate::scene::format::lines::{parse, quoted};
+use crate::scene::format::{Place, ReadError};
 use std::fmt::Display;
 
 /// Words between two looks at whether the task was cancelled.
@@ -19,19 +20,12 @@ pub(super) struct Word<'a> {
 
 impl Word<'_> {
     pub(super) fn parse<T: std::str::FromStr>(&self) -> Option<T> {
-        std::str::from_utf8(self.bytes).ok()?.parse().ok()
+        parse(self.bytes)
     }
 
-    /// Quoted for a message: never long, and free of control characters, whatever the file holds.
+    /// Quoted for a message.
     pub(super) fn quoted(&self) -> String {
-        const SHOWN: usize = 32;
-        let head = &self.bytes[..self.bytes.len().min(4 * SHOWN)];
-        let text = String::from_utf8_lossy(head);
-        let mut shown: String = text.chars().take(SHOWN).collect();
-        if shown.len() < text.len() || head.len() < self.bytes.len() {
-            shown.push('…');
-        }
-        format!("'{}'", shown.escape_debug())
+        quoted(self.bytes)
     }
 
     /// The mistake that this word is not what was expected here.
@@ -41,11 +35,7 @@ impl Word<'_> {
 }
 
 pub(super) fn syntax(line: usize, expected: impl Display, found: impl Display) -> ReadError {
-    ReadError::Syntax {
-        line,
-        expected: expected.to_string(),
-        found: found.to_string(),
-    }
+    ReadError::at(Place::Line(line), expected, found)
 }
 
 /// How many notes of a file are kept, and how many bytes of each.

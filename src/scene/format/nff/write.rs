@@ -2,14 +2,14 @@
 
 use crate::geometry::Vec3;
 use crate::primitive::Primitive;
-use crate::scene::{Material, SceneParts};
+use crate::scene::{Material, NoteKind, SceneParts};
 use std::fmt::{self, Display};
 use std::io::{BufWriter, Write};
 
 /// How a comment begins that holds a note of the scene.
 pub(super) const NOTE: &str = "# Note: ";
 
-/// Writes NFF: notes as comments, view, background, lights, then the objects in order, an `f` where the material
+/// Writes NFF: notes, but for those of what was read, as comments, view, background, lights, then the objects in order, an `f` where the material
 /// changes. Numbers are the shortest that read back to the same bits, so that [`super::read`] gives the
 /// same scene again. Two things it cannot give back: a polygon of three vertices comes back as a
 /// triangle, and materials come back once each in the order of their first use.
@@ -22,7 +22,13 @@ pub fn write(parts: &SceneParts, out: &mut dyn Write) -> std::io::Result<()> {
     writeln!(out, "# {title}")?;
     writeln!(out, "# {} objects", parts.objects.len())?;
     for note in &parts.notes {
-        writeln!(out, "{NOTE}{}", note.replace(char::is_control, " "))?;
+        let text = match note.kind {
+            // Of another file.
+            NoteKind::Read => continue,
+            NoteKind::Remark => note.text.clone(),
+            _ => note.to_string(),
+        };
+        writeln!(out, "{NOTE}{}", text.replace(char::is_control, " "))?;
     }
     let camera = &parts.camera;
     writeln!(out, "v")?;

@@ -1,0 +1,79 @@
+//! A build method in one file: the cell's longest side is halved.
+//!
+//! A program that uses the library makes a method as below. To add one to bspscope itself, put the same
+//! into a file in `src/tree/split/` and its `METHOD` as a line into `SPLIT_RULES` there: the command line,
+//! the window and the tests over all methods then have it, too.
+//!
+//! `cargo run --release --example build_method [SCENE]`
+
+use bspscope::geometry::Axis;
+use bspscope::measure::{DELTA, measure, parameter};
+use bspscope::progress::Progress;
+use bspscope::scene::{SceneRequest, load};
+use bspscope::trace::RenderSettings;
+use bspscope::tree::split::{Cell, Decision, MethodInfo, SplitRule, Structure};
+use bspscope::tree::{BuildSettings, Method, validate};
+
+/// What is known of the method before it is used.
+static METHOD: MethodInfo = MethodInfo {
+    name: "longest-side",
+    title: "Middle of the longest side",
+    about: "Splits every cell in the middle of its longest side.",
+    source: "this example",
+    paper: None,
+    paper_spheres_exactly: true,
+    structure: Structure::Bintree,
+    constants: &[],
+    rule: |_| Box::new(LongestSide),
+};
+
+struct LongestSide;
+
+impl SplitRule for LongestSide {
+    /// Asked for every cell that holds more than `N_OILF` objects and lies above `D_MAX`: the build
+    /// driver takes care of both, of the objects on either side, and of threads and memory.
+    fn decide(&self, cell: &Cell<'_>) -> Decision {
+        let size = cell.bounds.size();
+        let longest = Axis::ALL
+            .into_iter()
+            .max_by(|a, b| size[a.index()].total_cmp(&size[b.index()]));
+        let axis = longest.expect("there are three");
+        Decision::Split {
+            axis,
+            plane: cell.midpoint(axis),
+        }
+    }
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let name = std::env::args().nth(1).unwrap_or("balls:3".into());
+    let progress = Progress::new();
+    let scene = load(&SceneRequest::parse(&name), &progress)?;
+    let render = RenderSettings {
+        width: 256,
+        height: 256,
+        ..RenderSettings::for_camera(*scene.camera())
+    };
+    let methods = [Method::named("midpoint")?, Method::new(&METHOD)];
+    let mut measured = Vec::new();
+    for method in methods {
+        let settings = BuildSettings::for_method(method);
+        measured.push(measure(&scene, &settings, &render, &progress)?);
+    }
+    let [midpoint, ours] = &measured[..] else {
+        unreachable!("there are two methods");
+    };
+    // Every object in every leaf that it touches, no volume lost: whatever planes are chosen.
+    validate(&scene, &ours.tree)?;
+    assert_eq!(
+        ours.picture, midpoint.picture,
+        "no picture depends on the tree"
+    );
+    println!("{:8} {:>12} {:>12}", "", "midpoint", METHOD.name);
+    for symbol in DELTA {
+        let parameter = parameter(symbol);
+        let [a, b] = [midpoint, ours].map(|m| parameter.format((parameter.value)(&m.measurement)));
+        println!("{symbol:8} {a:>12} {b:>12}  {}", parameter.name);
+    }
+    Ok(())
+}

@@ -1,0 +1,31 @@
+//! `bspscope leaves`: the boxes of a tree's leaves for other programs.
+
+use super::args::{LeavesArgs, LeavesShown};
+use super::{Outcome, bar, output, resolve};
+use crate::export::{LEAF_WRITERS, LeafCells};
+use crate::overlay::Filter;
+use crate::trace::thread_pool;
+use crate::tree::build;
+use anyhow::Result;
+
+pub fn run(args: &LeavesArgs) -> Result<Outcome> {
+    output::check_place(args.output.as_deref())?;
+    let settings = resolve::builds(&[args.method], &args.build)?.remove(0);
+    let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
+    let pool = thread_pool(args.threads)?;
+    let stage = format!("{}: building the tree", scene.name());
+    let tree = bar::with_bar(&stage, |progress| {
+        pool.install(|| build(&scene, &settings, progress))
+    })?;
+    let filter = Filter {
+        full: args.only != Some(LeavesShown::Empty),
+        empty: args.only != Some(LeavesShown::Full),
+        ..Filter::default()
+    };
+    let of = format!("{}, {}", scene.name(), settings.method.name);
+    let leaves = LeafCells::new(of, &tree, &filter, None);
+    let file = args.output.as_deref();
+    let writer = resolve::writer(LEAF_WRITERS, args.format.as_deref(), file);
+    output::write_to(file, |out| (writer.write)(&leaves, out))?;
+    Ok(Outcome::Done)
+}

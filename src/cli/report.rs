@@ -1,0 +1,34 @@
+//! `bspscope report`: pictures, tables, settings and machine on one page.
+
+use super::args::PageArgs;
+use super::{Outcome, bar, output, resolve};
+use crate::export::write_page;
+use crate::measure::measure_pixels;
+use crate::report::Report;
+use anyhow::{Context, Result};
+
+pub fn run(args: &PageArgs) -> Result<Outcome> {
+    output::check_place(Some(&args.output))?;
+    let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
+    let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
+    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
+    render.view()?;
+    let (mut runs, mut all_counts, mut picture) = (Vec::new(), Vec::new(), None);
+    for build in &builds {
+        let method = build.method.name;
+        let stage = format!("{}, {method}: building, tracing, counting", scene.name());
+        let (measured, counts) = bar::with_bar(&stage, |progress| {
+            measure_pixels(&scene, build, &render, progress)
+        })?;
+        runs.push(measured.measurement);
+        all_counts.push(counts);
+        picture = Some(measured.picture);
+    }
+    let report = Report::new(&scene, &request, runs);
+    let picture = picture.context("there is at least one method")?;
+    let counts: Vec<_> = all_counts.iter().map(Some).collect();
+    output::write_file(&args.output, |out| {
+        write_page(&report, &picture, &counts, "", out)
+    })?;
+    Ok(Outcome::Done)
+}

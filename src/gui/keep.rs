@@ -1,0 +1,158 @@
+//! What the window shows, to and from a workspace.
+
+use super::comparing::Which;
+use super::selection::Selection;
+use super::state::{Current, State, Wanted};
+use super::walk::Wish;
+use crate::scene::SceneRequest;
+use crate::worker::Request;
+use crate::workspace::{PictureSettings, Selected, TreeSettings, Workspace};
+
+/// A selection to come back to once its picture is there.
+#[derive(Clone, Copy)]
+pub struct Restoring {
+    selected: Selected,
+    /// Whether its pixel was asked for.
+    asked: bool,
+}
+
+impl State {
+    /// What is wanted and selected, as a workspace; what the panes show is left to them.
+    pub fn workspace(&self) -> Workspace {
+        let Wanted { a, b } = self.all_wanted();
+        let mut workspace = Workspace::new(a.scene.source.clone(), settings(&a));
+        workspace.camera = a.own_camera.then_some(a.render.camera);
+        workspace.b = b.as_ref().map(settings);
+        workspace.notes.clone_from(&self.notes);
+        let view = &mut workspace.view;
+        view.front = self.which;
+        view.arrangement = self.comparing.view;
+        // To four digits: a place on the screen is no more exact.
+        view.split = (f64::from(self.comparing.split) * 1e4).round() / 1e4;
+        view.pinned.clone_from(&self.pinned);
+        view.selected = match (&self.restoring, &self.current) {
+            (Some(restoring), _) => restoring.selected,
+            (None, Some(current)) => selected(current),
+            (None, None) => Selected::default(),
+        };
+        workspace
+    }
+
+    /// Wants what a workspace says; pictures are at most `largest` pixels wide and high.
+    pub fn restore(&mut self, workspace: &Workspace, largest: u32) {
+        let own_camera = workspace.camera.is_some();
+        let camera = workspace.camera.unwrap_or(self.wanted.render.camera);
+        let request = |settings: &TreeSettings| {
+            let mut render = settings.picture.with(camera);
+            render.width = render.width.min(largest);
+            render.height = render.height.min(largest);
+            Request {
+                scene: SceneRequest {
+                    source: workspace.scene.source.clone(),
+                    cylinders: settings.cylinders,
+                },
+                build: settings.build.clone(),
+                render,
+                own_camera,
+                reload: self.wanted.reload,
+            }
+        };
+        let (a, b) = (request(&workspace.a), workspace.b.as_ref().map(request));
+        self.want(Wanted { a, b });
+        let view = &workspace.view;
+        self.show(view.front);
+        self.comparing.view = view.arrangement;
+        self.comparing.split = view.split as f32;
+        self.notes.clone_from(&workspace.notes);
+        self.pinned.clone_from(&view.pinned);
+        self.restoring = Some(Restoring {
+            selected: view.selected,
+            asked: false,
+        });
+        self.failure = None;
+        self.stopped = false;
+    }
+
+    /// Selects again what a workspace had selected, as soon as its picture and its rays are there;
+    /// once a frame.
+    pub fn restore_selection(&mut self) {
+        if self.is_previous() {
+            return;
+        }
+        let (Some(restoring), Some(current)) = (&mut self.restoring, &mut self.current) else {
+            return;
+        };
+        let Selected {
+            pixel,
+            ray,
+            step,
+            node,
+            object,
+        } = restoring.selected;
+        if !std::mem::replace(&mut restoring.asked, true) {
+            current.unpick();
+            if let Some(pixel) = pixel {
+                current.pick(pixel);
+                current.wish = current.wish.map(|wish| Wish { ray, ..wish });
+            }
+        }
+        if current.wish.is_some() {
+            return;
+        }
+        current.go_to_step(step);
+        let (nodes, objects) = (
+            current.shown.tree.nodes().len(),
+            current.shown.scene.objects().len(),
+        );
+        current.selection = Selection {
+            node: node.filter(|&node| (node as usize) < nodes),
+            object: object.filter(|&object| (object as usize) < objects),
+        };
+        self.restoring = None;
+    }
+
+    /// Pins the picked pixel, or takes its pin away.
+    pub fn pin_or_unpin(&mut self) {
+        let picked = self.current.as_ref().and_then(Current::picked_pixel);
+        let Some(pixel) = picked else {
+            return;
+        };
+        match self.pinned.iter().position(|pinned| *pinned == pixel) {
+            Some(place) => {
+                self.pinned.remove(place);
+            }
+            None => self.pinned.push(pixel),
+        }
+    }
+}
+
+fn settings(request: &Request) -> TreeSettings {
+    TreeSettings {
+        cylinders: request.scene.cylinders,
+        build: request.build.clone(),
+        picture: PictureSettings::of(&request.render),
+    }
+}
+
+fn selected(current: &Current) -> Selected {
+    let picked = current.picked.as_ref().filter(|_| current.wish.is_none());
+    Selected {
+        pixel: current.picked_pixel(),
+        ray: current
+            .wish
+            .map_or_else(|| picked.map_or(0, |picked| picked.ray), |wish| wish.ray),
+        step: picked.map_or(0, |picked| picked.step),
+        node: current.selection.node,
+        object: current.selection.object,
+    }
+}
+
+/// The settings of the tree in front with its camera, for a command line.
+pub fn command(state: &State) -> String {
+    let workspace = state.workspace();
+    let settings = match (state.which, &workspace.b) {
+        (Which::B, Some(b)) => b,
+        _ => &workspace.a,
+    };
+    crate::workspace::measure_command(&workspace.scene.source, workspace.camera.as_ref(), settings)
+}

@@ -1,0 +1,357 @@
+//! The lesson that is taken: at which step, what was predicted, and what was there before it.
+
+use super::Around;
+use crate::gui::comparing::{View, Which};
+use crate::gui::layout::{Layout, Pane};
+use crate::gui::panels::{PANELS, Side};
+use crate::gui::state::{Current, State, Wanted};
+use crate::lesson::{
+    Answer, Difference, Figures, Lesson, LessonError, Named, Prediction, Setup, SideFigures,
+    SideSetup, Step, Verdict,
+};
+use crate::measure::heat::HEATMAPS;
+use crate::worker::Request;
+
+/// A lesson and how far it is.
+pub struct Running {
+    pub lesson: Lesson,
+    /// Place of the step on view.
+    pub at: usize,
+    /// What became of every step.
+    pub taken: Vec<Taken>,
+    /// What is wanted of the step on view.
+    wanted: Wanted,
+    /// Whether the step's pixel was picked.
+    picked: bool,
+    /// Whether the step has just come into view: its prediction takes the keys.
+    pub is_new: bool,
+    before: Before,
+}
+
+/// What became of a step.
+#[derive(Clone, Default)]
+pub struct Taken {
+    /// What is typed as a prediction.
+    pub typed: String,
+    /// The choice that was made, by its place.
+    pub chosen: Option<usize>,
+    /// What was measured; `None` until it is there.
+    pub figures: Option<Figures>,
+    /// What became of the prediction; `None` until the answer is told.
+    pub verdict: Option<Verdict>,
+}
+
+/// What there was before the lesson.
+struct Before {
+    wanted: Wanted,
+    which: Which,
+    view: View,
+    heatmap: Option<usize>,
+    pixel: Option<[u32; 2]>,
+    layout: Layout,
+}
+
+impl Running {
+    /// Takes the first step.
+    ///
+    /// # Errors
+    /// The first name that the window has nothing for, with its line.
+    pub fn begin(lesson: Lesson, around: &mut Around<'_>) -> Result<Running, LessonError> {
+        if let Some(error) = lesson.steps.iter().find_map(|step| unknown(&lesson, step)) {
+            return Err(error);
+        }
+        let state = &around.state;
+        let before = Before {
+            wanted: state.all_wanted(),
+            which: state.which,
+            view: state.comparing.view,
+            heatmap: around.heat.shown(),
+            pixel: state.current.as_ref().and_then(Current::picked_pixel),
+            layout: around.layout.clone(),
+        };
+        // The lesson sets what the left bar would, and the figures stand in the right one.
+        around.layout.left.shown = false;
+        around.layout.right.shown = true;
+        let mut running = Running {
+            at: 0,
+            taken: vec![Taken::default(); lesson.steps.len()],
+            wanted: wanted_of(&lesson.steps[0].setup, state),
+            picked: false,
+            is_new: true,
+            before,
+            lesson,
+        };
+        running.set_up(around);
+        Ok(running)
+    }
+
+    pub fn step(&self) -> &Step {
+        &self.lesson.steps[self.at]
+    }
+
+    pub fn now(&self) -> &Taken {
+        &self.taken[self.at]
+    }
+
+    pub fn now_mut(&mut self) -> &mut Taken {
+        &mut self.taken[self.at]
+    }
+
+    /// Whether a prediction is still to be made.
+    pub fn asks(&self) -> bool {
+        self.step().question.is_some() && self.now().verdict.is_none()
+    }
+
+    /// What is predicted; `None` where nothing or no number is typed.
+    pub fn prediction(&self) -> Option<Prediction> {
+        match &self.step().question.as_ref()?.answer {
+            Answer::Number { .. } => {
+                let typed = self.now().typed.trim().replace(',', ".");
+                let number = typed.parse::<f64>().ok().filter(|n| n.is_finite());
+                number.map(Prediction::Number)
+            }
+            Answer::Choice(_) => self.now().chosen.map(Prediction::Choice),
+        }
+    }
+
+    /// Tells the answer, if there is a prediction and all is measured.
+    pub fn reveal(&mut self, around: &mut Around<'_>) {
+        let prediction = self.prediction().filter(|_| self.asks());
+        if let (Some(prediction), Some(figures), Some(question)) =
+            (prediction, &self.now().figures, &self.step().question)
+        {
+            self.now_mut().verdict = question.answer.judge(prediction, figures);
+            self.look(around);
+        }
+    }
+
+    /// Whether there is a step after this one that may be gone to.
+    pub fn may_go_on(&self) -> bool {
+        self.at + 1 < self.lesson.steps.len() && !self.asks()
+    }
+
+    pub fn next(&mut self, around: &mut Around<'_>) {
+        if self.may_go_on() {
+            self.at += 1;
+            self.set_up(around);
+        }
+    }
+
+    pub fn back(&mut self, around: &mut Around<'_>) {
+        if self.at > 0 {
+            self.at -= 1;
+            self.set_up(around);
+        }
+    }
+
+    /// Whether the user has changed what the step looks at.
+    pub fn is_changed(&self, state: &State) -> bool {
+        !same(&state.all_wanted(), &self.wanted)
+    }
+
+    /// Sets what the step looks at.
+    pub fn set_up(&mut self, around: &mut Around<'_>) {
+        let setup = &self.lesson.steps[self.at].setup;
+        self.wanted = wanted_of(setup, around.state);
+        self.picked = false;
+        self.is_new = true;
+        around.state.want(self.wanted.clone());
+        around.state.show(Which::A);
+        let view = setup.look.view.as_ref();
+        if let Some(view) = view.and_then(|named| view_of(&named.name)) {
+            around.state.comparing.view = view;
+        }
+        for pane in &setup.look.panes {
+            if let Some(pane) = pane_of(&pane.name) {
+                around.layout.show(pane);
+            }
+        }
+        self.look(around);
+    }
+
+    /// Shows what comes with the answer, or not yet.
+    fn look(&self, around: &mut Around<'_>) {
+        let look = &self.step().setup.look;
+        let told = look.heatmap.filter(|_| !self.asks());
+        let place = told.and_then(|symbol| HEATMAPS.iter().position(|h| h.symbol == symbol));
+        around.heat.show(place);
+        if !look.panels.is_empty() {
+            for panel in PANELS.iter().filter(|panel| panel.side == Side::Right) {
+                let open = look.panels.iter().any(|named| named.name == panel.title);
+                around.layout.unfolded.insert(panel.title.to_owned(), open);
+            }
+        }
+    }
+
+    /// Picks the step's pixel once its picture is there, and takes the figures once they are final.
+    pub fn follow(&mut self, around: &mut Around<'_>) {
+        let state = &mut *around.state;
+        let setup = &self.lesson.steps[self.at].setup;
+        let is_wanted =
+            |current: &&Current, wanted: &Request| same_request(&current.shown.request, wanted);
+        if let (Some(pixel), false) = (setup.pixel, self.picked)
+            && let [Some(a), _] = state.both_mut()
+            && is_wanted(&&*a, &self.wanted.a)
+        {
+            a.pick(pixel);
+            self.picked = true;
+        }
+        if self.taken[self.at].figures.is_some() {
+            return;
+        }
+        let [a, b] = state.both();
+        let final_one = |current: Option<&'_ Current>, wanted: &Request| {
+            let current = current.filter(|current| is_wanted(current, wanted))?;
+            current.complete.then(|| side_figures(current, setup))
+        };
+        let of_a = final_one(a, &self.wanted.a);
+        let of_b = self.wanted.b.as_ref().map(|wanted| final_one(b, wanted));
+        let (Some(of_a), Some(of_b)) = (of_a, of_b.map_or(Some(None), |b| b.map(Some))) else {
+            return;
+        };
+        let difference = match (a, b) {
+            (Some(a), Some(b)) if of_b.is_some() => {
+                Difference::between(&a.shown.picture, &b.shown.picture)
+            }
+            _ => None,
+        };
+        self.taken[self.at].figures = Some(Figures {
+            a: of_a,
+            b: of_b,
+            difference,
+        });
+    }
+
+    /// How many predictions were right, of how many whose answers were told.
+    pub fn score(&self) -> (usize, usize) {
+        let told = self.taken.iter().filter_map(|taken| taken.verdict.as_ref());
+        let right = told.clone().filter(|verdict| verdict.right).count();
+        (right, told.count())
+    }
+
+    /// Brings back what there was before.
+    pub fn restore(self, around: &mut Around<'_>) {
+        let Before {
+            wanted,
+            which,
+            view,
+            heatmap,
+            pixel,
+            layout,
+        } = self.before;
+        around.state.want(wanted);
+        around.state.show(which);
+        around.state.comparing.view = view;
+        around.heat.show(heatmap);
+        // The theme and the window's size are not the lesson's to change back.
+        *around.layout = Layout {
+            dark: around.layout.dark,
+            size: around.layout.size,
+            ..layout
+        };
+        if let Some(current) = &mut around.state.current {
+            match pixel {
+                Some(pixel) => current.pick(pixel),
+                None => current.unpick(),
+            }
+        }
+    }
+}
+
+fn side_figures(current: &Current, setup: &Setup) -> SideFigures {
+    let counts = current.pixel_counts.as_ref();
+    SideFigures {
+        measurement: current.shown.measurement.clone(),
+        pixel: setup.pixel.zip(counts).and_then(|([x, y], counts)| {
+            let place = y as usize * counts.width as usize + x as usize;
+            counts.tallies.get(place).copied()
+        }),
+    }
+}
+
+/// What a step asks the worker for.
+fn wanted_of(setup: &Setup, state: &State) -> Wanted {
+    let now = &state.wanted;
+    let request = |side: &SideSetup| Request {
+        scene: setup.scene(side),
+        build: side.build.clone(),
+        render: setup.render(side, now.render.camera, now.render.threads),
+        own_camera: setup.camera.is_some(),
+        reload: now.reload,
+    };
+    Wanted {
+        a: request(&setup.a),
+        b: setup.b.as_ref().map(request),
+    }
+}
+
+/// Whether two ask for the same; cameras count only where they are the window's own.
+fn same(a: &Wanted, b: &Wanted) -> bool {
+    same_request(&a.a, &b.a)
+        && match (&a.b, &b.b) {
+            (Some(a), Some(b)) => same_request(a, b),
+            (None, None) => true,
+            _ => false,
+        }
+}
+
+fn same_request(a: &Request, b: &Request) -> bool {
+    let mut b = b.clone();
+    if !a.own_camera && !b.own_camera {
+        b.render.camera = a.render.camera;
+    }
+    *a == b
+}
+
+fn pane_of(title: &str) -> Option<Pane> {
+    Pane::all().find(|pane| pane.title() == title)
+}
+
+fn view_of(name: &str) -> Option<View> {
+    View::ALL.into_iter().find(|view| view.name() == name)
+}
+
+/// The first name of a step that the window has nothing for.
+fn unknown(lesson: &Lesson, step: &Step) -> Option<LessonError> {
+    let look = &step.setup.look;
+    let panel_is_known = |title: &str| {
+        let mut right = PANELS.iter().filter(|panel| panel.side == Side::Right);
+        right.any(|panel| panel.title == title)
+    };
+    let unknown = |kind: &str, named: &Named| LessonError {
+        file: lesson.name.clone(),
+        line: named.line,
+        reason: format!("no {kind} is called '{}'", named.name),
+    };
+    let view = look.view.iter().filter(|v| view_of(&v.name).is_none());
+    let panes = look.panes.iter().filter(|p| pane_of(&p.name).is_none());
+    let panels = look.panels.iter().filter(|p| !panel_is_known(&p.name));
+    view.map(|named| unknown("view", named))
+        .chain(panes.map(|named| unknown("pane", named)))
+        .chain(panels.map(|named| unknown("panel on the right", named)))
+        .next()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lesson::LESSONS;
+
+    #[test]
+    fn every_lesson_names_what_the_window_has() {
+        for known in LESSONS {
+            let lesson = known.read();
+            let wrong = lesson.steps.iter().find_map(|step| unknown(&lesson, step));
+            assert_eq!(wrong, None);
+        }
+    }
+
+    #[test]
+    fn names_that_the_window_lacks_are_told_with_their_line() {
+        let text = "+++\ntitle = \"T\"\nabout = \"A\"\n+++\n# S\n```toml\nscene = \"tetra\"\n\
+                    a = \"method=none\"\npanes = [\n\"Outline\",\n\"Inline\"]\n```\nText\n";
+        let lesson = Lesson::parse(text, "t.md").unwrap();
+        let wrong = unknown(&lesson, &lesson.steps[0]).unwrap();
+        assert_eq!(wrong.to_string(), "t.md:11: no pane is called 'Inline'");
+    }
+}

@@ -1,0 +1,145 @@
+//! The times of equation (1) for the scene on view, in the background: first in place, then by
+//! regression over a set of trees. Once known, they hold for every tree and picture of the scene with
+//! the same kernel and precision.
+
+use super::state::{Current, State};
+use super::turns::{Doing, Stop, Turns};
+use crate::measure::model::{
+    Equation, Fit, InPlace, Observation, Region, Term, TermTimes, fit, observe, parted,
+    time_in_place, trees,
+};
+use crate::scene::Scene;
+use crate::trace::RenderSettings;
+use crate::tree::BuildSettings;
+use std::sync::Arc;
+
+/// Pictures are traced for the model with at most so many pixels.
+const MOST_PIXELS: f64 = 128.0 * 128.0;
+
+/// How often each tree is timed.
+const ROUNDS: u32 = 3;
+
+/// The time model, and which part of the picture is asked about.
+#[derive(Default)]
+pub struct Modelling {
+    pub turns: Turns<Found>,
+    /// A rectangle of the picture that was dragged.
+    pub region: Option<Region>,
+}
+
+/// What is known of the times; it grows with every turn.
+#[derive(Clone)]
+pub struct Found {
+    scene: Arc<Scene>,
+    /// What the trees are timed with.
+    render: RenderSettings,
+    pub in_place: Option<InPlace>,
+    pub observations: Vec<Observation>,
+    /// Trees that are timed in all.
+    pub trees: usize,
+    /// Once all trees were timed.
+    pub fit: Option<Fit>,
+}
+
+impl Found {
+    /// Whether the times hold for what is shown.
+    pub fn is_of(&self, current: &Current) -> bool {
+        let (shown, mine) = (&current.shown, &self.render);
+        Arc::ptr_eq(&self.scene, &shown.scene)
+            && mine.kernel == shown.render.kernel
+            && mine.precision == shown.render.precision
+    }
+
+    /// What the terms take by regression; `None` until all trees were timed.
+    pub fn fitted(&self) -> Option<TermTimes> {
+        let rays = self.observations.first()?.terms.rays;
+        Some(TermTimes::of_fit(self.fit.as_ref()?, rays))
+    }
+
+    /// The greatest relative error on the trees that were left out of the fit, at least 0.
+    pub fn worst(&self) -> Option<f64> {
+        let [_, left_out] = parted(&self.observations);
+        let errors = self.fit.as_ref()?.errors(&left_out);
+        Some(
+            errors
+                .iter()
+                .fold(0.0, |worst, error| error.abs().max(worst)),
+        )
+    }
+}
+
+impl Modelling {
+    /// How much of the work is done, 0 to 1, and whether it waits for the worker; `None` while nothing
+    /// is measured.
+    pub fn progress(&self) -> Option<(f64, bool)> {
+        let (turn, waits) = self.turns.turn()?;
+        let found = self.turns.found()?;
+        // Timing in place is one more turn than there are trees.
+        let taken = found.observations.len() + usize::from(found.in_place.is_some());
+        Some(((taken as f64 + turn) / (found.trees + 1) as f64, waits))
+    }
+}
+
+impl State {
+    /// Whether the times can be measured: of a finished picture of a scene that has objects.
+    pub fn may_model(&self) -> bool {
+        let is_ready =
+            |current: &Current| current.done && !current.shown.scene.objects().is_empty();
+        !self.modelling.turns.is_running() && self.current.as_ref().is_some_and(is_ready)
+    }
+
+    /// Measures the times of the scene on view, in the place of those before.
+    pub fn begin_model(&mut self, ctx: &egui::Context) {
+        let Some(current) = self.current.as_ref().filter(|_| self.may_model()) else {
+            return;
+        };
+        let shown = &current.shown;
+        let (scene, render) = (Arc::clone(&shown.scene), reduced(&shown.render));
+        let (build, builds) = (shown.request.build.clone(), trees(&scene));
+        let found = Found {
+            scene: Arc::clone(&scene),
+            render,
+            in_place: None,
+            observations: Vec::new(),
+            trees: builds.len(),
+            fit: None,
+        };
+        self.modelling.turns.begin(found, ctx, move |doing| {
+            model(doing, &scene, &render, &build, &builds)
+        });
+    }
+}
+
+/// A smaller picture of the same, traced on one thread: others would compete for caches and memory.
+fn reduced(render: &RenderSettings) -> RenderSettings {
+    let pixels = f64::from(render.width) * f64::from(render.height);
+    let share = (MOST_PIXELS / pixels).sqrt().min(1.0);
+    let side = |side: u32| ((f64::from(side) * share) as u32).max(1);
+    RenderSettings {
+        width: side(render.width),
+        height: side(render.height),
+        threads: 1,
+        ..*render
+    }
+}
+
+fn model(
+    doing: &Doing<Found>,
+    scene: &Scene,
+    render: &RenderSettings,
+    build: &BuildSettings,
+    builds: &[BuildSettings],
+) -> Result<(), Stop> {
+    let in_place = doing.turn(|progress| time_in_place(scene, build, render, progress))?;
+    doing.tell(|found| found.in_place = Some(in_place));
+    let mut observations = Vec::new();
+    for build in builds {
+        let observation = doing.turn(|progress| observe(scene, build, render, ROUNDS, progress))?;
+        observations.push(observation.clone());
+        doing.tell(|found| found.observations.push(observation));
+    }
+    let [fitted, _] = parted(&observations);
+    let fit = fit(&fitted, &Term::of(scene), Equation::Corrected)?;
+    doing.tell(|found| found.fit = Some(fit));
+    Ok(())
+}

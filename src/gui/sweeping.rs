@@ -1,0 +1,227 @@
+//! A sweep of the scene on view in the background, point by point: the rows of `bspscope sweep`. One
+//! that was broken off goes on after its last row.
+
+use super::comparing::Which;
+use super::state::State;
+use super::turns::{Doing, Stop, Turns};
+use crate::measure::sweep::{Form, Plan, Row, done, header, line};
+use crate::scene::Scene;
+use crate::tree::{BuildSettings, MaxDepth, Method};
+use crate::worker::Request;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+/// The sweep, the last one taken and how the next will be.
+pub struct Sweeping {
+    pub turns: Turns<Found>,
+    /// The least and the greatest `D_MAX` of the next sweep.
+    pub depths: [u32; 2],
+    /// Its leaf sizes, as they are typed: numbers, separated by commas.
+    pub leaf_sizes: String,
+    /// Its build methods.
+    pub methods: Vec<Method>,
+    /// The row whose settings were loaded last.
+    pub chosen: Option<usize>,
+    pub saving: Saving,
+}
+
+impl Default for Sweeping {
+    fn default() -> Self {
+        Sweeping {
+            turns: Turns::default(),
+            depths: [6, 24],
+            leaf_sizes: "1, 2, 4, 8".to_owned(),
+            methods: Method::of_the_paper(),
+            chosen: None,
+            saving: Saving::default(),
+        }
+    }
+}
+
+/// What is known of a sweep; it grows point by point.
+#[derive(Clone)]
+pub struct Found {
+    /// What was on view when the sweep began, with the camera that was used.
+    of: Request,
+    pub plan: Arc<Plan>,
+    /// The rows so far, in the order of the points.
+    pub rows: Vec<Row>,
+}
+
+impl Sweeping {
+    /// The leaf sizes; `None` where something else is typed.
+    pub fn n_oilf(&self) -> Option<Vec<u32>> {
+        /// More than this many objects are a mistake in typing.
+        const MOST: u32 = 100_000;
+        let parts = self.leaf_sizes.split(',').map(str::trim);
+        let mut sizes = Vec::new();
+        for part in parts {
+            let size = part.parse().ok().filter(|size| *size <= MOST)?;
+            if !sizes.contains(&size) {
+                sizes.push(size);
+            }
+        }
+        Some(sizes)
+    }
+
+    /// How much of the sweep is done, 0 to 1, and whether it waits for the worker; `None` while none
+    /// is taken.
+    pub fn progress(&self) -> Option<(f64, bool)> {
+        let (turn, waits) = self.turns.turn()?;
+        let found = self.turns.found()?;
+        let taken = found.rows.len() as f64 + turn;
+        Some((taken / found.plan.points.len().max(1) as f64, waits))
+    }
+}
+
+impl State {
+    /// Whether a sweep can be taken: of a finished picture, with settings that make points.
+    pub fn may_sweep(&self) -> bool {
+        let sweeping = &self.sweeping;
+        !sweeping.turns.is_running()
+            && self.current.as_ref().is_some_and(|current| current.done)
+            && !sweeping.methods.is_empty()
+            && sweeping.depths[0] <= sweeping.depths[1]
+            && sweeping.n_oilf().is_some()
+    }
+
+    /// Takes a sweep of the scene and picture on view. Where the last one was of the same, its rows
+    /// stay and it goes on after them; else it is replaced.
+    pub fn begin_sweep(&mut self, ctx: &egui::Context) {
+        let Some(current) = self.current.as_ref().filter(|_| self.may_sweep()) else {
+            return;
+        };
+        let shown = &current.shown;
+        let sweeping = &mut self.sweeping;
+        let [from, to] = sweeping.depths;
+        let depths: Vec<_> = (from..=to).map(MaxDepth::Fixed).collect();
+        let on_view = &shown.request.build;
+        let methods: Vec<_> = (sweeping.methods.iter())
+            .map(|&method| base(method, on_view))
+            .collect();
+        let n_oilf = sweeping.n_oilf().unwrap_or_default();
+        let request = &shown.request.scene;
+        let plan = Plan::new(request, &methods, &depths, &n_oilf, &shown.render);
+        let plan = Arc::new(plan);
+        let of = Request {
+            render: shown.render,
+            ..shown.request.clone()
+        };
+        let known = sweeping.turns.found().filter(|found| {
+            found.of.scene == of.scene
+                && found.of.reload == of.reload
+                && found.of.render == of.render
+                && goes_on(&found.rows, &plan)
+        });
+        let rows = known.map_or_else(Vec::new, |found| found.rows.clone());
+        if rows.is_empty() {
+            sweeping.chosen = None;
+        }
+        let (scene, first) = (Arc::clone(&shown.scene), rows.len());
+        let found = Found {
+            of,
+            plan: Arc::clone(&plan),
+            rows,
+        };
+        sweeping
+            .turns
+            .begin(found, ctx, move |doing| sweep(doing, &scene, &plan, first));
+    }
+
+    /// Wants the settings of a row, of the scene and picture that it was measured with, for tree A.
+    pub fn choose_row(&mut self, place: usize) {
+        let Some(found) = self.sweeping.turns.found() else {
+            return;
+        };
+        let Some(row) = found.rows.get(place) else {
+            return;
+        };
+        self.sweeping.chosen = Some(place);
+        self.show(Which::A);
+        let wanted = &mut self.wanted;
+        wanted.scene = found.of.scene.clone();
+        wanted.own_camera = found.of.own_camera;
+        wanted.render = found.of.render;
+        wanted.build = found.plan.points[row.point].build.clone();
+    }
+}
+
+/// What a method is swept with: what is set of the method on view, else the paper's; rules that all
+/// methods share as on view.
+fn base(method: Method, on_view: &BuildSettings) -> BuildSettings {
+    if method == on_view.method {
+        return on_view.clone();
+    }
+    BuildSettings {
+        root_margin: on_view.root_margin,
+        overlap: on_view.overlap,
+        first_axis: on_view.first_axis,
+        memory_limit: on_view.memory_limit,
+        ..BuildSettings::for_method(method)
+    }
+}
+
+/// Whether these rows are the first of a plan, but not all of it.
+fn goes_on(rows: &[Row], plan: &Plan) -> bool {
+    let keys = plan.points.iter().map(|point| point.key.clone());
+    let keys: Vec<_> = keys.enumerate().collect();
+    done(rows, &keys, keys.len()).is_ok_and(|done| done < keys.len())
+}
+
+fn sweep(doing: &Doing<Found>, scene: &Scene, plan: &Plan, first: usize) -> Result<(), Stop> {
+    for point in first..plan.points.len() {
+        let row = doing.turn(|progress| plan.row(scene, point, progress))?;
+        doing.tell(|found| found.rows.push(row));
+    }
+    Ok(())
+}
+
+/// Rows on their way to a file.
+#[derive(Default)]
+pub struct Saving {
+    /// The file, as it is typed.
+    pub path: String,
+    answer: Option<Receiver<String>>,
+    /// What came of it.
+    pub said: Option<String>,
+}
+
+impl Saving {
+    /// Writes the rows on a thread: CSV, or JSON lines, by the extension of the path.
+    pub fn save(&mut self, rows: &[Row], ctx: &egui::Context) {
+        let path = PathBuf::from(self.path.trim());
+        let Some(form) = Form::for_path(&path) else {
+            self.said = Some("rows are written as .csv or .jsonl".to_owned());
+            return;
+        };
+        let (sender, answer) = channel();
+        let (rows, ctx) = (rows.to_vec(), ctx.clone());
+        std::thread::spawn(move || {
+            let lines = rows.iter().map(|row| line(row, form));
+            let text = header(form) + &lines.collect::<String>();
+            let said = match std::fs::write(&path, text) {
+                Ok(()) => format!("{} rows in {}", rows.len(), path.display()),
+                Err(error) => format!("{}: {error}", path.display()),
+            };
+            // Without a window nobody asks.
+            let _ = sender.send(said);
+            ctx.request_repaint();
+        });
+        self.said = None;
+        self.answer = Some(answer);
+    }
+
+    /// Takes what the thread has to tell.
+    pub fn receive(&mut self) {
+        let Some(answer) = &self.answer else {
+            return;
+        };
+        match answer.try_recv() {
+            Ok(said) => self.said = Some(said),
+            Err(TryRecvError::Empty) => return,
+            Err(TryRecvError::Disconnected) => {}
+        }
+        self.answer = None;
+    }
+}

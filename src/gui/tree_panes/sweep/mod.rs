@@ -1,0 +1,264 @@
+//! Which depth, which leaf size? A parameter over a grid of settings, as curves and as a map. Choosing
+//! a point loads its settings.
+
+mod map;
+mod plot;
+
+use super::is_under_pointer;
+use crate::gui::shortcuts::{Action, Scope, pressed, tip};
+use crate::gui::state::State;
+use crate::gui::sweeping::Found;
+use crate::gui::turns::End;
+use crate::measure::sweep::{Row, answers};
+use crate::measure::{Class, PARAMETERS, Parameter, parameter};
+use crate::tree::{MaxDepth, Method};
+use egui::vec2;
+
+/// From this width on, in points, the map stands beside the curves.
+const WIDE: f32 = 900.0;
+
+pub struct SweepPane {
+    shown: &'static Parameter,
+    /// Whether the map stands in the curves' place, where there is not room for both.
+    map_first: bool,
+}
+
+impl Default for SweepPane {
+    fn default() -> Self {
+        SweepPane {
+            shown: parameter("T_TR"),
+            map_first: false,
+        }
+    }
+}
+
+/// What depends on the tree, and so is worth a curve.
+fn choices() -> impl Iterator<Item = &'static Parameter> {
+    let depends = |p: &&Parameter| matches!(p.class, Class::C | Class::R | Class::T);
+    PARAMETERS.iter().filter(depends)
+}
+
+impl SweepPane {
+    pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
+        for action in pressed(ui.ctx(), Scope::Sweep, is_under_pointer(ui)) {
+            self.act(action, state, ui.ctx());
+        }
+        state.sweeping.saving.receive();
+        let found = state.sweeping.turns.found();
+        ui.horizontal_wrapped(|ui| self.toolbar(ui, state, found.as_deref()));
+        let Some(found) = found.filter(|found| !found.rows.is_empty()) else {
+            ui.weak("Which depth, which leaf size? Every parameter over a grid of settings.");
+            return;
+        };
+        let best = answers(&found.rows, self.shown);
+        for answer in &best {
+            let text = answer.sentence(self.shown);
+            ui.add(egui::Label::new(&text).truncate())
+                .on_hover_text(&text);
+        }
+        let best: Vec<&Row> = best.iter().map(|answer| answer.best).collect();
+        let size = crate::gui::rest_of(ui);
+        let wide = size.x >= WIDE;
+        let parts = if wide { 2.0 } else { 1.0 };
+        let part = vec2((size.x - 8.0 * (parts - 1.0)) / parts, size.y - 2.0);
+        let shown = Shown {
+            rows: &found.rows,
+            parameter: self.shown,
+            best: &best,
+            chosen: state.sweeping.chosen,
+        };
+        let mut click = None;
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = 8.0;
+            let mut column = |show: fn(&mut egui::Ui, &Shown<'_>) -> Option<usize>| {
+                ui.allocate_ui_with_layout(part, egui::Layout::top_down(egui::Align::Min), |ui| {
+                    ui.set_min_size(part);
+                    click = click.or(show(ui, &shown));
+                });
+            };
+            if wide || !self.map_first {
+                column(plot::show);
+            }
+            if wide || self.map_first {
+                column(map::show);
+            }
+        });
+        if let Some(place) = click {
+            state.choose_row(place);
+        }
+    }
+
+    fn act(&mut self, action: Action, state: &mut State, ctx: &egui::Context) {
+        match action {
+            Action::RunSweep => state.begin_sweep(ctx),
+            Action::NextParameter | Action::PreviousParameter => {
+                let all: Vec<_> = choices().collect();
+                let at = all.iter().position(|p| p.symbol == self.shown.symbol);
+                let step = if action == Action::NextParameter {
+                    1
+                } else {
+                    all.len() - 1
+                };
+                self.shown = all[(at.unwrap_or(0) + step) % all.len()];
+            }
+            Action::SweepMap => self.map_first ^= true,
+            _ => {}
+        }
+    }
+
+    fn toolbar(&mut self, ui: &mut egui::Ui, state: &mut State, found: Option<&Found>) {
+        if let Some((share, waits)) = state.sweeping.progress() {
+            let about = "End the sweep; its rows stay, and it can be gone on with.";
+            if ui
+                .button("Cancel sweep")
+                .on_hover_text(tip(about, Action::Cancel))
+                .clicked()
+            {
+                state.sweeping.turns.cancel();
+            }
+            ui.label(format!("{:.0} %", share * 100.0));
+            ui.weak(if waits { "waits" } else { "measuring …" });
+            ui.ctx().request_repaint_after_secs(0.2);
+        } else {
+            let run = ui.add_enabled(state.may_sweep(), egui::Button::new("Run sweep"));
+            let about = "Measure the scene on view over all of these settings, in the background, while \
+                         nothing else is measured. One that was cancelled goes on.";
+            if run
+                .on_hover_text(tip(about, Action::RunSweep))
+                .on_disabled_hover_text(
+                    "Begins with a finished picture, a method, and leaf sizes such as 1, 2, 4.",
+                )
+                .clicked()
+            {
+                state.begin_sweep(ui.ctx());
+            }
+            settings(ui, state);
+        }
+        let said = match state.sweeping.turns.end() {
+            Some(End::Cancelled) => "cancelled: the rows stay".to_owned(),
+            Some(End::Failed(why)) => format!("ended: {why}"),
+            Some(End::Complete) | None => String::new(),
+        };
+        if let Some(found) = found {
+            let (done, of) = (found.rows.len(), found.plan.points.len());
+            ui.label(format!("{done} of {of} points {said}"));
+        }
+        egui::ComboBox::from_id_salt("parameter of the sweep")
+            .selected_text(format!("Show: {}", self.shown.symbol))
+            .show_ui(ui, |ui| {
+                for p in choices() {
+                    let chosen = p.symbol == self.shown.symbol;
+                    let item = ui.selectable_label(chosen, format!("{}: {}", p.symbol, p.name));
+                    if item.on_hover_text(p.meaning).clicked() {
+                        self.shown = p;
+                    }
+                }
+            })
+            .response
+            .accessible_name("Parameter of the sweep")
+            .on_hover_text(tip(
+                &format!("{}: {}", self.shown.name, self.shown.meaning),
+                Action::NextParameter,
+            ));
+        if ui.max_rect().width() < WIDE {
+            for (map, name) in [(false, "Curves"), (true, "Map")] {
+                ui.selectable_value(&mut self.map_first, map, name)
+                    .on_hover_text(tip("How the parameter is shown.", Action::SweepMap));
+            }
+        }
+        if let Some(found) = found.filter(|found| !found.rows.is_empty()) {
+            save(ui, state, found);
+        }
+    }
+}
+
+/// What the next sweep is over.
+fn settings(ui: &mut egui::Ui, state: &mut State) {
+    let sweeping = &mut state.sweeping;
+    let [from, to] = &mut sweeping.depths;
+    ui.label("D_MAX")
+        .on_hover_text("Greatest depths, from least to most");
+    for (depth, name) in [(from, "Least D_MAX"), (to, "Greatest D_MAX")] {
+        let edit = egui::DragValue::new(depth)
+            .range(0..=MaxDepth::LIMIT)
+            .speed(0.1);
+        ui.add(edit).accessible_name(name).on_hover_text(name);
+    }
+    ui.label("N_OILF")
+        .on_hover_text("Leaf sizes, separated by commas");
+    let field = egui::TextEdit::singleline(&mut sweeping.leaf_sizes).desired_width(80.0);
+    ui.add(field)
+        .accessible_name("Leaf sizes of the sweep")
+        .on_hover_text("Leaf sizes, separated by commas, such as 1, 2, 4");
+    let text = format!("Methods: {}", sweeping.methods.len());
+    ui.menu_button(text, |ui| {
+        for method in Method::all() {
+            let mut chosen = sweeping.methods.contains(&method);
+            if ui
+                .checkbox(&mut chosen, method.name)
+                .on_hover_text(method.title)
+                .changed()
+            {
+                sweeping.methods.retain(|known| *known != method);
+                if chosen {
+                    sweeping.methods.push(method);
+                }
+            }
+        }
+    })
+    .response
+    .on_hover_text("Build methods, in the order in which they were chosen");
+}
+
+/// Where the rows go.
+fn save(ui: &mut egui::Ui, state: &mut State, found: &Found) {
+    let saving = &mut state.sweeping.saving;
+    let field = egui::TextEdit::singleline(&mut saving.path)
+        .hint_text("rows.csv")
+        .desired_width(110.0);
+    ui.add(field)
+        .accessible_name("File for the rows")
+        .on_hover_text(
+            "A file, .csv or .jsonl for JSON lines, as bspscope sweep writes and merges them",
+        );
+    if ui
+        .button("Save rows")
+        .on_hover_text("Write the rows to the file; one that is there is replaced.")
+        .clicked()
+    {
+        saving.save(&found.rows, ui.ctx());
+    }
+    if let Some(said) = &saving.said {
+        ui.label(said);
+    }
+}
+
+/// What curves and map show.
+struct Shown<'a> {
+    rows: &'a [Row],
+    parameter: &'static Parameter,
+    /// Of every method.
+    best: &'a [&'a Row],
+    /// The row that was loaded last.
+    chosen: Option<usize>,
+}
+
+impl Shown<'_> {
+    fn is_best(&self, row: &Row) -> bool {
+        self.best.iter().any(|best| best.point == row.point)
+    }
+
+    /// A row in words.
+    fn words(&self, row: &Row) -> String {
+        let depth = parameter("D_MAX");
+        format!(
+            "{}, D_MAX {}, N_OILF {}: {} {}{}",
+            row.key.method,
+            depth.format(row.value(depth)),
+            row.key.n_oilf,
+            self.parameter.symbol,
+            self.parameter.format(row.value(self.parameter)),
+            if self.is_best(row) { " (least)" } else { "" }
+        )
+    }
+}

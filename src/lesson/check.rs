@@ -1,0 +1,129 @@
+//! Measures what the steps of a lesson look at, and holds it against what they expect.
+
+use super::figures::{Difference, Figures, SideFigures};
+use super::question::Answer;
+use super::setup::SideSetup;
+use super::{Lesson, LessonError, Step};
+use crate::measure::measure;
+use crate::progress::{Cancelled, Progress};
+use crate::scene::{Scene, SceneRequest, load};
+use crate::trace::{Picture, record_pixel};
+
+/// Measures steps; keeps the scene of the last one.
+#[derive(Default)]
+pub struct Measurer {
+    scene: Option<(SceneRequest, Scene)>,
+}
+
+impl Measurer {
+    /// Everything that a step of a lesson tells of.
+    ///
+    /// # Errors
+    /// The file and line of what cannot be had, such as a scene that does not load; cancellation
+    /// likewise.
+    pub fn measure(
+        &mut self,
+        lesson: &Lesson,
+        step: &Step,
+        progress: &Progress,
+    ) -> Result<Figures, LessonError> {
+        let wrong = |reason: String| lesson.error(step.scene_line, reason);
+        let (a, of_a) = self.side(step, &step.setup.a, progress).map_err(wrong)?;
+        let b = match &step.setup.b {
+            Some(b) => Some(self.side(step, b, progress).map_err(wrong)?),
+            None => None,
+        };
+        Ok(Figures {
+            difference: b.as_ref().and_then(|(_, b)| Difference::between(&of_a, b)),
+            a,
+            b: b.map(|(figures, _)| figures),
+        })
+    }
+
+    fn side(
+        &mut self,
+        step: &Step,
+        side: &SideSetup,
+        progress: &Progress,
+    ) -> Result<(SideFigures, Picture), String> {
+        let setup = &step.setup;
+        let wanted = setup.scene(side);
+        let kept = self.scene.take().filter(|(known, _)| *known == wanted);
+        let (_, scene) = self.scene.insert(match kept {
+            Some(kept) => kept,
+            None => {
+                let scene = load(&wanted, progress).map_err(|error| error.to_string())?;
+                (wanted, scene)
+            }
+        });
+        let render = setup.render(side, *scene.camera(), 0);
+        let measured =
+            measure(scene, &side.build, &render, progress).map_err(|error| error.to_string())?;
+        let record = setup
+            .pixel
+            .map(|pixel| record_pixel(scene, &measured.tree, &render, pixel));
+        let record = record.transpose().map_err(|error| error.to_string())?;
+        let figures = SideFigures {
+            measurement: measured.measurement,
+            pixel: record.map(|record| record.tallies()),
+        };
+        Ok((figures, measured.picture))
+    }
+}
+
+/// Measures every step and gives what does not hold; nothing if all does.
+///
+/// # Errors
+/// Cancellation.
+pub fn check(lesson: &Lesson, progress: &Progress) -> Result<Vec<LessonError>, Cancelled> {
+    let mut measurer = Measurer::default();
+    let mut wrong = Vec::new();
+    for (i, step) in lesson.steps.iter().enumerate() {
+        progress.set(i as f64 / lesson.steps.len() as f64);
+        match measurer.measure(lesson, step, &Progress::new()) {
+            Ok(figures) => wrong.extend(check_step(lesson, step, &figures)),
+            Err(error) => wrong.push(error),
+        }
+        progress.check()?;
+    }
+    Ok(wrong)
+}
+
+/// What of a step does not hold with these figures.
+pub fn check_step(lesson: &Lesson, step: &Step, figures: &Figures) -> Vec<LessonError> {
+    let mut wrong = Vec::new();
+    for expected in &step.expectations {
+        let condition = &expected.condition;
+        if condition.holds(figures) != Some(true) {
+            let [left, right] = condition.sides().map(|side| {
+                let value = side.value(figures);
+                side.write(value, super::Style::Plain)
+            });
+            let reason = format!(
+                "expected {}, found {left} on the left and {right} on the right",
+                expected.text
+            );
+            wrong.push(lesson.error(expected.line, reason));
+        }
+    }
+    for value in step.before.placeholders().chain(step.after.placeholders()) {
+        if value.formula.value(figures).is_none() {
+            let reason = format!("{{{}}} has no value here", value.text);
+            wrong.push(lesson.error(value.line, reason));
+        }
+    }
+    if let Some(question) = &step.question {
+        let reason = match &question.answer {
+            Answer::Number { formula, .. } => match formula.value(figures) {
+                Some(_) => None,
+                None => Some("the number asked for has no value here".to_owned()),
+            },
+            Answer::Choice(_) => match question.answer.right_choices(figures).len() {
+                1 => None,
+                right => Some(format!("{right} of the choices are right; it must be one")),
+            },
+        };
+        wrong.extend(reason.map(|reason| lesson.error(question.line, reason)));
+    }
+    wrong
+}

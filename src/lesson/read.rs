@@ -1,0 +1,411 @@
+//! Reads a lesson: TOML between lines `+++`, then a step for every heading `# `, with a block of TOML
+//! that says what it looks at, text, and below a line `---` the text that tells the answer.
+
+use super::figures::Side;
+use super::formula::{Condition, Formula};
+use super::prose::Prose;
+use super::question::{Answer, Choice, Question, Tolerance};
+use super::setup::{Look, Named, Setup, SideSetup};
+use super::{Expectation, Lesson, LessonError, Step};
+use crate::geometry::Vec3;
+use crate::measure::heat::heatmap;
+use crate::scene::{Camera, SceneSource};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+
+/// The lines around the head of the file.
+const HEAD: &str = "+++";
+
+/// The line between what is told before the answer and after it.
+const REVEAL: &str = "---";
+
+/// What is wrong in which line, from 1.
+type Wrong = (usize, String);
+
+/// Reads a lesson. Paths of scenes are relative to `folder`, if there is one.
+pub fn read(text: &str, name: &str, folder: Option<&Path>) -> Result<Lesson, LessonError> {
+    lesson(text, name, folder).map_err(|(line, reason)| LessonError {
+        file: name.to_owned(),
+        line,
+        reason,
+    })
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawHead {
+    title: String,
+    about: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct RawStep {
+    scene: Spanned<String>,
+    a: Spanned<String>,
+    b: Option<Spanned<String>>,
+    #[serde(default = "usual_size")]
+    size: [u32; 2],
+    camera: Option<Spanned<RawCamera>>,
+    pixel: Option<Spanned<[u32; 2]>>,
+    heatmap: Option<Spanned<String>>,
+    view: Option<Spanned<String>>,
+    #[serde(default)]
+    panes: Vec<Spanned<String>>,
+    #[serde(default)]
+    panels: Vec<Spanned<String>>,
+    question: Option<Spanned<String>>,
+    number: Option<Spanned<String>>,
+    within: Option<Spanned<String>>,
+    compare: Option<Spanned<[String; 2]>>,
+    same_within: Option<Spanned<String>>,
+    choices: Option<Spanned<Vec<[String; 2]>>>,
+    #[serde(default)]
+    expect: Vec<Spanned<String>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawCamera {
+    from: [f64; 3],
+    at: [f64; 3],
+    #[serde(default = "usual_up")]
+    up: [f64; 3],
+    #[serde(default = "usual_angle")]
+    angle: f64,
+}
+
+/// Small enough that a step's figures are there in a moment.
+fn usual_size() -> [u32; 2] {
+    [128, 128]
+}
+
+fn usual_up() -> [f64; 3] {
+    [0.0, 0.0, 1.0]
+}
+
+fn usual_angle() -> f64 {
+    45.0
+}
+
+fn lesson(text: &str, name: &str, folder: Option<&Path>) -> Result<Lesson, Wrong> {
+    let lines: Vec<&str> = text.lines().collect();
+    if lines.first().map(|line| line.trim_end()) != Some(HEAD) {
+        return Err((1, format!("expected the line {HEAD}")));
+    }
+    let end = lines
+        .iter()
+        .skip(1)
+        .position(|line| line.trim_end() == HEAD);
+    let end = end.ok_or_else(|| (1, format!("there is no second line {HEAD}")))? + 1;
+    let head: RawHead = Block::new(&lines, 1, end).read()?;
+    let mut starts = headings(&lines, end + 1);
+    let first = starts.first().copied().unwrap_or(lines.len());
+    if let Some(stray) = (end + 1..first).find(|&i| !lines[i].trim().is_empty()) {
+        return Err((
+            stray + 1,
+            "expected a heading, '# ' and a step's title".into(),
+        ));
+    }
+    if starts.is_empty() {
+        return Err((end + 1, "there is no step: no line begins with '# '".into()));
+    }
+    starts.push(lines.len());
+    let steps = starts
+        .windows(2)
+        .map(|part| step(&lines, part[0], part[1], folder))
+        .collect::<Result<_, _>>()?;
+    Ok(Lesson {
+        name: name.to_owned(),
+        title: head.title,
+        about: head.about,
+        steps,
+    })
+}
+
+/// The places of the lines that begin with `# `, those within fenced blocks left out.
+fn headings(lines: &[&str], from: usize) -> Vec<usize> {
+    let mut fenced = false;
+    let mut found = Vec::new();
+    for (i, line) in lines.iter().enumerate().skip(from) {
+        fenced ^= line.trim_start().starts_with("```");
+        if !fenced && line.starts_with("# ") {
+            found.push(i);
+        }
+    }
+    found
+}
+
+/// A part of the file that is TOML.
+struct Block {
+    /// Place of its first line.
+    start: usize,
+    text: String,
+}
+
+impl Block {
+    /// The lines from `start` to before `end`.
+    fn new(lines: &[&str], start: usize, end: usize) -> Self {
+        Block {
+            start,
+            text: lines[start..end].join("\n"),
+        }
+    }
+
+    fn read<T: DeserializeOwned>(&self) -> Result<T, Wrong> {
+        toml::from_str(&self.text).map_err(|error| {
+            let at = error.span().map_or(0, |span| span.start);
+            (self.line(at), error.message().to_owned())
+        })
+    }
+
+    /// The number of the line with the byte at this place of the block.
+    fn line(&self, at: usize) -> usize {
+        let before = &self.text.as_bytes()[..at.min(self.text.len())];
+        self.start + 1 + before.iter().filter(|&&byte| byte == b'\n').count()
+    }
+
+    fn line_of<T>(&self, value: &Spanned<T>) -> usize {
+        self.line(value.span().start)
+    }
+
+    /// Does something with a value; what goes wrong is told with its line.
+    fn with<T, R>(
+        &self,
+        value: &Spanned<T>,
+        what: impl FnOnce(&T) -> Result<R, String>,
+    ) -> Result<R, Wrong> {
+        what(value.get_ref()).map_err(|reason| (self.line_of(value), reason))
+    }
+
+    fn named(&self, names: &[Spanned<String>]) -> Vec<Named> {
+        let name = |name: &Spanned<String>| Named {
+            line: self.line_of(name),
+            name: name.get_ref().clone(),
+        };
+        names.iter().map(name).collect()
+    }
+}
+
+/// Reads the step whose heading stands at `start`, up to before `end`.
+fn step(lines: &[&str], start: usize, end: usize, folder: Option<&Path>) -> Result<Step, Wrong> {
+    let opening = (start + 1..end).find(|&i| !lines[i].trim().is_empty());
+    let opening = opening.filter(|&i| lines[i].trim_end() == "```toml");
+    let opening = opening.ok_or_else(|| {
+        let reason = "expected a block that begins with ```toml below the heading";
+        (start + 1, reason.to_owned())
+    })?;
+    let closing = (opening + 1..end).find(|&i| lines[i].trim_end() == "```");
+    let closing = closing.ok_or_else(|| (opening + 1, "the block has no end".to_owned()))?;
+    let block = Block::new(lines, opening + 1, closing);
+    let raw: RawStep = block.read()?;
+
+    let divider = (closing + 1..end).find(|&i| lines[i].trim_end() == REVEAL);
+    let prose = |from: usize, to: usize| Prose::parse(&lines[from..to].join("\n"), from + 1);
+    let before = prose(closing + 1, divider.unwrap_or(end))?;
+    let after = divider.map_or(Ok(Prose::default()), |line| prose(line + 1, end))?;
+    let step = Step {
+        line: start + 1,
+        title: lines[start][2..].trim().to_owned(),
+        scene_line: block.line_of(&raw.scene),
+        setup: setup(&block, &raw, folder)?,
+        question: question(&block, &raw)?,
+        expectations: expectations(&block, &raw)?,
+        before,
+        after,
+    };
+    step.check(divider.map(|line| line + 1))?;
+    Ok(step)
+}
+
+fn setup(block: &Block, raw: &RawStep, folder: Option<&Path>) -> Result<Setup, Wrong> {
+    let side = |text: &String| SideSetup::parse(text);
+    let source = match SceneSource::parse(raw.scene.get_ref()) {
+        SceneSource::File(path) if path.is_relative() => {
+            SceneSource::File(folder.map_or_else(PathBuf::new, Path::to_owned).join(path))
+        }
+        source => source,
+    };
+    let camera = raw.camera.as_ref().map(|camera| {
+        block.with(camera, |raw_camera| {
+            let camera = Camera {
+                from: Vec3::from(raw_camera.from),
+                at: Vec3::from(raw_camera.at),
+                up: Vec3::from(raw_camera.up),
+                angle: raw_camera.angle,
+                hither: 1.0,
+                resolution: raw.size,
+            };
+            camera.frame().map_err(|error| error.to_string())?;
+            Ok(camera)
+        })
+    });
+    let pixel = raw.pixel.as_ref().map(|pixel| {
+        block.with(pixel, |&[x, y]| match x < raw.size[0] && y < raw.size[1] {
+            true => Ok([x, y]),
+            false => Err(format!("pixel [{x}, {y}] lies outside the picture")),
+        })
+    });
+    let symbol = raw.heatmap.as_ref().map(|name| {
+        block.with(name, |name| {
+            let found = heatmap(name).map(|heatmap| heatmap.symbol);
+            found.ok_or_else(|| format!("no heatmap is called '{name}'"))
+        })
+    });
+    Ok(Setup {
+        scene: source,
+        a: block.with(&raw.a, side)?,
+        b: raw.b.as_ref().map(|b| block.with(b, side)).transpose()?,
+        size: raw.size,
+        camera: camera.transpose()?,
+        pixel: pixel.transpose()?,
+        look: Look {
+            heatmap: symbol.transpose()?,
+            view: block.named(raw.view.as_slice()).pop(),
+            panes: block.named(&raw.panes),
+            panels: block.named(&raw.panels),
+        },
+    })
+}
+
+fn question(block: &Block, raw: &RawStep) -> Result<Option<Question>, Wrong> {
+    let Some(ask) = &raw.question else {
+        let stray = [&raw.number, &raw.within, &raw.same_within];
+        let stray = stray.into_iter().flatten().map(|v| block.line_of(v));
+        let stray = stray
+            .chain(raw.compare.iter().map(|v| block.line_of(v)))
+            .chain(raw.choices.iter().map(|v| block.line_of(v)));
+        return match stray.min() {
+            Some(line) => Err((line, "an answer without 'question'".into())),
+            None => Ok(None),
+        };
+    };
+    let answer = match (&raw.number, &raw.compare, &raw.choices) {
+        (Some(number), None, None) => {
+            let within = raw.within.as_ref().ok_or_else(|| {
+                let reason = "'number' needs 'within', how far off a prediction may be";
+                (block.line_of(number), reason.to_owned())
+            })?;
+            Answer::Number {
+                formula: block.with(number, |text| Formula::parse(text))?,
+                within: block.with(within, |text| Tolerance::parse(text))?,
+            }
+        }
+        (None, Some(compare), None) => {
+            let same = raw.same_within.as_ref().map(|text| {
+                block.with(text, |text| match Tolerance::parse(text)? {
+                    Tolerance::Relative(share) => Ok(share),
+                    Tolerance::Absolute(_) => Err(format!("expected '5 %', found '{text}'")),
+                })
+            });
+            let same = same.transpose()?.unwrap_or(0.0);
+            block.with(compare, |[first, second]| {
+                let (first, second) = (Formula::parse(first)?, Formula::parse(second)?);
+                Ok(Answer::comparison(&first, &second, same))
+            })?
+        }
+        (None, None, Some(choices)) => block.with(choices, |choices| {
+            let choice = |[text, when]: &[String; 2]| {
+                let when = when.split(" and ").map(|w| untimed(Condition::parse(w)?));
+                Ok(Choice {
+                    text: text.clone(),
+                    when: when.collect::<Result<_, String>>()?,
+                })
+            };
+            let choices: Vec<_> = choices.iter().map(choice).collect::<Result<_, String>>()?;
+            match choices.len() {
+                0 | 1 => Err("a question needs two choices or more".to_owned()),
+                _ => Ok(Answer::Choice(choices)),
+            }
+        })?,
+        _ => {
+            let reason = "a question needs one of 'number', 'compare' and 'choices'";
+            return Err((block.line_of(ask), reason.into()));
+        }
+    };
+    Ok(Some(Question {
+        line: block.line_of(ask),
+        ask: ask.get_ref().clone(),
+        answer,
+    }))
+}
+
+fn expectations(block: &Block, raw: &RawStep) -> Result<Vec<Expectation>, Wrong> {
+    let read = |text: &Spanned<String>| {
+        Ok(Expectation {
+            line: block.line_of(text),
+            text: text.get_ref().clone(),
+            condition: block.with(text, |text| untimed(Condition::parse(text)?))?,
+        })
+    };
+    raw.expect.iter().map(read).collect()
+}
+
+/// Refuses what hangs on a time: it would not hold on every machine.
+fn untimed(condition: Condition) -> Result<Condition, String> {
+    let [left, right] = condition.sides();
+    if left.is_timed() || right.is_timed() {
+        return Err("times differ from run to run; only counts can be expected".into());
+    }
+    Ok(condition)
+}
+
+impl Step {
+    /// What only the parts together can get wrong; `divider` is the line with [`REVEAL`].
+    fn check(&self, divider: Option<usize>) -> Result<(), Wrong> {
+        let Some(question) = &self.question else {
+            return match divider {
+                Some(line) => Err((line, format!("'{REVEAL}' in a step without 'question'"))),
+                None => self.check_names(),
+            };
+        };
+        if divider.is_none() || self.after.is_empty() {
+            let reason = format!("a question needs text below a line '{REVEAL}' that tells");
+            return Err((question.line, reason));
+        }
+        if self.before.is_empty() {
+            return Err((self.line, "a step needs text above its question".into()));
+        }
+        self.check_names()
+    }
+
+    /// Every figure can be had, and none is told before the prediction that would give it away:
+    /// only what was specified and, where B is asked about, what is known of A.
+    fn check_names(&self) -> Result<(), Wrong> {
+        let answer = self.question.iter().flat_map(|question| {
+            let formulas = question.answer.formulas().into_iter();
+            formulas
+                .flat_map(|formula| formula.names())
+                .map(|name| (question.line, name))
+        });
+        let expected = self.expectations.iter().flat_map(|expectation| {
+            let sides = expectation.condition.sides().into_iter();
+            sides
+                .flat_map(|side| side.names())
+                .map(|name| (expectation.line, name))
+        });
+        let told = self.before.names().chain(self.after.names());
+        for (line, name) in told.chain(answer).chain(expected) {
+            if name.is_of_pixel() && self.setup.pixel.is_none() {
+                return Err((line, format!("{name:?}: the step has no 'pixel'")));
+            }
+            if name.side() != Some(Side::A) && self.setup.b.is_none() {
+                return Err((line, format!("{name:?}: the step has no tree 'b'")));
+            }
+        }
+        let known = |side| self.setup.b.is_some() && side == Some(Side::A);
+        let told = self.before.names();
+        match told
+            .into_iter()
+            .find(|(_, name)| !name.is_given() && !known(name.side()))
+        {
+            Some((line, name)) => Err((
+                line,
+                format!("{name:?} would be told before the prediction; move it below '{REVEAL}'"),
+            )),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! Where the time of a picture goes: the counts of equation (1) for every pixel, and what they take.
+
+use super::observe::each_ray;
+use super::{Fit, InPlace, Term};
+use crate::primitive::PrimitiveKind;
+use crate::progress::Progress;
+use crate::scene::Scene;
+use crate::trace::{RenderError, RenderSettings};
+use crate::tree::Tree;
+use std::ops::AddAssign;
+
+const KINDS: usize = PrimitiveKind::ALL.len();
+
+/// What rays did, as the corrected equation (1) counts it; arrays are by [`PrimitiveKind`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayTerms<N = u64> {
+    /// Rays of all kinds.
+    pub rays: N,
+    /// Nodes traversed.
+    pub nodes: N,
+    /// Tests that hit.
+    pub hits: [N; KINDS],
+    /// Tests that miss.
+    pub misses: [N; KINDS],
+}
+
+impl RayTerms {
+    /// How often the time of a term is spent; that of [`Term::Constant`] once a ray.
+    pub fn count(&self, term: Term) -> u64 {
+        match term {
+            Term::Constant => self.rays,
+            Term::Node => self.nodes,
+            Term::Hit(kind) => self.hits[kind as usize],
+            Term::Miss(kind) => self.misses[kind as usize],
+        }
+    }
+}
+
+impl AddAssign<&RayTerms<u32>> for RayTerms {
+    fn add_assign(&mut self, other: &RayTerms<u32>) {
+        self.rays += u64::from(other.rays);
+        self.nodes += u64::from(other.nodes);
+        for kind in 0..KINDS {
+            self.hits[kind] += u64::from(other.hits[kind]);
+            self.misses[kind] += u64::from(other.misses[kind]);
+        }
+    }
+}
+
+/// A rectangle of pixels: its first column and row, its width and height, at least 1 each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Region {
+    pub x: u32,
+    pub y: u32,
+    pub width: u32,
+    pub height: u32,
+}
+
+/// The counts of every pixel of a picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PictureTerms {
+    pub width: u32,
+    pub height: u32,
+    /// Row by row.
+    pub pixels: Vec<RayTerms<u32>>,
+}
+
+impl PictureTerms {
+    /// Counts sample 0 of every pixel, on this thread.
+    ///
+    /// # Errors
+    /// A camera without a view, a resolution out of range, or cancellation.
+    pub fn count(
+        scene: &Scene,
+        tree: &Tree,
+        render: &RenderSettings,
+        progress: &Progress,
+    ) -> Result<PictureTerms, RenderError> {
+        let (width, height) = (render.width, render.height);
+        let mut pixels = vec![RayTerms::default(); width as usize * height as usize];
+        each_ray(scene, tree, render, progress, |traced, watcher| {
+            let (x, y) = traced.pixel;
+            let pixel = &mut pixels[y as usize * width as usize + x as usize];
+            pixel.rays += 1;
+            pixel.nodes += watcher.nodes as u32;
+            for &(object, hit) in &watcher.tests {
+                let kind = scene.objects()[object as usize].kind() as usize;
+                let counts = match hit {
+                    Some(_) => &mut pixel.hits,
+                    None => &mut pixel.misses,
+                };
+                counts[kind] += 1;
+            }
+        })?;
+        Ok(PictureTerms {
+            width,
+            height,
+            pixels,
+        })
+    }
+
+    /// The sum over the pixels of a region, as far as they lie in the picture; `None` is the whole.
+    pub fn sum(&self, region: Option<Region>) -> RayTerms {
+        let region = region.unwrap_or(Region {
+            x: 0,
+            y: 0,
+            width: self.width,
+            height: self.height,
+        });
+        let columns = region.x.min(self.width)..(region.x + region.width).min(self.width);
+        let mut sum = RayTerms::default();
+        for y in region.y..(region.y + region.height).min(self.height) {
+            let start = y as usize * self.width as usize;
+            let row = start + columns.start as usize..start + columns.end as usize;
+            self.pixels[row].iter().for_each(|pixel| sum += pixel);
+        }
+        sum
+    }
+}
+
+/// What the terms of equation (1) take, in seconds; [`Term::Constant`] for a ray.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TermTimes(Vec<(Term, f64)>);
+
+/// A term's part of the time of some rays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part {
+    pub term: Term,
+    /// How often its time is spent.
+    pub count: u64,
+    /// For one.
+    pub each: f64,
+}
+
+impl Part {
+    /// All together, in seconds.
+    pub fn seconds(&self) -> f64 {
+        self.count as f64 * self.each
+    }
+}
+
+impl TermTimes {
+    /// The times of a fit to pictures of so many rays.
+    pub fn of_fit(fit: &Fit, rays: u64) -> TermTimes {
+        let coefficients = fit.coefficients.iter();
+        let each = coefficients.map(|c| match c.term {
+            Term::Constant => (c.term, c.seconds / rays.max(1) as f64),
+            term => (term, c.seconds),
+        });
+        TermTimes(each.collect())
+    }
+
+    /// Times taken in place: all but the constant.
+    pub fn of_in_place(times: &InPlace) -> TermTimes {
+        let kinds = || PrimitiveKind::ALL.into_iter();
+        let terms = [Term::Node]
+            .into_iter()
+            .chain(kinds().map(Term::Miss))
+            .chain(kinds().map(Term::Hit));
+        let each = terms.filter_map(|term| Some((term, times.seconds(term)?)));
+        TermTimes(each.collect())
+    }
+
+    /// What these counts take, term by term.
+    pub fn parts(&self, counts: &RayTerms) -> Vec<Part> {
+        let each = self.0.iter();
+        each.map(|&(term, each)| Part {
+            term,
+            count: counts.count(term),
+            each,
+        })
+        .collect()
+    }
+}

@@ -1,0 +1,78 @@
+//! A parameter of a sweep over the greatest depth: a curve for every method and leaf size.
+
+use super::Row;
+use crate::measure::{Parameter, Unit, parameter};
+
+/// One curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// The method and the leaf size.
+    pub name: String,
+    /// Place of its method, in the order of rows.
+    pub method: usize,
+    /// Tells the curves of one method apart, from 0.
+    pub mark: usize,
+    /// By depth; one at least.
+    pub points: Vec<CurvePoint>,
+}
+
+/// A point of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvePoint {
+    /// `D_MAX`.
+    pub depth: f64,
+    /// Shares in per cent.
+    pub value: f64,
+    /// Place of its row.
+    pub row: usize,
+}
+
+/// The curves in the order of rows; rows without a value are left out.
+pub fn curves(rows: &[Row], shown: &Parameter) -> Vec<Curve> {
+    let factor = if shown.unit == Unit::Percent {
+        100.0
+    } else {
+        1.0
+    };
+    let depth = parameter("D_MAX");
+    let mut methods: Vec<&str> = Vec::new();
+    let mut curves: Vec<Curve> = Vec::new();
+    for (place, row) in rows.iter().enumerate() {
+        let (Some(depth), Some(value)) = (row.value(depth), row.value(shown)) else {
+            continue;
+        };
+        let method = row.key.method.as_str();
+        let known = methods.iter().position(|known| *known == method);
+        let method_place = known.unwrap_or_else(|| {
+            methods.push(method);
+            methods.len() - 1
+        });
+        let name = format!("{method}, N_OILF {}", row.key.n_oilf);
+        let point = CurvePoint {
+            depth,
+            value: value * factor,
+            row: place,
+        };
+        match curves.iter_mut().find(|curve| curve.name == name) {
+            Some(curve) => curve.points.push(point),
+            None => curves.push(Curve {
+                name,
+                method: method_place,
+                mark: curves.iter().filter(|c| c.method == method_place).count(),
+                points: vec![point],
+            }),
+        }
+    }
+    for curve in &mut curves {
+        curve.points.sort_by(|a, b| a.depth.total_cmp(&b.depth));
+    }
+    curves
+}
+
+/// Values that differ by more than this factor are drawn by their logarithm.
+const WIDE: f64 = 20.0;
+
+/// Whether values from the least to the most are drawn by their logarithm.
+pub fn is_wide(least: f64, most: f64) -> bool {
+    least > 0.0 && most > WIDE * least
+}

@@ -1,0 +1,65 @@
+//! The machine that figures come from, and when.
+
+use sysinfo::{CpuRefreshKind, MemoryRefreshKind, RefreshKind, System};
+use time::OffsetDateTime;
+use time::macros::format_description;
+
+/// What a report says of the machine; what is not known is a dash.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machine {
+    pub processor: String,
+    pub cores: String,
+    /// Physical memory.
+    pub memory: String,
+    pub system: String,
+    /// Of this program, and what it was built for.
+    pub version: String,
+}
+
+impl Machine {
+    /// This one.
+    pub fn here() -> Self {
+        let known = RefreshKind::nothing()
+            .with_cpu(CpuRefreshKind::nothing())
+            .with_memory(MemoryRefreshKind::nothing().with_ram());
+        let system = System::new_with_specifics(known);
+        let dash = || "–".to_owned();
+        let processor = system
+            .cpus()
+            .first()
+            .map(|cpu| cpu.brand().trim().to_owned());
+        let threads = std::thread::available_parallelism();
+        let physical = System::physical_core_count();
+        let memory = system.total_memory();
+        Machine {
+            processor: processor
+                .filter(|name| !name.is_empty())
+                .unwrap_or_else(dash),
+            cores: match (physical, threads) {
+                (Some(cores), Ok(threads)) => format!("{cores}, {threads} threads at once"),
+                (None, Ok(threads)) => format!("{threads} threads at once"),
+                (Some(cores), Err(_)) => cores.to_string(),
+                (None, Err(_)) => dash(),
+            },
+            memory: match memory {
+                0 => dash(),
+                bytes => format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30)),
+            },
+            system: System::long_os_version().unwrap_or_else(dash),
+            version: format!(
+                "bspscope {} for {} on {}",
+                env!("CARGO_PKG_VERSION"),
+                std::env::consts::ARCH,
+                std::env::consts::OS
+            ),
+        }
+    }
+}
+
+/// Now, as a report has it: date and time in UTC.
+pub fn now() -> String {
+    let format = format_description!("[year]-[month]-[day] [hour]:[minute] UTC");
+    let now = OffsetDateTime::now_utc();
+    now.format(&format)
+        .unwrap_or_else(|_| now.date().to_string())
+}

@@ -1,0 +1,221 @@
+//! Meshes as the nodes place them.
+
+use super::accessor::Elements;
+use super::material;
+use crate::geometry::Vec3;
+use crate::progress::Progress;
+use crate::scene::format::gather::Gatherer;
+use crate::scene::format::{MOST_FACES, Place, ReadError};
+use crate::scene::{Material, NoteKind};
+use glam::{DMat3, DMat4};
+use gltf_json::accessor::Type;
+use gltf_json::mesh::{Mode, Primitive, Semantic};
+use gltf_json::validation::Checked;
+use gltf_json::{Index, Mesh, Root};
+use std::borrow::Cow;
+
+/// Triangles between two looks at whether the task was cancelled.
+const STEPS_PER_CHECK: usize = 4096;
+
+/// A part of a mesh takes as long as so many triangles, even if it has none.
+const STEPS_PER_PART: usize = 16;
+
+/// Adds the triangles of every placed mesh.
+pub(super) fn read(
+    root: &Root,
+    buffers: &[Cow<'_, [u8]>],
+    placed: &[(Index<Mesh>, DMat4)],
+    found: &mut Gatherer,
+    progress: &Progress,
+) -> Result<(), ReadError> {
+    for (number, material) in root.materials.iter().enumerate() {
+        for _ in 0..material::textures(material) {
+            let place = Place::Element("material", number);
+            found.note(NoteKind::Skipped, "texture", place);
+        }
+    }
+    let mut reader = Reader {
+        root,
+        buffers,
+        found,
+        progress,
+        steps: 0,
+    };
+    for (done, (mesh, world)) in placed.iter().enumerate() {
+        let place = Place::Element("mesh", mesh.value());
+        let Some(mesh) = root.meshes.get(mesh.value()) else {
+            let expected = format_args!("one of {} meshes", root.meshes.len());
+            return Err(ReadError::at(place, expected, "none"));
+        };
+        for (part, primitive) in mesh.primitives.iter().enumerate() {
+            let parts = (placed.len() * mesh.primitives.len()) as f64;
+            let at = (done * mesh.primitives.len() + part) as f64;
+            let share = [at / parts, (at + 1.0) / parts];
+            reader.part(primitive, world, place, share)?;
+        }
+    }
+    Ok(())
+}
+
+struct Reader<'a, 'g> {
+    root: &'a Root,
+    buffers: &'a [Cow<'a, [u8]>],
+    found: &'g mut Gatherer,
+    progress: &'a Progress,
+    /// The work so far, in triangles; a file can place few parts very often.
+    steps: usize,
+}
+
+impl<'a> Reader<'a, '_> {
+    /// Counts work that takes as long as so many triangles.
+    fn work(&mut self, steps: usize, place: Place, fraction: f64) -> Result<(), ReadError> {
+        let before = self.steps / STEPS_PER_CHECK;
+        self.steps += steps;
+        if self.steps / STEPS_PER_CHECK > before {
+            self.progress.check()?;
+            self.progress.set(fraction);
+        }
+        if self.steps > 2 * MOST_FACES {
+            let most = format_args!("at most {} parts of meshes and triangles", 2 * MOST_FACES);
+            return Err(ReadError::at(place, most, "more"));
+        }
+        Ok(())
+    }
+
+    /// Adds a part of a mesh; `share` is the stretch of the progress that it fills.
+    fn part(
+        &mut self,
+        primitive: &Primitive,
+        world: &DMat4,
+        place: Place,
+        share: [f64; 2],
+    ) -> Result<(), ReadError> {
+        self.work(STEPS_PER_PART, place, share[0])?;
+        let Some(part) = self.checked(primitive, world, place)? else {
+            return Ok(());
+        };
+        for triangle in 0..part.triangles {
+            let done = triangle as f64 / part.triangles as f64;
+            let fraction = share[0] + done * (share[1] - share[0]);
+            self.work(1, place, fraction)?;
+            let (mut vertices, mut directions) = ([Vec3::ZERO; 3], [Vec3::ZERO; 3]);
+            for (i, corner) in part.corners(triangle).into_iter().enumerate() {
+                let vertex = match part.indices {
+                    Some(indices) => indices.whole(corner),
+                    None => Some(corner),
+                };
+                let position = vertex.and_then(|vertex| part.positions.vector(vertex));
+                let (Some(vertex), Some(position)) = (vertex, position) else {
+                    let expected = format_args!("indices below {}", part.positions.len());
+                    return Err(ReadError::at(place, expected, "a larger one"));
+                };
+                vertices[i] = world.transform_point3(position);
+                if let Some((normals, turned)) = part.normals {
+                    let Some(normal) = normals.vector(vertex) else {
+                        return Err(ReadError::at(place, "a normal for every vertex", "fewer"));
+                    };
+                    directions[i] = (turned * normal).normalize_or_zero();
+                }
+            }
+            let directions = part.normals.is_some().then_some(&directions[..]);
+            self.found.face(place, &vertices, directions)?;
+        }
+        Ok(())
+    }
+
+    /// What a part is made of, its material set; `None`, noted, where it is nothing for us.
+    fn checked(
+        &mut self,
+        primitive: &Primitive,
+        world: &DMat4,
+        place: Place,
+    ) -> Result<Option<Part<'a>>, ReadError> {
+        let (root, buffers) = (self.root, self.buffers);
+        let mut skipped = |what: &str| {
+            self.found.note(NoteKind::Skipped, what, place);
+            Ok(None)
+        };
+        let accessor = |index, wanted| Elements::of(root, buffers, index, wanted);
+        let attribute = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
+        let Some(index) = attribute(Semantic::Positions) else {
+            return skipped("part of a mesh without positions");
+        };
+        const SPARSE: &str = "part of a mesh with sparse accessors";
+        let Some(positions) = accessor(index, Type::Vec3)? else {
+            return skipped(SPARSE);
+        };
+        let mut normals = None;
+        if let Some(index) = attribute(Semantic::Normals) {
+            let Some(elements) = accessor(index, Type::Vec3)? else {
+                return skipped(SPARSE);
+            };
+            // Normals are at right angles to surfaces, which need not be scaled alike everywhere.
+            let linear = DMat3::from_mat4(*world);
+            let turned = linear.inverse().transpose();
+            normals = turned.is_finite().then_some((elements, turned));
+        }
+        let mut indices = None;
+        if let Some(index) = primitive.indices {
+            indices = accessor(index, Type::Scalar)?;
+            match &indices {
+                None => return skipped(SPARSE),
+                Some(elements) if elements.are_indices() => {}
+                Some(_) => {
+                    return Err(ReadError::at(place, "whole numbers as indices", "others"));
+                }
+            }
+        }
+        let count = indices.map_or(positions.len(), |indices| indices.len());
+        let (mode, triangles) = match primitive.mode {
+            Checked::Valid(Mode::Triangles) => (Mode::Triangles, count / 3),
+            Checked::Valid(mode @ (Mode::TriangleStrip | Mode::TriangleFan)) => {
+                (mode, count.saturating_sub(2))
+            }
+            _ => return skipped("lines or points, which are no surfaces"),
+        };
+        if primitive.targets.is_some() {
+            const TEXT: &str = "morph target, the mesh taken as it stands";
+            self.found.note(NoteKind::Skipped, TEXT, place);
+        }
+        let material = primitive.material.map(|m| root.materials.get(m.value()));
+        self.found.set_material(match material {
+            None => Material::default(),
+            Some(Some(material)) => material::of(material),
+            Some(None) => {
+                return Err(ReadError::at(place, "a material", "none of this number"));
+            }
+        });
+        Ok(Some(Part {
+            positions,
+            normals,
+            indices,
+            mode,
+            triangles,
+        }))
+    }
+}
+
+/// A part of a mesh, all that it needs being there.
+struct Part<'a> {
+    positions: Elements<'a>,
+    /// With what turns them into the world.
+    normals: Option<(Elements<'a>, DMat3)>,
+    /// `None` where the positions follow one another.
+    indices: Option<Elements<'a>>,
+    mode: Mode,
+    triangles: usize,
+}
+
+impl Part<'_> {
+    /// The corners of a triangle, as places among the indices.
+    fn corners(&self, triangle: usize) -> [usize; 3] {
+        let i = triangle;
+        match self.mode {
+            // Every other triangle of a strip runs the other way round.
+            Mode::TriangleStrip if i % 2 == 1 => [i + 1, i, i + 2],
+            Mode::TriangleStrip => [i, i + 1, i + 2],
+            Mode::TriangleFan => [0, i + 1, i + 2],
+            _ => [3 * i, 3 * i + 1, 3 * i + 2],
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! The middle of the cell's longest axis.
+
+use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
+
+pub(super) const METHOD: MethodInfo = MethodInfo {
+    name: "midpoint-longest",
+    title: "Midpoint of the longest axis",
+    about: "Splits every cell in the middle of its longest axis; of equally long ones the first.",
+    source: "I. Wald and V. Havran, On building fast kd-trees for ray tracing, 2006 (spatial median)",
+    paper: None,
+    paper_spheres_exactly: true,
+    structure: Structure::Bintree,
+    constants: &[],
+    rule: |_| Box::new(MidpointLongest),
+};
+
+struct MidpointLongest;
+
+impl SplitRule for MidpointLongest {
+    fn decide(&self, cell: &Cell<'_>) -> Decision {
+        let axis = cell.bounds.longest_axis();
+        Decision::Split {
+            axis,
+            plane: cell.midpoint(axis),
+        }
+    }
+}

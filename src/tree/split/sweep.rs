@@ -1,0 +1,103 @@
+//! Planes just beside the ends of a cell's objects, with what lies on their two sides.
+
+use super::Cell;
+use crate::geometry::{Aabb, Axis};
+
+/// Where the objects of a cell begin and end along an axis, each sorted.
+pub(super) struct Sweep {
+    pub(super) lows: Vec<f64>,
+    pub(super) highs: Vec<f64>,
+}
+
+/// A plane, and how many objects the driver puts on either side of it.
+#[derive(Clone, Copy)]
+pub(super) struct Beside {
+    pub(super) plane: f32,
+    /// Its coordinate in the world.
+    pub(super) world: f64,
+    pub(super) below: usize,
+    pub(super) above: usize,
+}
+
+impl Sweep {
+    /// Of extents in any order.
+    pub(super) fn new(extents: impl Iterator<Item = [f64; 2]>) -> Self {
+        let (mut lows, mut highs): (Vec<f64>, Vec<f64>) = extents.map(|[lo, hi]| (lo, hi)).unzip();
+        lows.sort_unstable_by(f64::total_cmp);
+        highs.sort_unstable_by(f64::total_cmp);
+        Sweep { lows, highs }
+    }
+
+    /// The planes inside the cell that lie more than the length `epsilon` below where an object
+    /// begins, then those above where one ends; both ascending.
+    pub(super) fn planes<'a>(
+        &'a self,
+        cell: &'a Cell<'_>,
+        axis: Axis,
+        epsilon: f64,
+    ) -> impl Iterator<Item = Beside> + 'a {
+        let below_lows = self
+            .lows
+            .iter()
+            .map(move |&lo| cell.frame.plane_below(axis, lo - epsilon));
+        let above_highs = self
+            .highs
+            .iter()
+            .map(move |&hi| cell.frame.plane_above(axis, hi + epsilon));
+        let slack = cell.frame.slack();
+        let mut last = f32::NAN;
+        below_lows
+            .chain(above_highs)
+            .filter(move |&plane| {
+                let new = plane != last;
+                last = plane;
+                new && cell.divides(axis, plane)
+            })
+            .map(move |plane| {
+                let world = cell.frame.to_world(axis, f64::from(plane));
+                // As the driver counts: an object within the slack of the plane is on both sides.
+                Beside {
+                    plane,
+                    world,
+                    below: self.lows.partition_point(|&lo| lo <= world + slack),
+                    above: self.highs.len() - self.highs.partition_point(|&hi| hi < world - slack),
+                }
+            })
+    }
+}
+
+/// Surface areas of the two parts of a cell, as linear functions of the plane.
+pub(super) struct Areas {
+    lo: f64,
+    hi: f64,
+    /// Area of the two faces parallel to the plane.
+    faces: f64,
+    /// Area of the other four faces a unit of length.
+    rim: f64,
+}
+
+impl Areas {
+    pub(super) fn new(bounds: &Aabb, axis: Axis) -> Self {
+        let (k, size) = (axis.index(), bounds.size());
+        let (u, v) = (size[(k + 1) % 3], size[(k + 2) % 3]);
+        Areas {
+            lo: bounds.lo[k],
+            hi: bounds.hi[k],
+            faces: 2.0 * u * v,
+            rim: 2.0 * (u + v),
+        }
+    }
+
+    /// Objects on the two sides of a plane of the world, each times the area of its side.
+    pub(super) fn weigh(&self, plane: f64, below: usize, above: usize) -> f64 {
+        below as f64 * self.below(plane) + above as f64 * self.above(plane)
+    }
+
+    fn below(&self, plane: f64) -> f64 {
+        self.faces + self.rim * (plane - self.lo)
+    }
+
+    fn above(&self, plane: f64) -> f64 {
+        self.faces + self.rim * (self.hi - plane)
+    }
+}

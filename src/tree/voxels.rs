@@ -1,0 +1,104 @@
+//! The voxels of a uniform grid, found by their place, so that rays step from one to the next.
+
+use super::{Node, NodeKind};
+
+/// Every voxel of a grid with its leaf, and the planes between them.
+#[derive(Debug)]
+pub struct Voxels {
+    /// By axis, ascending, in the coordinates of the root cell.
+    planes: [Vec<f32>; 3],
+    /// x runs fastest, then y.
+    voxels: Vec<Voxel>,
+}
+
+/// A voxel's leaf, and the number of that node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Voxel {
+    pub(crate) leaf: Node,
+    pub(crate) node: u32,
+}
+
+impl Voxels {
+    /// Those of a tree whose planes all go through the whole root cell.
+    pub(super) fn of(nodes: &[Node]) -> Self {
+        let mut planes = [const { Vec::new() }; 3];
+        for node in nodes.iter().filter(|node| !node.is_leaf()) {
+            let (axis, plane, _) = node.as_inner();
+            planes[axis].push(plane);
+        }
+        for planes in &mut planes {
+            planes.sort_unstable_by(f32::total_cmp);
+            planes.dedup();
+            planes.shrink_to_fit();
+        }
+        let counts = planes.each_ref().map(|planes| planes.len() + 1);
+        let first = Voxel {
+            leaf: nodes[0],
+            node: 0,
+        };
+        let mut voxels = Voxels {
+            planes,
+            voxels: vec![first; counts.iter().product()],
+        };
+        let mut stack = vec![(0_u32, counts.map(|count| [0, count]))];
+        while let Some((node, ranges)) = stack.pop() {
+            match nodes[node as usize].kind(node) {
+                NodeKind::Inner {
+                    axis,
+                    plane,
+                    below,
+                    above,
+                } => {
+                    let k = axis.index();
+                    let (mut lower, mut upper) = (ranges, ranges);
+                    let at = 1 + voxels.planes[k].partition_point(|&p| p < plane);
+                    (lower[k][1], upper[k][0]) = (at, at);
+                    stack.extend([(below, lower), (above, upper)]);
+                }
+                NodeKind::Leaf { .. } => voxels.fill(ranges, nodes[node as usize], node),
+            }
+        }
+        voxels
+    }
+
+    fn fill(&mut self, [x, y, z]: [[usize; 2]; 3], leaf: Node, node: u32) {
+        for z in z[0]..z[1] {
+            for y in y[0]..y[1] {
+                for x in x[0]..x[1] {
+                    let index = self.index([x, y, z]);
+                    self.voxels[index] = Voxel { leaf, node };
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn index(&self, [x, y, z]: [usize; 3]) -> usize {
+        let [nx, ny, _] = self.counts();
+        x + nx * (y + ny * z)
+    }
+
+    /// Voxels along each axis.
+    #[inline]
+    pub fn counts(&self) -> [usize; 3] {
+        self.planes.each_ref().map(|planes| planes.len() + 1)
+    }
+
+    /// The planes between voxels along an axis (0 to 2), ascending, in the coordinates of the root
+    /// cell.
+    #[inline]
+    pub(crate) fn planes(&self, axis: usize) -> &[f32] {
+        &self.planes[axis]
+    }
+
+    /// The voxel at a place along each axis.
+    #[inline]
+    pub(crate) fn at(&self, place: [usize; 3]) -> Voxel {
+        self.voxels[self.index(place)]
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        let planes: usize = self.planes.iter().map(|p| size_of_val(p.as_slice())).sum();
+        planes + size_of_val(self.voxels.as_slice())
+    }
+}

@@ -1,0 +1,71 @@
+//! Forms in which single values stand in the file.
+
+use serde::{Deserialize, Deserializer, Serializer, de::Error};
+
+/// A name that must be one of those known.
+pub fn one_of<'de, D: Deserializer<'de>>(
+    deserializer: D,
+    what: &str,
+    known: impl IntoIterator<Item = &'static str>,
+) -> Result<String, D::Error> {
+    let found = String::deserialize(deserializer)?;
+    let known: Vec<_> = known.into_iter().collect();
+    if known.contains(&found.as_str()) {
+        return Ok(found);
+    }
+    let known = known.join(", ");
+    Err(D::Error::custom(format!(
+        "no {what} is called '{found}'; there are {known}"
+    )))
+}
+
+/// A number that must lie from 0 to 1.
+pub fn share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    let found = f64::deserialize(deserializer)?;
+    if (0.0..=1.0).contains(&found) {
+        return Ok(found);
+    }
+    Err(D::Error::custom(format!(
+        "expected a number from 0 to 1, found {found}"
+    )))
+}
+
+/// Values that are written and read as text.
+pub mod text {
+    use super::{Deserialize, Deserializer, Error, Serializer};
+    use std::fmt::Display;
+    use std::str::FromStr;
+
+    pub fn serialize<T: Display, S: Serializer>(value: &T, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_str(value)
+    }
+
+    pub fn deserialize<'de, T, D>(deserializer: D) -> Result<T, D::Error>
+    where
+        T: FromStr<Err: Display>,
+        D: Deserializer<'de>,
+    {
+        let text = String::deserialize(deserializer)?;
+        text.parse().map_err(D::Error::custom)
+    }
+}
+
+/// A value in a form of its own, as one line of JSON.
+pub mod json {
+    use super::{Deserialize, Deserializer, Error, Serializer};
+    use serde_json::Value;
+
+    pub fn serialize<S: Serializer>(value: &Option<Value>, to: S) -> Result<S::Ok, S::Error> {
+        match value {
+            Some(value) => to.collect_str(value),
+            None => to.serialize_none(),
+        }
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Value>, D::Error> {
+        let text = String::deserialize(from)?;
+        serde_json::from_str(&text)
+            .map(Some)
+            .map_err(D::Error::custom)
+    }
+}

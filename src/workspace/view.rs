@@ -1,0 +1,275 @@
+//! What is shown of a scene and its trees. Everything has a default: a file may leave it out.
+
+use super::names;
+use crate::geometry::Axis;
+use crate::measure::heat::{HEATMAPS, RayFilter};
+use crate::overlay::{COLORINGS, COLORMAPS, Scale, Visited};
+use crate::scene::Camera;
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// One of the two trees of a comparison. Without one there is only A.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Which {
+    #[default]
+    A,
+    B,
+}
+
+impl Which {
+    pub const BOTH: [Which; 2] = [Which::A, Which::B];
+
+    pub const fn name(self) -> &'static str {
+        match self {
+            Which::A => "A",
+            Which::B => "B",
+        }
+    }
+
+    pub const fn other(self) -> Which {
+        match self {
+            Which::A => Which::B,
+            Which::B => Which::A,
+        }
+    }
+}
+
+/// How two pictures share the pane.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Arrangement {
+    /// The picture in front alone.
+    #[serde(rename = "one")]
+    One,
+    /// A to the left of a line that can be moved, B to the right of it.
+    #[default]
+    #[serde(rename = "wipe")]
+    Wipe,
+    /// A in the left half, B in the right one.
+    #[serde(rename = "side by side")]
+    Beside,
+    /// What B has more or less than A.
+    #[serde(rename = "difference")]
+    Difference,
+}
+
+impl Arrangement {
+    pub const ALL: [Arrangement; 4] = [
+        Arrangement::One,
+        Arrangement::Wipe,
+        Arrangement::Beside,
+        Arrangement::Difference,
+    ];
+
+    pub const fn name(self) -> &'static str {
+        match self {
+            Arrangement::One => "one",
+            Arrangement::Wipe => "wipe",
+            Arrangement::Beside => "side by side",
+            Arrangement::Difference => "difference",
+        }
+    }
+
+    pub const fn about(self) -> &'static str {
+        match self {
+            Arrangement::One => "The picture of the tree in front; hold F for the other's.",
+            Arrangement::Wipe => "A to the left of a line, B to the right; drag the line.",
+            Arrangement::Beside => {
+                "A in the left half, B in the right one, moved and zoomed together."
+            }
+            Arrangement::Difference => {
+                "Of a heatmap, pixel by pixel, B less A; of the picture, the pixels that differ."
+            }
+        }
+    }
+
+    /// The one after this one, in a circle.
+    pub fn next(self) -> Arrangement {
+        let all = Arrangement::ALL;
+        let at = all.iter().position(|view| *view == self);
+        all[(at.unwrap_or(0) + 1) % all.len()]
+    }
+}
+
+/// What is shown.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct View {
+    /// The tree that settings and panels are about.
+    pub front: Which,
+    /// How the pictures of two trees are arranged.
+    pub arrangement: Arrangement,
+    /// Where the line between them lies, 0 at the left edge to 1 at the right one.
+    #[serde(deserialize_with = "names::share")]
+    pub split: f64,
+    /// Pixels marked to come back to: column and row.
+    pub pinned: Vec<[u32; 2]>,
+    pub selected: Selected,
+    pub heatmap: Heat,
+    pub view3d: View3dSettings,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        View {
+            front: Which::default(),
+            arrangement: Arrangement::default(),
+            split: 0.5,
+            pinned: Vec::new(),
+            selected: Selected::default(),
+            heatmap: Heat::default(),
+            view3d: View3dSettings::default(),
+        }
+    }
+}
+
+/// What is selected, of the tree in front.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Selected {
+    /// Column and row of the pixel whose rays are followed.
+    pub pixel: Option<[u32; 2]>,
+    /// The selected one of its rays, by its place; 0 is the primary ray.
+    pub ray: usize,
+    /// The step of its walk, from 0.
+    pub step: usize,
+    /// Number of a node of the tree.
+    pub node: Option<u32>,
+    /// Number of an object of the scene.
+    pub object: Option<u32>,
+}
+
+/// The heatmap over the picture, by the names of the registries.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Heat {
+    /// Symbol of the heatmap; `None` for the picture alone.
+    #[serde(deserialize_with = "known_heatmap")]
+    pub show: Option<String>,
+    #[serde(deserialize_with = "known_rays")]
+    pub rays: String,
+    #[serde(deserialize_with = "known_scale")]
+    pub scale: String,
+    /// Colours of values.
+    #[serde(deserialize_with = "known_colors")]
+    pub colors: String,
+    /// Colours of differences.
+    #[serde(deserialize_with = "known_colors")]
+    pub difference_colors: String,
+    /// The ends that the colours are locked to; `None` for those of the values.
+    pub range: Option<[f64; 2]>,
+    /// How much of the picture is hidden, 0 to 1.
+    #[serde(deserialize_with = "names::share")]
+    pub opacity: f64,
+}
+
+impl Default for Heat {
+    fn default() -> Self {
+        let first = |diverging| {
+            let map = COLORMAPS.iter().find(|map| map.diverging == diverging);
+            map.expect("there are maps of both sorts").name.to_owned()
+        };
+        Heat {
+            show: None,
+            rays: RayFilter::default().name().to_owned(),
+            scale: Scale::default().name().to_owned(),
+            colors: first(false),
+            difference_colors: first(true),
+            range: None,
+            opacity: 1.0,
+        }
+    }
+}
+
+fn known_heatmap<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {
+    names::one_of(from, "heatmap", HEATMAPS.iter().map(|map| map.symbol)).map(Some)
+}
+
+fn known_rays<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+    names::one_of(from, "kind of rays", RayFilter::ALL.map(RayFilter::name))
+}
+
+fn known_scale<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+    names::one_of(from, "scale", Scale::ALL.map(Scale::name))
+}
+
+fn known_colors<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+    names::one_of(from, "colour map", COLORMAPS.iter().map(|map| map.name))
+}
+
+fn known_coloring<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+    names::one_of(
+        from,
+        "colouring of leaves",
+        COLORINGS.iter().map(|c| c.name),
+    )
+}
+
+/// The 3D view.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct View3dSettings {
+    pub objects: bool,
+    pub leaf_boxes: bool,
+    /// Name of the colouring of leaves.
+    #[serde(deserialize_with = "known_coloring")]
+    pub coloring: String,
+    pub full_leaves: bool,
+    pub empty_leaves: bool,
+    /// Leaves by whether rays of the picture visited them.
+    pub visited: Visited,
+    /// Least depth of a leaf shown.
+    pub least_depth: u32,
+    /// Greatest depth of a leaf shown; `None` for all.
+    pub greatest_depth: Option<u32>,
+    /// Of all leaves, only those that the picked ray visited.
+    pub only_visited: bool,
+    /// All rays of the picked pixel rather than the selected one.
+    pub all_rays: bool,
+    pub orthographic: bool,
+    /// The camera of the view; `None` where it is the picture's.
+    pub camera: Option<Camera>,
+    pub cut: CutSettings,
+}
+
+impl Default for View3dSettings {
+    fn default() -> Self {
+        View3dSettings {
+            objects: true,
+            leaf_boxes: true,
+            coloring: COLORINGS[0].name.to_owned(),
+            full_leaves: true,
+            empty_leaves: true,
+            visited: Visited::default(),
+            least_depth: 0,
+            greatest_depth: None,
+            only_visited: false,
+            all_rays: true,
+            orthographic: false,
+            camera: None,
+            cut: CutSettings::default(),
+        }
+    }
+}
+
+/// The plane that cuts the 3D view open.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct CutSettings {
+    pub on: bool,
+    pub axis: Axis,
+    /// Where the plane lies on each axis, 0 to 1 through the root cell.
+    pub places: [f64; 3],
+    /// Whether the lesser side is hidden rather than the greater.
+    pub hides_less: bool,
+}
+
+impl Default for CutSettings {
+    fn default() -> Self {
+        CutSettings {
+            on: false,
+            axis: Axis::X,
+            places: [0.5; 3],
+            hides_less: false,
+        }
+    }
+}

@@ -1,0 +1,384 @@
+//! Lessons: those that come with the program hold, and broken ones are told by line and reason.
+
+use bspscope::lesson::{LESSONS, Lesson, Measurer, Prediction, check, check_step};
+use bspscope::progress::Progress;
+use std::path::Path;
+use std::process::Command;
+
+/// A lesson of one step, with these settings and this text.
+fn lesson_with(settings: &str, text: &str) -> String {
+    format!(
+        "+++\ntitle = \"T\"\nabout = \"A\"\n+++\n\n# Step\n\n```toml\n{settings}\n```\n\n{text}\n"
+    )
+}
+
+/// Line of the first line of the settings in [`lesson_with`].
+const SETTINGS: usize = 9;
+
+const TREES: &str = "scene = \"tetra:2\"\nsize = [16, 16]\na = \"method=midpoint,d-max=6\"\n\
+                     b = \"method=none\"";
+
+fn faults(text: &str) -> Vec<(usize, String)> {
+    let lesson = Lesson::parse(text, "test.md").unwrap();
+    let wrong = check(&lesson, &Progress::new()).unwrap();
+    wrong.into_iter().map(|w| (w.line, w.reason)).collect()
+}
+
+#[test]
+fn every_lesson_holds() {
+    assert_eq!(LESSONS.len(), 6);
+    for known in LESSONS {
+        let lesson = known.read();
+        let asked = lesson.steps.iter().filter(|s| s.question.is_some()).count();
+        let expected: usize = lesson.steps.iter().map(|s| s.expectations.len()).sum();
+        assert!(
+            (4..=7).contains(&asked),
+            "{}: {asked} questions",
+            known.name
+        );
+        assert!(expected >= asked, "{}: {expected} conditions", known.name);
+        let wrong = check(&lesson, &Progress::new()).unwrap();
+        assert!(wrong.is_empty(), "{wrong:?}");
+    }
+}
+
+#[test]
+fn every_file_of_the_folder_is_a_lesson_of_the_program() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons");
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|file| file.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name != "README.md")
+        .collect();
+    files.sort();
+    let mut known: Vec<_> = LESSONS.iter().map(|l| format!("{}.md", l.name)).collect();
+    known.sort();
+    assert_eq!(files, known);
+}
+
+/// What the text says is what the library measures, whoever fills it in.
+#[test]
+fn figures_are_filled_in_from_what_was_measured() {
+    let settings = format!(
+        "{TREES}\npixel = [8, 8]\nquestion = \"?\"\nnumber = \"b.N_IT / a.N_IT\"\nwithin = \"10 %\""
+    );
+    let text = "{a.N_LS}\n\n---\n\n{b.N_LS} {a.N_IT} {b.ray.N_IT} {differing} {2 * 3 as whole} \
+                {1 / 4 as %}";
+    let lesson = Lesson::parse(&lesson_with(&settings, text), "test.md").unwrap();
+    let step = &lesson.steps[0];
+    let figures = Measurer::default()
+        .measure(&lesson, step, &Progress::new())
+        .unwrap();
+    assert_eq!(check_step(&lesson, step, &figures), []);
+    let of_b = figures.b.as_ref().unwrap();
+    let tests = |m: &bspscope::measure::Measurement| m.all_rays().unwrap().tests;
+    let (a, b) = (&figures.a.measurement, &of_b.measurement);
+    assert_eq!(step.before.fill(None).trim(), "…");
+    assert_eq!(
+        step.before.fill(Some(&figures)).trim(),
+        bspscope::measure::grouped(a.tree.leaves as f64)
+    );
+    let in_ray = of_b.pixel.unwrap()[0].tests;
+    assert_eq!(
+        in_ray, 16,
+        "without a tree the ray is tested against all objects"
+    );
+    let tests_of_a = bspscope::measure::grouped(tests(a) as f64);
+    assert_eq!(
+        step.after.fill(Some(&figures)).trim(),
+        format!("1 {tests_of_a} {in_ray} 0 6 25.00 %")
+    );
+    // A prediction within 10 % is right, one beyond is not.
+    let truth = tests(b) as f64 / tests(a) as f64;
+    let answer = &step.question.as_ref().unwrap().answer;
+    let right = |share: f64| {
+        let prediction = Prediction::Number(truth * share);
+        answer.judge(prediction, &figures).unwrap().right
+    };
+    assert_eq!(
+        [0.89, 0.91, 1.09, 1.11].map(right),
+        [false, true, true, false]
+    );
+}
+
+#[test]
+fn a_comparison_knows_more_from_less() {
+    let settings = format!("{TREES}\nquestion = \"?\"\ncompare = [\"b.N_IT\", \"a.N_IT\"]");
+    let lesson = Lesson::parse(&lesson_with(&settings, "x\n\n---\n\ny"), "test.md").unwrap();
+    let step = &lesson.steps[0];
+    let figures = Measurer::default()
+        .measure(&lesson, step, &Progress::new())
+        .unwrap();
+    let answer = &step.question.as_ref().unwrap().answer;
+    let verdicts = [0, 1, 2].map(|place| {
+        let verdict = answer.judge(Prediction::Choice(place), &figures).unwrap();
+        assert_eq!(verdict.truth, "More");
+        (verdict.predicted, verdict.right)
+    });
+    let expected = [("More", true), ("The same", false), ("Less", false)];
+    assert_eq!(
+        verdicts,
+        expected.map(|(text, right)| (text.to_owned(), right))
+    );
+    assert_eq!(answer.judge(Prediction::Number(1.0), &figures), None);
+}
+
+#[test]
+fn what_does_not_hold_is_told_with_its_line() {
+    let question = "question = \"?\"\nnumber = \"a.N_LS\"\nwithin = \"1\"";
+    let reveal = "x\n\n---\n\ny";
+    let settings =
+        format!("{TREES}\n{question}\nexpect = [\n  \"a.N_LS > 1\",\n  \"b.N_LS > 1\",\n]");
+    let wrong = faults(&lesson_with(&settings, reveal));
+    assert_eq!(wrong.len(), 1, "{wrong:?}");
+    assert_eq!(wrong[0].0, SETTINGS + 9);
+    assert!(
+        wrong[0]
+            .1
+            .contains("expected b.N_LS > 1, found 1 on the left"),
+        "{wrong:?}"
+    );
+
+    // No hit, no tests per hit.
+    let camera = "camera = { from = [9, 9, 9], at = [99, 99, 99] }";
+    let settings = format!("{TREES}\n{camera}\n{question}");
+    let wrong = faults(&lesson_with(&settings, "x\n\n---\n\n{a.N_RPRT}"));
+    assert_eq!(wrong.len(), 1, "{wrong:?}");
+    assert!(wrong[0].1.contains("{a.N_RPRT} has no value"), "{wrong:?}");
+
+    let choices = "question = \"?\"\nchoices = [[\"x\", \"a.N_LS > 0\"], [\"y\", \"b.N_LS = 1\"]]";
+    let wrong = faults(&lesson_with(&format!("{TREES}\n{choices}"), reveal));
+    assert_eq!(wrong.len(), 1, "{wrong:?}");
+    assert_eq!(wrong[0].0, SETTINGS + 4);
+    assert!(
+        wrong[0].1.starts_with("2 of the choices are right"),
+        "{wrong:?}"
+    );
+
+    let wrong = faults(&lesson_with(
+        &format!("scene = \"not-there.nff\"\na = \"method=none\"\n{question}"),
+        reveal,
+    ));
+    assert_eq!(wrong.len(), 1, "{wrong:?}");
+    assert_eq!(wrong[0].0, SETTINGS);
+    assert!(wrong[0].1.contains("not-there.nff"), "{wrong:?}");
+}
+
+#[test]
+fn broken_files_are_refused_with_line_and_reason() {
+    let step = |settings: &str, text: &str| lesson_with(&format!("{TREES}\n{settings}"), text);
+    let asked = "question = \"?\"\nnumber = \"b.N_LS\"\nwithin = \"1\"";
+    let reveal = "x\n\n---\n\ny";
+    let cases: Vec<(String, usize, &str)> = vec![
+        (String::new(), 1, "expected the line +++"),
+        ("+++\ntitle = \"T\"\n".into(), 1, "no second line +++"),
+        ("+++\ntitle = \"T\"\n+++\n# S\n".into(), 2, "about"),
+        (
+            "+++\ntitle = \"T\"\nabout = \"A\"\nx = 1\n+++\n".into(),
+            4,
+            "unknown field",
+        ),
+        (
+            "+++\ntitle = \"T\"\nabout = \"A\"\n+++\n\n".into(),
+            4,
+            "no step",
+        ),
+        (
+            "+++\ntitle = \"T\"\nabout = \"A\"\n+++\n\nText\n".into(),
+            6,
+            "expected a heading",
+        ),
+        (
+            "+++\ntitle = \"T\"\nabout = \"A\"\n+++\n\n# S\n\nText\n".into(),
+            6,
+            "```toml",
+        ),
+        (
+            "+++\ntitle = \"T\"\nabout = \"A\"\n+++\n\n# S\n```toml\na = 1\n".into(),
+            7,
+            "no end",
+        ),
+        (
+            lesson_with("a = \"method=none\"", reveal),
+            SETTINGS,
+            "scene",
+        ),
+        (
+            lesson_with("scene = \"balls\"\na = \"method=no\"", reveal),
+            SETTINGS + 1,
+            "no build method",
+        ),
+        (
+            lesson_with("scene = \"balls\"\na = \"d-max=4\"", reveal),
+            SETTINGS + 1,
+            "method=NAME",
+        ),
+        (
+            step("colour = \"red\"", reveal),
+            SETTINGS + 4,
+            "unknown field",
+        ),
+        (step("= 3", reveal), SETTINGS + 4, ""),
+        (
+            step("heatmap = \"N_XYZ\"", reveal),
+            SETTINGS + 4,
+            "no heatmap",
+        ),
+        (step("pixel = [16, 0]", reveal), SETTINGS + 4, "outside"),
+        (
+            step("camera = { from = [1, 1, 1], at = [1, 1, 1] }", reveal),
+            SETTINGS + 4,
+            "camera",
+        ),
+        (
+            step("number = \"a.N_LS\"", reveal),
+            SETTINGS + 4,
+            "without 'question'",
+        ),
+        (
+            step("question = \"?\"", reveal),
+            SETTINGS + 4,
+            "one of 'number'",
+        ),
+        (
+            step("question = \"?\"\nnumber = \"a.N_LS\"", reveal),
+            SETTINGS + 5,
+            "'within'",
+        ),
+        (
+            step(
+                "question = \"?\"\nnumber = \"a.NO\"\nwithin = \"1\"",
+                reveal,
+            ),
+            SETTINGS + 5,
+            "NO",
+        ),
+        (
+            step(
+                "question = \"?\"\nnumber = \"a.N_LS\"\nwithin = \"x\"",
+                reveal,
+            ),
+            SETTINGS + 6,
+            "20 %",
+        ),
+        (
+            step(
+                "question = \"?\"\nchoices = [[\"x\", \"a.N_LS > 0\"]]",
+                reveal,
+            ),
+            SETTINGS + 5,
+            "two",
+        ),
+        (
+            step("expect = [\"a.N_LS\"]", reveal),
+            SETTINGS + 4,
+            "expected <",
+        ),
+        (
+            step("expect = [\"a.T_TR > 0\"]", reveal),
+            SETTINGS + 4,
+            "times differ",
+        ),
+        (
+            step("expect = [\"a.ray.N_IT > 0\"]", "x"),
+            6 + 3 + 4,
+            "no 'pixel'",
+        ),
+        (step(asked, "x"), SETTINGS + 4, "'---'"),
+        (step(asked, "\n---\n\ny"), 6, "text above"),
+        (step("", reveal), SETTINGS + 9, "without 'question'"),
+        (
+            step(asked, "x {b.N_LS}\n\n---\n\ny"),
+            SETTINGS + 9,
+            "before the prediction",
+        ),
+        (step(asked, "x\n\n---\n\n{b.N_LS"), SETTINGS + 13, "'}'"),
+        (
+            lesson_with(
+                "scene = \"balls\"\na = \"method=none\"\nquestion = \"?\"\nnumber = \"b.N_LS\"\n\
+                 within = \"1\"",
+                reveal,
+            ),
+            SETTINGS + 2,
+            "no tree 'b'",
+        ),
+    ];
+    let mut unlike = Vec::new();
+    for (text, line, reason) in cases {
+        let error = match Lesson::parse(&text, "broken.md") {
+            Ok(_) => panic!("taken: {text}"),
+            Err(error) => error,
+        };
+        let told = error
+            .to_string()
+            .starts_with(&format!("broken.md:{line}: "));
+        if !told || !error.reason.contains(reason) {
+            unlike.push(format!(
+                "{error}, not line {line} and {reason}, for\n{text}"
+            ));
+        }
+    }
+    assert!(unlike.is_empty(), "{}", unlike.join("\n"));
+    assert!(Lesson::parse(&step(asked, reveal), "good.md").is_ok());
+}
+
+fn bspscope(arguments: &[&str]) -> (Option<i32>, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_bspscope"))
+        .args(arguments)
+        .output()
+        .unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (
+        output.status.code(),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}
+
+#[test]
+fn the_command_line_lists_checks_and_shows() {
+    let (code, out, _) = bspscope(&["lesson", "list"]);
+    assert_eq!(code, Some(0));
+    assert!(
+        LESSONS.iter().all(|known| out.contains(known.name)),
+        "{out}"
+    );
+
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.md");
+    let path = file.to_str().unwrap();
+    let question = "question = \"How many?\"\nnumber = \"a.N_LS\"\nwithin = \"1\"";
+    // The scene lies beside the lesson.
+    let scene = std::fs::read("scenes/teaching.nff").unwrap();
+    std::fs::write(folder.path().join("mine.nff"), scene).unwrap();
+    let settings = "scene = \"mine.nff\"\nsize = [8, 8]\na = \"method=none\"";
+    let write = |expect: &str| {
+        let settings = format!("{settings}\n{question}\nexpect = [\"{expect}\"]");
+        std::fs::write(&file, lesson_with(&settings, "x\n\n---\n\n{a.N_LS} leaf")).unwrap();
+    };
+    write("a.N_LS = 1");
+    let (code, out, err) = bspscope(&["lesson", "check", path]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(out.contains("1 conditions, all hold"), "{out}");
+    let (code, out, _) = bspscope(&["lesson", "show", path]);
+    assert_eq!(code, Some(0));
+    assert!(
+        out.contains("**How many?** 1") && out.contains("1 leaf"),
+        "{out}"
+    );
+
+    write("a.N_LS = 2");
+    let (code, out, _) = bspscope(&["lesson", "check", path]);
+    assert_eq!(code, Some(1));
+    let line = format!("{path}:{}: expected a.N_LS = 2, found 1", SETTINGS + 6);
+    assert!(out.contains(&line), "{out}");
+
+    write("a.N_LS");
+    let (code, _, err) = bspscope(&["lesson", "check", path]);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains(&format!("mine.md:{}: ", SETTINGS + 6)),
+        "{err}"
+    );
+    assert_eq!(bspscope(&["lesson", "check", "not-there.md"]).0, Some(2));
+}
