@@ -105,19 +105,37 @@ impl Shear {
             Axis::Z
         };
         let turned = turned(direction, axis);
+        let shear = Shear::of_turned(turned);
+        is_workable(turned.z.abs()).then_some(Shear { axis, ..shear })
+    }
+
+    /// The same for a direction that is [`turned`] already, its largest component about 1.
+    #[inline(always)]
+    pub(super) fn of_turned(turned: Vec3) -> Shear {
         let z = 1.0 / turned.z;
-        is_workable(turned.z.abs()).then_some(Shear {
-            axis,
+        Shear {
+            axis: Axis::Z,
             x: turned.x * z,
             y: turned.y * z,
             z,
-        })
+        }
     }
 
     /// A vector from the ray's origin in the sheared coordinates; the third is its `t`.
     #[inline]
     pub(super) fn apply(&self, from_origin: Vec3) -> Vec3 {
-        let v = turned(from_origin, self.axis);
+        self.apply_turned(self.turn(from_origin))
+    }
+
+    /// A vector's coordinates in cyclic order with the one along the direction's axis last.
+    #[inline]
+    pub(super) fn turn(&self, v: Vec3) -> Vec3 {
+        turned(v, self.axis)
+    }
+
+    /// [`Shear::apply`] for a vector that is turned already.
+    #[inline(always)]
+    pub(super) fn apply_turned(&self, v: Vec3) -> Vec3 {
         Vec3::new(v.x - self.x * v.z, v.y - self.y * v.z, self.z * v.z)
     }
 }

@@ -13,7 +13,9 @@
 //! equal rounded numbers; the walk through a tree relies on it.
 
 use super::numeric::Shear;
-use super::{Cone, PackedRay, Polygon, Primitive, Shape, Sphere, Triangle, UnitFrame, cone};
+use super::{
+    Cone, PackedRay, Polygon, Primitive, Shape, Sphere, Triangle, UnitFrame, cone, triangle,
+};
 use crate::geometry::{Ray, Vec3};
 use glam::Vec3 as Point;
 
@@ -68,12 +70,14 @@ impl<S: Shape + Clone> Form for S {
     }
 }
 
-/// Rounds the distance that `intersect` finds. Distances that round to `t_max` count as `t_max`, so
-/// that what wins a tie does not depend on the order of the tests.
+/// How far beyond `t_max` a distance may lie that rounds to it: a factor.
+const UP: f64 = 1.0 + f32::EPSILON as f64;
+
+/// Rounds a distance of at most `t_max` · [`UP`]. Those that round to `t_max` count as `t_max`, so that
+/// what wins a tie does not depend on the order of the tests.
 #[inline(always)]
-fn rounded(t_max: f64, intersect: impl FnOnce(f64) -> Option<f64>) -> Option<f64> {
-    const UP: f64 = 1.0 + f32::EPSILON as f64;
-    let t = f64::from(intersect(t_max * UP)? as f32);
+fn rounded(t: f64, t_max: f64) -> Option<f64> {
+    let t = f64::from(t as f32);
     (t <= t_max).then_some(t)
 }
 
@@ -127,7 +131,7 @@ impl Form for PackedSphere {
             center: self.center.as_dvec3(),
             radius: f64::from(self.radius),
         };
-        rounded(t_max, |t_max| Shape::intersect(&sphere, ray, t_max))
+        rounded(Shape::intersect(&sphere, ray, t_max * UP)?, t_max)
     }
 
     fn rounding(&self) -> f64 {
@@ -145,9 +149,14 @@ pub struct PackedTriangle {
 }
 
 impl PackedTriangle {
+    /// [`Form::settle`] of a triangle with these vertices, for a ray whose coordinates and the
+    /// triangle's are in cyclic order with the axis of its direction's largest component last.
     #[inline(always)]
-    pub(crate) fn from_vertices(vertices: [Point; 3]) -> Self {
-        PackedTriangle { vertices }
+    pub(crate) fn settle_turned(vertices: [Point; 3], ray: &Ray, t_max: f64) -> Option<f64> {
+        let vertices = vertices.map(|v| v.as_dvec3() - ray.origin);
+        let shear = Shear::of_turned(ray.direction);
+        let t = triangle::crossing(vertices, &shear, [ray.t_min, t_max * UP])?;
+        rounded(t, t_max)
     }
 
     /// Whether the ray's line certainly misses it, decided in `f32`.
@@ -191,7 +200,7 @@ impl Form for PackedTriangle {
             vertices: self.vertices.map(|v| v.as_dvec3()),
             normals: None,
         };
-        rounded(t_max, |t_max| Shape::intersect(&triangle, ray, t_max))
+        rounded(Shape::intersect(&triangle, ray, t_max * UP)?, t_max)
     }
 
     fn rounding(&self) -> f64 {
@@ -254,10 +263,8 @@ impl Form for PackedPolygon {
 
     #[inline(always)]
     fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        rounded(t_max, |t_max| {
-            let t = self.crossing(ray)?;
-            (ray.t_min <= t && t <= t_max).then_some(t)
-        })
+        let t = self.crossing(ray).filter(|&t| ray.t_min <= t)?;
+        rounded(t, t_max)
     }
 
     fn rounding(&self) -> f64 {
@@ -412,7 +419,7 @@ impl Form for PackedCone {
     #[inline(always)]
     fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let side = self.side();
-        rounded(t_max, |t_max| side.intersect(ray, t_max))
+        rounded(side.intersect(ray, t_max * UP)?, t_max)
     }
 
     fn rounding(&self) -> f64 {

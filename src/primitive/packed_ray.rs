@@ -49,6 +49,20 @@ impl FramedRay {
     /// its distances to the scene have no number.
     #[inline(always)]
     pub(crate) fn new(frame: &UnitFrame, ray: &Ray) -> Option<Self> {
+        let (origin, direction) = (frame.point(ray.origin), ray.direction);
+        let largest = |v: Vec3| v.x.abs().max(v.y.abs()).max(v.z.abs());
+        if (0.5..2.0).contains(&largest(direction)) && largest(origin) <= Self::FAR {
+            Some(Self::of(origin, direction, ray, 0.0, frame.scale()))
+        } else {
+            Self::uncommon(frame, ray)
+        }
+    }
+
+    /// Rays whose direction is not about of unit length, or whose origin is far away. By itself, so
+    /// that numbers of common rays stay in registers.
+    #[cold]
+    #[inline(never)]
+    fn uncommon(frame: &UnitFrame, ray: &Ray) -> Option<Self> {
         let largest = ray.direction.abs().max_element();
         // Directions get a largest component from ½ to 2; every `t` takes the opposite scale.
         let (mut direction, mut scale) = (ray.direction, frame.scale());
@@ -62,42 +76,23 @@ impl FramedRay {
             origin += entry * direction;
             start = entry / scale;
         }
-        Some(FramedRay {
+        Some(Self::of(origin, direction, ray, start, scale))
+    }
+
+    #[inline(always)]
+    fn of(origin: Vec3, direction: Vec3, ray: &Ray, start: f64, scale: f64) -> Self {
+        FramedRay {
             origin: origin.as_vec3(),
             direction: direction.as_vec3(),
             t_min: ((ray.t_min - start) * scale).max(0.0) as f32,
             t_max: ((ray.t_max - start) * scale) as f32,
             start,
             scale,
-        })
-    }
-
-    /// The same numbers widened.
-    #[inline(always)]
-    pub(crate) fn wide(&self) -> Ray {
-        Ray {
-            origin: self.origin.as_dvec3(),
-            direction: self.direction.as_dvec3(),
-            t_min: f64::from(self.t_min),
-            t_max: f64::from(self.t_max),
         }
-    }
-
-    /// A distance on this ray as one on the ray in the world.
-    #[inline(always)]
-    pub(crate) fn to_world(self, t: f64) -> f64 {
-        self.start + t / self.scale
-    }
-
-    /// A distance on the ray in the world as one on this ray.
-    #[inline(always)]
-    pub(crate) fn in_frame(&self, t: f64) -> f64 {
-        (t - self.start) * self.scale
     }
 }
 
 /// A direction with a largest component from 1 to 2, and the scale of distances with it.
-#[cold]
 fn rescaled(direction: Vec3, largest: f64, scale: f64) -> Option<(Vec3, f64)> {
     if !(largest > 0.0 && largest.is_finite()) {
         return None;
@@ -131,7 +126,12 @@ impl PackedRay {
             axis,
             shear: [turned.x / turned.z, turned.y / turned.z],
             reach: 0.5 + framed.origin.abs().max_element(),
-            wide: framed.wide(),
+            wide: Ray {
+                origin: framed.origin.as_dvec3(),
+                direction: direction.as_dvec3(),
+                t_min: f64::from(framed.t_min),
+                t_max: f64::from(framed.t_max),
+            },
             start: framed.start,
             scale: framed.scale,
         })
@@ -180,7 +180,6 @@ fn turned(v: Point, axis: Axis) -> Point {
 }
 
 /// Where a ray enters the cube from −1 to 1; `None` where it misses it.
-#[cold]
 fn entry(origin: Vec3, direction: Vec3) -> Option<f64> {
     let (mut enter, mut exit) = (0.0_f64, f64::INFINITY);
     for k in 0..3 {

@@ -69,22 +69,6 @@ impl Triangle {
         (cross.normalize_or(Vec3::Z), cross.length() / longest)
     }
 
-    /// Whether the determinant of the edge functions may be rounding alone: then their signs mean
-    /// nothing, and the ray runs within the triangle's plane as far as can be told.
-    ///
-    /// A sheared coordinate is off by some 3 ε of the distance to the vertex, and the determinant by
-    /// that times the longest sheared edge for each vertex.
-    fn is_edge_on(&self, ray: &Ray, determinant: f64, [a, b, c]: [Vec3; 3]) -> bool {
-        let distance = self
-            .vertices
-            .iter()
-            .fold(0.0_f64, |m, &v| m.max((v - ray.origin).abs().max_element()));
-        let edge = [b - a, c - b, a - c]
-            .iter()
-            .fold(0.0_f64, |m, e| m.max(e.x.abs().max(e.y.abs())));
-        determinant.abs() <= 16.0 * f64::EPSILON * distance * edge
-    }
-
     /// Weights of the vertices, none negative and of sum 1, for the point of the triangle below or
     /// above `point` along the normal, or for one near by where there is none.
     fn weights(&self, point: Vec3, normal: Vec3) -> [f64; 3] {
@@ -97,6 +81,46 @@ impl Triangle {
             [1.0 / 3.0; 3]
         }
     }
+}
+
+/// Where a ray meets a triangle within an interval, its vertices given from the ray's origin and
+/// [turned](Shear::turn).
+///
+/// An edge function of 0 counts as inside, whichever its sign would be with more digits: both
+/// triangles at an edge may report the hit, never neither. A triangle seen edge-on has no hit.
+#[inline(always)]
+pub(super) fn crossing(
+    vertices: [Vec3; 3],
+    shear: &Shear,
+    [t_min, t_max]: [f64; 2],
+) -> Option<f64> {
+    let [a, b, c] = vertices.map(|v| shear.apply_turned(v));
+    let u = c.x * b.y - c.y * b.x;
+    let v = a.x * c.y - a.y * c.x;
+    let w = b.x * a.y - b.y * a.x;
+    if u.min(v).min(w) < 0.0 && u.max(v).max(w) > 0.0 {
+        return None;
+    }
+    let determinant = u + v + w;
+    let t = (u * a.z + v * b.z + w * c.z) / determinant;
+    let in_reach = t_min <= t && t <= t_max && t.is_finite();
+    (in_reach && !is_edge_on(vertices, determinant, [a, b, c])).then_some(t)
+}
+
+/// Whether the determinant of the edge functions may be rounding alone: then their signs mean
+/// nothing, and the ray runs within the triangle's plane as far as can be told.
+///
+/// A sheared coordinate is off by some 3 ε of the distance to the vertex, and the determinant by
+/// that times the longest sheared edge for each vertex.
+#[inline(always)]
+fn is_edge_on(vertices: [Vec3; 3], determinant: f64, [a, b, c]: [Vec3; 3]) -> bool {
+    let distance = vertices
+        .iter()
+        .fold(0.0_f64, |m, v| m.max(v.abs().max_element()));
+    let edge = [b - a, c - b, a - c]
+        .iter()
+        .fold(0.0_f64, |m, e| m.max(e.x.abs().max(e.y.abs())));
+    determinant.abs() <= 16.0 * f64::EPSILON * distance * edge
 }
 
 impl Shape for Triangle {
@@ -126,24 +150,13 @@ impl Shape for Triangle {
 
     /// After Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2(1), 2013).
     ///
-    /// An edge function of 0 counts as inside, whichever its sign would be with more digits: both
-    /// triangles at an edge may report the hit, never neither. A triangle seen edge-on has no hit.
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let Some(shear) = Shear::of(ray.direction) else {
             return numeric::with_direction_rescaled(ray, t_max, |r, t| self.intersect(r, t));
         };
-        let [a, b, c] = self.vertices.map(|v| shear.apply(v - ray.origin));
-        let u = c.x * b.y - c.y * b.x;
-        let v = a.x * c.y - a.y * c.x;
-        let w = b.x * a.y - b.y * a.x;
-        if u.min(v).min(w) < 0.0 && u.max(v).max(w) > 0.0 {
-            return None;
-        }
-        let determinant = u + v + w;
-        let t = (u * a.z + v * b.z + w * c.z) / determinant;
-        let in_reach = ray.t_min <= t && t <= t_max && t.is_finite();
-        (in_reach && !self.is_edge_on(ray, determinant, [a, b, c])).then_some(t)
+        let vertices = self.vertices.map(|v| shear.turn(v - ray.origin));
+        crossing(vertices, &shear, [ray.t_min, t_max])
     }
 
     /// The height over the longest edge.

@@ -2,8 +2,9 @@
 //! the ray may hit, whatever `f32` has rounded; those few are then tested one by one.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::ray::{CHUNK, LaneRays};
+use super::ray::{LaneRay, LaneRays};
 use super::simd::Simd;
+use super::three;
 use crate::geometry::Ray;
 use crate::primitive::{Form, PackedSphere, PackedTriangle, Primitive, Shape, UnitFrame};
 
@@ -21,11 +22,18 @@ pub(super) trait Block: Default + Send + Sync {
 
     fn objects(&self) -> &[u32; BLOCK];
 
-    /// What the ray of this number may hit up to the distance `limit`.
+    /// What the ray of this number may hit up to the distance `limit`, and, if `any` will do, what it
+    /// surely hits.
     ///
     /// # Safety
     /// As [`Simd`].
-    unsafe fn candidates<S: Simd>(&self, rays: &LaneRays, ray: usize, limit: f32) -> MayHit;
+    unsafe fn candidates<S: Simd>(
+        &self,
+        rays: &LaneRays,
+        ray: usize,
+        limit: f32,
+        any: bool,
+    ) -> MayHit;
 }
 
 /// Objects of a block that a ray may hit, a bit for each.
@@ -39,7 +47,18 @@ pub(super) struct MayHit {
 /// A block that holds all there is of its objects in `f32`.
 pub(super) trait Whole: Block {
     /// [`Form::settle`] of the packed object.
-    fn settle(&self, place: usize, ray: &Ray, t_max: f64) -> Option<f64>;
+    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64>;
+}
+
+/// A ray in `f64`, its axes in this order.
+#[inline(always)]
+pub(super) fn widened(ray: &LaneRay, axes: [usize; 3]) -> Ray {
+    Ray {
+        origin: three(|k| f64::from(ray.origin[axes[k]])).into(),
+        direction: three(|k| f64::from(ray.direction[axes[k]])).into(),
+        t_min: f64::from(ray.t_min),
+        t_max: f64::from(ray.t_max),
+    }
 }
 
 /// Bounds on errors in `f32`, for packed objects and for the exact ones that these are nearest to, as
@@ -142,28 +161,31 @@ impl Block for Triangles {
     /// 2(1), 2013), which decide where they are off 0 by more than rounding; and the distances of the
     /// vertices, between which that of a hit lies.
     #[inline(always)]
-    unsafe fn candidates<S: Simd>(&self, rays: &LaneRays, ray: usize, limit: f32) -> MayHit {
-        let kz = *rays.axis.get_unchecked(ray) as usize;
-        let kx = if kz == 2 { 0 } else { kz + 1 };
-        let ky = if kx == 2 { 0 } else { kx + 1 };
-        let number =
-            |numbers: &[[f32; CHUNK]; 3], k: usize| *numbers.get_unchecked(k).get_unchecked(ray);
-        let origin = splat3::<S>([kx, ky, kz].map(|k| number(&rays.origin, k)));
-        let [dx, dy] = [kx, ky].map(|k| number(&rays.direction, k));
-        let along = number(&rays.inverse, kz);
+    unsafe fn candidates<S: Simd>(
+        &self,
+        rays: &LaneRays,
+        ray: usize,
+        limit: f32,
+        any: bool,
+    ) -> MayHit {
+        let ray = rays.rays.get_unchecked(ray);
+        let axes = ray.turned_axes();
+        let origin = splat3::<S>(three(|k| *ray.origin.get_unchecked(axes[k])));
+        let [dx, dy, _] = three(|k| *ray.direction.get_unchecked(axes[k]));
+        let along = *ray.inverse.get_unchecked(axes[2]);
         let shear = [S::splat(dx * along), S::splat(dy * along)];
         let along = S::splat(along);
-        let reach = *rays.reach.get_unchecked(ray);
+        let reach = ray.reach;
         let error = S::splat(EDGE_ERROR * reach);
-        let nearest = S::splat(*rays.t_min.get_unchecked(ray) - T_ERROR * reach);
+        let nearest = S::splat(ray.t_min - T_ERROR * reach);
         let farthest = S::splat(limit + T_ERROR * reach);
-        let begin = S::splat(*rays.t_min.get_unchecked(ray) + T_ERROR * reach);
-        let end = S::splat(*rays.t_max.get_unchecked(ray) - T_ERROR * reach);
+        let begin = S::splat(ray.t_min + T_ERROR * reach);
+        let end = S::splat(ray.t_max - T_ERROR * reach);
         let zero = S::splat(0.0);
         parts!(S, self.objects, at => {
             let vertex = |i: usize| {
                 let v = self.vertices.get_unchecked(i);
-                [kx, ky, kz].map(|k| v.get_unchecked(k).as_ptr().add(at))
+                three(|k| v.get_unchecked(axes[k]).as_ptr().add(at))
             };
             let a = sheared::<S>(vertex(0), origin, shear);
             let b = sheared::<S>(vertex(1), origin, shear);
@@ -199,13 +221,16 @@ impl Block for Triangles {
                 let (early, late) = (S::sub(t, off), S::add(t, off));
                 let out = S::or(S::lt(late, nearest), S::lt(farthest, early));
                 let maybe = S::and_not(maybe, S::and(clear, out));
-                let inside = S::or(S::lt(error, least), S::lt(most, S::sub(zero, error)));
-                let within = S::and(S::le(begin, early), S::le(late, end));
-                let surely = S::and(S::and(inside, within), S::and(clear, maybe));
-                MayHit {
+                let mut found = MayHit {
                     maybe: S::bits(maybe),
-                    surely: S::bits(surely),
+                    surely: 0,
+                };
+                if any {
+                    let inside = S::or(S::lt(error, least), S::lt(most, S::sub(zero, error)));
+                    let within = S::and(S::le(begin, early), S::le(late, end));
+                    found.surely = S::bits(S::and(S::and(inside, within), S::and(clear, maybe)));
                 }
+                found
             }
         })
     }
@@ -213,17 +238,19 @@ impl Block for Triangles {
 
 impl Whole for Triangles {
     #[inline(always)]
-    fn settle(&self, place: usize, ray: &Ray, t_max: f64) -> Option<f64> {
-        let vertex = |i: usize| [0, 1, 2].map(|k: usize| self.vertices[i][k][place]).into();
-        PackedTriangle::from_vertices([vertex(0), vertex(1), vertex(2)]).settle(ray, t_max)
+    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64> {
+        let axes = ray.turned_axes();
+        let vertices = three(|i| three(|k| self.vertices[i][axes[k]][place]).into());
+        PackedTriangle::settle_turned(vertices, &widened(ray, axes), t_max)
     }
 }
 
 impl Whole for Spheres {
     #[inline(always)]
-    fn settle(&self, place: usize, ray: &Ray, t_max: f64) -> Option<f64> {
-        let center = [0, 1, 2].map(|k: usize| self.center[k][place]).into();
-        PackedSphere::from_center(center, self.radius[place]).settle(ray, t_max)
+    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64> {
+        let center = three(|k| self.center[k][place]).into();
+        let ray = widened(ray, [0, 1, 2]);
+        PackedSphere::from_center(center, self.radius[place]).settle(&ray, t_max)
     }
 }
 
@@ -281,23 +308,30 @@ impl Block for Spheres {
 
     /// The distance between the centre and the ray's line.
     #[inline(always)]
-    unsafe fn candidates<S: Simd>(&self, rays: &LaneRays, ray: usize, limit: f32) -> MayHit {
-        let numbers =
-            |numbers: &[[f32; CHUNK]; 3]| [0, 1, 2].map(|k: usize| *numbers[k].get_unchecked(ray));
-        let direction = numbers(&rays.direction);
-        let [x, y, z] = direction;
+    unsafe fn candidates<S: Simd>(
+        &self,
+        rays: &LaneRays,
+        ray: usize,
+        limit: f32,
+        any: bool,
+    ) -> MayHit {
+        let ray = rays.rays.get_unchecked(ray);
+        let [x, y, z] = ray.direction;
         let squared = x * x + y * y + z * z;
-        let origin = splat3::<S>(numbers(&rays.origin));
-        let direction = splat3::<S>(direction);
+        let origin = splat3::<S>(ray.origin);
+        let direction = splat3::<S>(ray.direction);
         let per_square = S::splat(1.0 / squared);
-        let reach = *rays.reach.get_unchecked(ray);
+        let reach = ray.reach;
         let error = S::splat(OFFSET_ERROR * reach);
-        let nearest = S::splat(*rays.t_min.get_unchecked(ray) - T_ERROR * reach);
+        let nearest = S::splat(ray.t_min - T_ERROR * reach);
         let farthest = S::splat(limit + T_ERROR * reach);
+        let begin = S::splat(ray.t_min + T_ERROR * reach);
+        let end = S::splat(ray.t_max - T_ERROR * reach);
+        let zero = S::splat(0.0);
         // Not below 1 over the length.
         let per_length = S::splat((1.0 + 4.0 * f32::EPSILON) / squared.sqrt());
         parts!(S, self.objects, at => {
-            let [x, y, z] = [0, 1, 2].map(|k: usize| self.center[k].as_ptr().add(at));
+            let [x, y, z] = three(|k| self.center[k].as_ptr().add(at));
             let to = [
                 S::sub(S::load(x), origin[0]),
                 S::sub(S::load(y), origin[1]),
@@ -309,14 +343,26 @@ impl Block for Spheres {
                 S::sub_mul(to[1], along, direction[1]),
                 S::sub_mul(to[2], along, direction[2]),
             ];
-            let reach = S::add(S::load(self.radius.as_ptr().add(at)), error);
-            let met = S::le(dot::<S>(off, off), S::mul(reach, reach));
+            let squared = dot::<S>(off, off);
+            let radius = S::load(self.radius.as_ptr().add(at));
+            let reach = S::add(radius, error);
+            let met = S::le(squared, S::mul(reach, reach));
             let half = S::mul(reach, per_length);
+            let first = S::sub(along, half);
             let reached = S::and(
-                S::le(S::sub(along, half), farthest),
+                S::le(first, farthest),
                 S::le(nearest, S::add(along, half)),
             );
-            MayHit { maybe: S::bits(S::and(met, reached)), surely: 0 }
+            let maybe = S::and(met, reached);
+            let mut found = MayHit { maybe: S::bits(maybe), surely: 0 };
+            if any {
+                // The ray enters between there and the point nearest to the centre.
+                let inner = S::max(S::sub(radius, error), zero);
+                let enters = S::lt(squared, S::mul(inner, inner));
+                let within = S::and(S::le(begin, first), S::le(along, end));
+                found.surely = S::bits(S::and(maybe, S::and(enters, within)));
+            }
+            found
         })
     }
 }
@@ -339,17 +385,24 @@ impl Block for Boxes {
 
     /// Where the ray is within the box, faces as thick as the planes of the tree.
     #[inline(always)]
-    unsafe fn candidates<S: Simd>(&self, rays: &LaneRays, ray: usize, limit: f32) -> MayHit {
-        let reach = *rays.reach.get_unchecked(ray);
-        let nearest = S::splat(*rays.t_min.get_unchecked(ray) - T_ERROR * reach);
+    unsafe fn candidates<S: Simd>(
+        &self,
+        rays: &LaneRays,
+        ray: usize,
+        limit: f32,
+        _: bool,
+    ) -> MayHit {
+        let ray = rays.rays.get_unchecked(ray);
+        let (reach, shifted) = (ray.reach, ray.shifted(rays.thick));
+        let nearest = S::splat(ray.t_min - T_ERROR * reach);
         let farthest = S::splat(limit + T_ERROR * reach);
         parts!(S, self.objects, at => {
             let (mut enter, mut exit) = (nearest, farthest);
             for k in 0..3 {
-                let inverse = *rays.inverse[k].get_unchecked(ray);
+                let inverse = ray.inverse[k];
                 let backward = usize::from(inverse.is_sign_negative());
                 let inverse = S::splat(inverse);
-                let shifted = S::splat(*rays.shifted[k].get_unchecked(ray));
+                let shifted = S::splat(shifted[k]);
                 let width = S::mul(S::abs(inverse), S::splat(2.0 * rays.thick));
                 let near = self.corners[backward][k].as_ptr().add(at);
                 let far = self.corners[1 - backward][k].as_ptr().add(at);

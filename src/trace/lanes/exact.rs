@@ -1,6 +1,6 @@
 //! The tests that decide: those of the plain kernel, with the very same numbers.
 
-use super::block::Whole;
+use super::block::{Whole, widened};
 use super::ray::LaneRays;
 use super::walk::{Candidate, Tests};
 use crate::geometry::Ray;
@@ -15,6 +15,9 @@ pub(super) trait Numbers {
 
     /// The ray that objects are tested with, and whose distances those of tests are.
     fn tested(rays: &LaneRays, ray: usize, world: &[Ray]) -> Ray;
+
+    /// That ray's end.
+    fn t_max(rays: &LaneRays, ray: usize, world: &[Ray]) -> f64;
 
     /// A distance on that ray as one on the ray in the world.
     fn to_world(rays: &LaneRays, ray: usize, t: f64) -> f64;
@@ -32,12 +35,17 @@ impl Numbers for Narrow {
 
     #[inline(always)]
     fn tested(rays: &LaneRays, ray: usize, _: &[Ray]) -> Ray {
-        rays.framed(ray).wide()
+        widened(&rays.rays[ray], [0, 1, 2])
+    }
+
+    #[inline(always)]
+    fn t_max(rays: &LaneRays, ray: usize, _: &[Ray]) -> f64 {
+        f64::from(rays.rays[ray].t_max)
     }
 
     #[inline(always)]
     fn to_world(rays: &LaneRays, ray: usize, t: f64) -> f64 {
-        rays.framed(ray).to_world(t)
+        rays.to_world(ray, t)
     }
 
     #[inline(always)]
@@ -58,64 +66,99 @@ impl Numbers for Wide {
     }
 
     #[inline(always)]
+    fn t_max(_: &LaneRays, ray: usize, world: &[Ray]) -> f64 {
+        world[ray].t_max
+    }
+
+    #[inline(always)]
     fn to_world(_: &LaneRays, _: usize, t: f64) -> f64 {
         t
     }
 
     #[inline(always)]
     fn limit(rays: &LaneRays, ray: usize, t: f64) -> f32 {
-        (rays.framed(ray).in_frame(t) as f32).next_up()
+        (rays.in_frame(ray, t) as f32).next_up()
     }
 }
 
 /// Where the objects are that tests want.
 pub(super) trait Objects {
-    /// [`Form::settle`] of a candidate.
-    fn settle(&self, candidate: &Candidate, ray: &Ray, t_max: f64) -> Option<f64>;
+    type Numbers: Numbers;
+
+    /// [`Form::settle`] of a candidate up to `t_max`; `world` are the rays in the world.
+    fn settle(
+        &self,
+        candidate: &Candidate,
+        rays: &LaneRays,
+        world: &[Ray],
+        t_max: f64,
+    ) -> Option<f64>;
 }
 
 /// In the blocks themselves, which were just read.
 pub(super) struct InBlocks<'a, B>(pub(super) &'a [B]);
 
 impl<B: Whole> Objects for InBlocks<'_, B> {
+    type Numbers = Narrow;
+
     #[inline(always)]
-    fn settle(&self, candidate: &Candidate, ray: &Ray, t_max: f64) -> Option<f64> {
+    fn settle(&self, candidate: &Candidate, rays: &LaneRays, _: &[Ray], t_max: f64) -> Option<f64> {
         let block = &self.0[candidate.block as usize];
+        let ray = &rays.rays[candidate.ray as usize];
         block.settle(candidate.place as usize, ray, t_max)
     }
 }
 
 /// In an array by number.
-pub(super) struct InArray<'a, F>(pub(super) &'a [F]);
-
-impl<F: Form> Objects for InArray<'_, F> {
-    #[inline(always)]
-    fn settle(&self, candidate: &Candidate, ray: &Ray, t_max: f64) -> Option<f64> {
-        self.0[candidate.object as usize].settle(ray, t_max)
-    }
-}
-
-/// What is nearest?
-pub(super) struct Closest<'a, N, O> {
-    objects: O,
-    rays: &'a [Ray],
-    /// By ray: the nearest so far, with a distance on the ray that objects are tested with.
-    hits: &'a mut [Hit],
+pub(super) struct InArray<'a, N, F> {
+    objects: &'a [F],
     numbers: PhantomData<N>,
 }
 
-impl<'a, N, O> Closest<'a, N, O> {
-    pub(super) fn new(objects: O, rays: &'a [Ray], hits: &'a mut [Hit]) -> Self {
-        Closest {
+impl<'a, N, F> InArray<'a, N, F> {
+    pub(super) fn new(objects: &'a [F]) -> Self {
+        InArray {
             objects,
-            rays,
-            hits,
             numbers: PhantomData,
         }
     }
 }
 
-impl<N: Numbers, O: Objects> Tests for Closest<'_, N, O> {
+impl<N: Numbers, F: Form> Objects for InArray<'_, N, F> {
+    type Numbers = N;
+
+    #[inline(always)]
+    fn settle(
+        &self,
+        candidate: &Candidate,
+        rays: &LaneRays,
+        world: &[Ray],
+        t_max: f64,
+    ) -> Option<f64> {
+        let ray = N::tested(rays, candidate.ray as usize, world);
+        self.objects[candidate.object as usize].settle(&ray, t_max)
+    }
+}
+
+/// What is nearest?
+pub(super) struct Closest<'a, O> {
+    objects: O,
+    rays: &'a [Ray],
+    /// By ray: the nearest so far, with a distance on the ray that objects are tested with.
+    hits: &'a mut [Hit],
+}
+
+impl<'a, O> Closest<'a, O> {
+    pub(super) fn new(objects: O, rays: &'a [Ray], hits: &'a mut [Hit]) -> Self {
+        Closest {
+            objects,
+            rays,
+            hits,
+        }
+    }
+}
+
+impl<O: Objects> Tests for Closest<'_, O> {
     fn any_will_do(&self) -> bool {
         false
     }
@@ -128,37 +171,34 @@ impl<N: Numbers, O: Objects> Tests for Closest<'_, N, O> {
             if object == best.object {
                 continue;
             }
-            let tested = N::tested(rays, ray, self.rays);
-            if let Some(t) = self.objects.settle(candidate, &tested, best.t)
+            if let Some(t) = self.objects.settle(candidate, rays, self.rays, best.t)
                 && (t < best.t || object < best.object)
             {
                 *best = Hit { t, object };
-                limits[candidate.lane as usize] = N::limit(rays, ray, t);
+                limits[candidate.lane as usize] = O::Numbers::limit(rays, ray, t);
             }
         }
     }
 }
 
 /// Is anything hit?
-pub(super) struct Any<'a, N, O> {
+pub(super) struct Any<'a, O> {
     objects: O,
     rays: &'a [Ray],
     blocked: &'a mut [bool],
-    numbers: PhantomData<N>,
 }
 
-impl<'a, N, O> Any<'a, N, O> {
+impl<'a, O> Any<'a, O> {
     pub(super) fn new(objects: O, rays: &'a [Ray], blocked: &'a mut [bool]) -> Self {
         Any {
             objects,
             rays,
             blocked,
-            numbers: PhantomData,
         }
     }
 }
 
-impl<N: Numbers, O: Objects> Tests for Any<'_, N, O> {
+impl<O: Objects> Tests for Any<'_, O> {
     fn any_will_do(&self) -> bool {
         true
     }
@@ -170,8 +210,8 @@ impl<N: Numbers, O: Objects> Tests for Any<'_, N, O> {
                 continue;
             }
             let is_hit = || {
-                let tested = N::tested(rays, ray, self.rays);
-                let t = self.objects.settle(candidate, &tested, tested.t_max);
+                let t_max = O::Numbers::t_max(rays, ray, self.rays);
+                let t = self.objects.settle(candidate, rays, self.rays, t_max);
                 t.is_some()
             };
             if candidate.surely || is_hit() {

@@ -30,6 +30,13 @@ use simd::Waiting;
 pub use tracer::{KernelChoice, TimedKernel};
 use walk::{Tests, walk};
 
+/// Three values by number. Unlike `array::map` it is never a call, which would pass arrays through
+/// memory in pieces of other sizes than they are read in; processors wait then.
+#[inline(always)]
+fn three<T>(value: impl Fn(usize) -> T) -> [T; 3] {
+    [value(0), value(1), value(2)]
+}
+
 /// What the kernel is compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstructionSet {
@@ -177,16 +184,16 @@ impl<'a> LaneKernel<'a> {
         for (rays, hits) in rays.chunks(CHUNK).zip(hits.chunks_mut(CHUNK)) {
             match (&self.lanes.prepared, self.shapes) {
                 (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
-                    self.closest_of::<Narrow, _>(InBlocks(&p.blocks), rays, hits);
+                    self.closest_of(InBlocks(&p.blocks), rays, hits);
                 }
                 (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
-                    self.closest_of::<Narrow, _>(InBlocks(&p.blocks), rays, hits);
+                    self.closest_of(InBlocks(&p.blocks), rays, hits);
                 }
                 (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
-                    self.closest_of::<Narrow, _>(InArray(objects), rays, hits);
+                    self.closest_of(InArray::<Narrow, _>::new(objects), rays, hits);
                 }),
                 (_, Shapes::F64(arrays)) => with_array!(arrays, objects => {
-                    self.closest_of::<Wide, _>(InArray(objects), rays, hits);
+                    self.closest_of(InArray::<Wide, _>::new(objects), rays, hits);
                 }),
             }
         }
@@ -202,35 +209,37 @@ impl<'a> LaneKernel<'a> {
         for (rays, blocked) in rays.chunks(CHUNK).zip(blocked.chunks_mut(CHUNK)) {
             match (&self.lanes.prepared, self.shapes) {
                 (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
-                    self.any_of::<Narrow, _>(InBlocks(&p.blocks), rays, blocked);
+                    self.any_of(InBlocks(&p.blocks), rays, blocked);
                 }
                 (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
-                    self.any_of::<Narrow, _>(InBlocks(&p.blocks), rays, blocked);
+                    self.any_of(InBlocks(&p.blocks), rays, blocked);
                 }
                 (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
-                    self.any_of::<Narrow, _>(InArray(objects), rays, blocked);
+                    self.any_of(InArray::<Narrow, _>::new(objects), rays, blocked);
                 }),
                 (_, Shapes::F64(arrays)) => with_array!(arrays, objects => {
-                    self.any_of::<Wide, _>(InArray(objects), rays, blocked);
+                    self.any_of(InArray::<Wide, _>::new(objects), rays, blocked);
                 }),
             }
         }
     }
 
-    fn closest_of<N: Numbers, O: Objects>(&mut self, objects: O, rays: &[Ray], hits: &mut [Hit]) {
-        self.fill::<N>(rays);
+    fn closest_of<O: Objects>(&mut self, objects: O, rays: &[Ray], hits: &mut [Hit]) {
+        self.fill::<O::Numbers>(rays);
         for &i in &self.rays.others {
             let (i, scratch) = (i as usize, &mut self.scratch);
             hits[i] = closest_hit(self.tree, self.shapes, &rays[i], scratch, &mut ());
         }
-        for &i in &self.rays.order {
-            hits[i as usize].t = N::tested(&self.rays, i as usize, rays).t_max;
+        for start in self.rays.starts() {
+            let i = start.ray as usize;
+            hits[i].t = O::Numbers::t_max(&self.rays, i, rays);
         }
-        self.walk(&mut Closest::<N, O>::new(objects, rays, hits));
-        for &i in &self.rays.order {
-            let hit = &mut hits[i as usize];
+        self.walk(&mut Closest::new(objects, rays, hits));
+        for start in self.rays.starts() {
+            let i = start.ray as usize;
+            let hit = &mut hits[i];
             *hit = if hit.is_hit() {
-                let t = N::to_world(&self.rays, i as usize, hit.t);
+                let t = O::Numbers::to_world(&self.rays, i, hit.t);
                 Hit { t, ..*hit }
             } else {
                 Hit::MISS
@@ -238,13 +247,13 @@ impl<'a> LaneKernel<'a> {
         }
     }
 
-    fn any_of<N: Numbers, O: Objects>(&mut self, objects: O, rays: &[Ray], blocked: &mut [bool]) {
-        self.fill::<N>(rays);
+    fn any_of<O: Objects>(&mut self, objects: O, rays: &[Ray], blocked: &mut [bool]) {
+        self.fill::<O::Numbers>(rays);
         for &i in &self.rays.others {
             let (i, scratch) = (i as usize, &mut self.scratch);
             blocked[i] = any_hit(self.tree, self.shapes, &rays[i], scratch, &mut ());
         }
-        self.walk(&mut Any::<N, O>::new(objects, rays, blocked));
+        self.walk(&mut Any::new(objects, rays, blocked));
     }
 
     fn fill<N: Numbers>(&mut self, rays: &[Ray]) {

@@ -8,7 +8,7 @@
 
 use super::block::{BLOCK, Block};
 use super::prepare::{ABOVE_EMPTY, BELOW_EMPTY, PLACE, Prepared};
-use super::ray::LaneRays;
+use super::ray::{LaneRays, Start};
 use super::simd::{Simd, Waiting};
 
 /// An object that the ray of a lane may hit.
@@ -74,15 +74,17 @@ impl Group {
 
     /// Gives a lane a new ray.
     #[inline(always)]
-    unsafe fn begin(&mut self, lane: usize, rays: &LaneRays, ray: usize) {
+    unsafe fn begin(&mut self, lane: usize, rays: &LaneRays, start: &Start) {
+        let ray = rays.rays.get_unchecked(start.ray as usize);
+        let shifted = ray.shifted(rays.thick);
         for k in 0..3 {
-            *self.shifted[k].get_unchecked_mut(lane) = *rays.shifted[k].get_unchecked(ray);
-            *self.inverse[k].get_unchecked_mut(lane) = *rays.inverse[k].get_unchecked(ray);
+            *self.shifted[k].get_unchecked_mut(lane) = shifted[k];
+            *self.inverse[k].get_unchecked_mut(lane) = ray.inverse[k];
         }
-        *self.t_enter.get_unchecked_mut(lane) = *rays.t_enter.get_unchecked(ray);
-        *self.t_exit.get_unchecked_mut(lane) = *rays.t_exit.get_unchecked(ray);
+        *self.t_enter.get_unchecked_mut(lane) = start.t_enter;
+        *self.t_exit.get_unchecked_mut(lane) = start.t_exit;
         *self.blocks.get_unchecked_mut(lane) = 0;
-        *self.ray.get_unchecked_mut(lane) = ray as u32;
+        *self.ray.get_unchecked_mut(lane) = start.ray;
     }
 }
 
@@ -91,13 +93,23 @@ struct Place<S: Simd> {
     node: S::U,
     /// Where the next node is put on the stack.
     top: S::U,
-    bottom: S::U,
     /// Where on the ray the cell lies.
     enter: S::F,
     exit: S::F,
     /// Lanes that have a ray, and lanes that are at an inner node.
     alive: u32,
-    active: u32,
+    active: S::M,
+}
+
+impl<S: Simd> Place<S> {
+    /// Lanes that have come to a leaf.
+    ///
+    /// # Safety
+    /// As [`Simd`].
+    #[inline(always)]
+    unsafe fn waiting(&self) -> u32 {
+        self.alive & !S::bits(self.active)
+    }
 }
 
 /// Does the same for every group; written out, as a loop would keep vectors in memory.
@@ -149,7 +161,7 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     let mut bottoms = [[0_u32; WIDEST]; MOST_GROUPS];
     for (j, bottoms) in bottoms.iter_mut().enumerate() {
         for (lane, bottom) in bottoms.iter_mut().enumerate() {
-            *bottom = ((j * S::LANES + lane) * depth) as u32;
+            *bottom = ((j * S::LANES + lane) * depth) as u32 * Waiting::PLACES;
         }
     }
     let all = (1_u32 << S::LANES) - 1;
@@ -157,26 +169,29 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     let mut places: [Place<S>; GROUPS] = std::array::from_fn(|j| Place {
         node: S::splat_u(0),
         top: S::load_u(bottoms[j].as_ptr()),
-        bottom: S::load_u(bottoms[j].as_ptr()),
         enter: S::splat(0.0),
         exit: S::splat(-1.0),
         alive: all,
-        active: 0,
+        active: S::mask(0),
     });
     let mut limits = [[-1.0_f32; WIDEST]; GROUPS];
     let mut candidates = [Candidate::default(); MOST_CANDIDATES];
     let any_will_do = tests.any_will_do();
-    let mut waiting_rays = rays.order.as_slice();
+    let mut waiting_rays = rays.starts();
     // A round of tests is worth its while once half the lanes wait.
     let enough = (GROUPS * S::LANES / 2) as u32;
 
     loop {
         let mut found = 0;
+        let mut at_leaves = [0; GROUPS];
+        each_group!(GROUPS, J => {
+            let blocks = S::load_u(groups[J].blocks.as_ptr());
+            let full = S::bits(S::test_u(blocks, S::splat_u(u32::MAX)));
+            at_leaves[J] = places[J].waiting() & full;
+        });
         for j in 0..GROUPS {
             let group = &groups[j];
-            let blocks = S::load_u(group.blocks.as_ptr());
-            let full = S::bits(S::test_u(blocks, S::splat_u(u32::MAX)));
-            let mut waiting = places[j].alive & !places[j].active & full;
+            let mut waiting = at_leaves[j];
             while waiting != 0 {
                 let lane = waiting.trailing_zeros() as usize;
                 waiting &= waiting - 1;
@@ -186,8 +201,8 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
                 for number in first..first + blocks {
                     let block = tree.blocks.get_unchecked(number);
                     let limit = *limits.get_unchecked(j).get_unchecked(lane);
-                    let may_hit = block.candidates::<S>(rays, ray as usize, limit);
-                    let enough = any_will_do && may_hit.surely != 0;
+                    let may_hit = block.candidates::<S>(rays, ray as usize, limit, any_will_do);
+                    let enough = may_hit.surely != 0;
                     let mut maybe = if enough {
                         may_hit.surely
                     } else {
@@ -222,7 +237,9 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
         let mut living = 0;
         each_group!(GROUPS, J => {
             let (place, group) = (&mut places[J], &mut groups[J]);
-            go_on::<S>(place, group, &mut limits[J], stack, tree.thick, rays, &mut waiting_rays);
+            let bottom = S::load_u(bottoms[J].as_ptr());
+            let limits = &mut limits[J];
+            go_on::<S>(place, group, limits, stack, bottom, tree.thick, rays, &mut waiting_rays);
             living |= place.alive;
         });
         if living == 0 {
@@ -239,8 +256,8 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
             });
             let (mut waiting, mut moving) = (0, 0);
             each_group!(GROUPS, J => {
-                waiting += (places[J].alive & !places[J].active).count_ones();
-                moving |= places[J].active;
+                waiting += places[J].waiting().count_ones();
+                moving |= S::bits(places[J].active);
             });
             if waiting >= enough || moving == 0 {
                 break;
@@ -257,15 +274,16 @@ unsafe fn go_on<S: Simd>(
     group: &mut Group,
     limits: &mut [f32; WIDEST],
     stack: *const Waiting,
+    bottom: S::U,
     thick: f32,
     rays: &LaneRays,
-    waiting_rays: &mut &[u32],
+    waiting_rays: &mut &[Start],
 ) {
-    let waiting = place.alive & !place.active;
+    let waiting = place.waiting();
     if waiting == 0 {
         return;
     }
-    let one = S::splat_u(1);
+    let entry = S::splat_u(Waiting::PLACES);
     let thickness = S::splat(2.0 * thick);
     let wx = S::mul(S::abs(S::load(group.inverse[0].as_ptr())), thickness);
     let wy = S::mul(S::abs(S::load(group.inverse[1].as_ptr())), thickness);
@@ -274,15 +292,16 @@ unsafe fn go_on<S: Simd>(
     // No plane on the stack is met before the end of the cell that was left, but for its thickness.
     let widest = S::max(wx, S::max(wy, wz));
     let over = S::le(limit, S::sub(place.exit, widest));
-    let done = S::bits(S::or(S::eq_u(place.top, place.bottom), over)) & waiting;
+    let done = S::bits(S::or(S::eq_u(place.top, bottom), over)) & waiting;
     let pops = S::mask(waiting & !done);
-    place.top = S::select_u(pops, S::sub_u(place.top, one), place.top);
+    place.top = S::select_u(pops, S::sub_u(place.top, entry), place.top);
     let (node, t_enter, t_exit) = S::pop(stack, place.top);
     place.enter = S::select(pops, t_enter, place.enter);
     place.exit = S::select(pops, t_exit, place.exit);
     place.node = S::select_u(pops, node, place.node);
     // A node beyond the limit is dropped, and its lane waits on.
-    place.active |= S::bits(S::le(place.enter, limit)) & waiting & !done;
+    let goes = S::and(S::le(place.enter, limit), pops);
+    place.active = S::or(place.active, goes);
     let blocks = S::load_u(group.blocks.as_ptr());
     let none = S::select_u(S::mask(waiting), S::splat_u(0), blocks);
     S::store_u(group.blocks.as_mut_ptr(), none);
@@ -291,22 +310,22 @@ unsafe fn go_on<S: Simd>(
     }
     let (mut ended, mut begun) = (done, 0);
     while ended != 0
-        && let Some((&ray, others)) = waiting_rays.split_first()
+        && let Some((start, others)) = waiting_rays.split_first()
     {
         let lane = ended.trailing_zeros() as usize;
         ended &= ended - 1;
         *waiting_rays = others;
-        group.begin(lane, rays, ray as usize);
-        *limits.get_unchecked_mut(lane) = *rays.t_exit.get_unchecked(ray as usize);
+        group.begin(lane, rays, start);
+        *limits.get_unchecked_mut(lane) = start.t_exit;
         begun |= 1 << lane;
     }
     place.alive &= !ended;
-    place.active |= begun;
     let begun = S::mask(begun);
+    place.active = S::or(place.active, begun);
     place.enter = S::select(begun, S::load(group.t_enter.as_ptr()), place.enter);
     place.exit = S::select(begun, S::load(group.t_exit.as_ptr()), place.exit);
     place.node = S::select_u(begun, S::splat_u(0), place.node);
-    place.top = S::select_u(begun, place.bottom, place.top);
+    place.top = S::select_u(begun, bottom, place.top);
 }
 
 /// Lets lanes at an inner node go to a child, and lanes at a leaf wait.
@@ -322,10 +341,10 @@ unsafe fn step<S: Simd, B: Block>(
     struct Firsts([u32; WIDEST]);
     let (one, two) = (S::splat_u(1), S::splat_u(2));
     let (is_1, is_2) = (S::test_u(word, one), S::test_u(word, two));
-    let leaves = S::bits(S::and(is_1, is_2)) & place.active;
+    let mask = S::and(S::and(is_1, is_2), place.active);
+    let leaves = S::bits(mask);
     if leaves != 0 {
-        place.active &= !leaves;
-        let mask = S::mask(leaves);
+        place.active = S::and_not(place.active, mask);
         let first = S::select_u(mask, payload, S::load_u(group.first.as_ptr()));
         S::store_u(group.first.as_mut_ptr(), first);
         let blocks = S::shr_u::<2>(word);
@@ -344,7 +363,7 @@ unsafe fn step<S: Simd, B: Block>(
             );
         }
     }
-    let act = S::mask(place.active);
+    let act = place.active;
     let shifted = by_axis::<S>(&group.shifted, is_1, is_2);
     let inverse = by_axis::<S>(&group.inverse, is_1, is_2);
     let begins = S::mul(S::sub(S::from_bits(payload), shifted), inverse);
@@ -363,7 +382,8 @@ unsafe fn step<S: Simd, B: Block>(
     let push = S::and_not(take, far_empty);
     let after = S::max(place.enter, begins);
     S::push(stack, place.top, far, after, place.exit);
-    place.top = S::select_u(push, S::add_u(place.top, one), place.top);
+    let entry = S::splat_u(Waiting::PLACES);
+    place.top = S::select_u(push, S::add_u(place.top, entry), place.top);
     place.enter = S::select(skip, after, place.enter);
     place.exit = S::select(take, S::min(place.exit, ends), place.exit);
     let to_far = S::or(only_far, skip);

@@ -8,23 +8,34 @@ use std::arch::x86_64::*;
 #[derive(Clone, Copy)]
 pub(in super::super) struct Avx2;
 
-#[repr(align(32))]
-struct Eight<T>([T; 8]);
+/// The lanes' numbers, two taken out of the vector at a time.
+#[inline(always)]
+unsafe fn numbers(at: __m256i) -> [usize; 8] {
+    let mut numbers = [0; 8];
+    let parts = [
+        _mm256_castsi256_si128(at),
+        _mm256_extracti128_si256::<1>(at),
+    ];
+    for (k, part) in parts.into_iter().enumerate() {
+        let pairs = [_mm_cvtsi128_si64(part), _mm_extract_epi64::<1>(part)];
+        for (j, pair) in pairs.into_iter().enumerate() {
+            numbers[4 * k + 2 * j] = pair as u32 as usize;
+            numbers[4 * k + 2 * j + 1] = (pair as u64 >> 32) as usize;
+        }
+    }
+    numbers
+}
 
 /// Both words of eight pairs, from one place a lane.
 #[inline(always)]
-unsafe fn gather(from: *const i64, at: __m256i) -> (__m256i, __m256i) {
-    let mut places = Eight([0_u32; 8]);
-    _mm256_store_si256(places.0.as_mut_ptr().cast(), at);
-    let at = places.0.as_ptr();
+unsafe fn gather(from: *const f64, at: __m256i) -> (__m256i, __m256i) {
+    let at = numbers(at);
     // Lanes 0, 1, 4, 5 and 2, 3, 6, 7, so that picking every other word puts them in order.
-    let first = _mm256_insertf128_ps::<1>(
-        _mm256_castps128_ps256(two(from, at.add(0))),
-        two(from, at.add(4)),
-    );
+    let first =
+        _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(two(from, &at)), two(from, &at[4..]));
     let second = _mm256_insertf128_ps::<1>(
-        _mm256_castps128_ps256(two(from, at.add(2))),
-        two(from, at.add(6)),
+        _mm256_castps128_ps256(two(from, &at[2..])),
+        two(from, &at[6..]),
     );
     (
         _mm256_castps_si256(_mm256_shuffle_ps::<0b10_00_10_00>(first, second)),
@@ -33,25 +44,28 @@ unsafe fn gather(from: *const i64, at: __m256i) -> (__m256i, __m256i) {
 }
 
 #[inline(always)]
-unsafe fn two(from: *const i64, at: *const u32) -> __m128 {
-    let low = _mm_load_sd(from.add(*at as usize).cast());
-    _mm_castpd_ps(_mm_loadh_pd(low, from.add(*at.add(1) as usize).cast()))
+unsafe fn two(from: *const f64, at: &[usize]) -> __m128 {
+    let low = _mm_load_sd(from.add(at[0]));
+    _mm_castpd_ps(_mm_loadh_pd(low, from.add(at[1])))
 }
 
 /// Writes the entries of two lanes, four apart.
 #[inline(always)]
-unsafe fn write_two(to: *mut Waiting, at: *const u32, entries: __m256d) {
+unsafe fn write_two(to: *mut Waiting, at: &[usize], entries: __m256d) {
     let entries = _mm256_castpd_ps(entries);
-    _mm_store_ps(to.add(*at as usize).cast(), _mm256_castps256_ps128(entries));
+    _mm_store_ps(
+        to.byte_add(8 * at[0]).cast(),
+        _mm256_castps256_ps128(entries),
+    );
     let second = _mm256_extractf128_ps::<1>(entries);
-    _mm_store_ps(to.add(*at.add(4) as usize).cast(), second);
+    _mm_store_ps(to.byte_add(8 * at[4]).cast(), second);
 }
 
 /// Reads the entries of two lanes, four apart.
 #[inline(always)]
-unsafe fn read_two(from: *const Waiting, at: *const u32) -> __m256 {
-    let first = _mm_load_ps(from.add(*at as usize).cast());
-    let second = _mm_load_ps(from.add(*at.add(4) as usize).cast());
+unsafe fn read_two(from: *const Waiting, at: &[usize]) -> __m256 {
+    let first = _mm_load_ps(from.byte_add(8 * at[0]).cast());
+    let second = _mm_load_ps(from.byte_add(8 * at[4]).cast());
     _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(first), second)
 }
 
@@ -208,27 +222,23 @@ impl Simd for Avx2 {
         t_enter: __m256,
         t_exit: __m256,
     ) {
-        let mut places = Eight([0_u32; 8]);
-        _mm256_store_si256(places.0.as_mut_ptr().cast(), at);
-        let at = places.0.as_ptr();
+        let at = numbers(at);
         let node = _mm256_castsi256_ps(node);
         let low = _mm256_castps_pd(_mm256_unpacklo_ps(node, t_enter));
         let high = _mm256_castps_pd(_mm256_unpackhi_ps(node, t_enter));
         let exit_low = _mm256_castps_pd(_mm256_unpacklo_ps(t_exit, t_exit));
         let exit_high = _mm256_castps_pd(_mm256_unpackhi_ps(t_exit, t_exit));
-        write_two(stack, at, _mm256_unpacklo_pd(low, exit_low));
-        write_two(stack, at.add(1), _mm256_unpackhi_pd(low, exit_low));
-        write_two(stack, at.add(2), _mm256_unpacklo_pd(high, exit_high));
-        write_two(stack, at.add(3), _mm256_unpackhi_pd(high, exit_high));
+        write_two(stack, &at, _mm256_unpacklo_pd(low, exit_low));
+        write_two(stack, &at[1..], _mm256_unpackhi_pd(low, exit_low));
+        write_two(stack, &at[2..], _mm256_unpacklo_pd(high, exit_high));
+        write_two(stack, &at[3..], _mm256_unpackhi_pd(high, exit_high));
     }
 
     #[inline(always)]
     unsafe fn pop(stack: *const Waiting, at: __m256i) -> (__m256i, __m256, __m256) {
-        let mut places = Eight([0_u32; 8]);
-        _mm256_store_si256(places.0.as_mut_ptr().cast(), at);
-        let at = places.0.as_ptr();
-        let (a, b) = (read_two(stack, at), read_two(stack, at.add(1)));
-        let (c, d) = (read_two(stack, at.add(2)), read_two(stack, at.add(3)));
+        let at = numbers(at);
+        let (a, b) = (read_two(stack, &at), read_two(stack, &at[1..]));
+        let (c, d) = (read_two(stack, &at[2..]), read_two(stack, &at[3..]));
         let low = _mm256_castps_pd(_mm256_unpacklo_ps(a, b));
         let high = _mm256_castps_pd(_mm256_unpackhi_ps(a, b));
         let other_low = _mm256_castps_pd(_mm256_unpacklo_ps(c, d));

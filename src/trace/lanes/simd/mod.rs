@@ -17,6 +17,12 @@ pub(super) struct Waiting {
     pub(super) t_exit: f32,
 }
 
+impl Waiting {
+    /// What an entry counts in places on the stack, which are of 8 bytes: processors find such
+    /// addresses without an instruction for the product.
+    pub(super) const PLACES: u32 = (size_of::<Waiting>() / 8) as u32;
+}
+
 /// Lanes of numbers (`F`), words (`U`) and yes or no (`M`).
 ///
 /// # Safety
@@ -75,7 +81,7 @@ pub(super) trait Simd: Copy {
 
     /// Both words of the nodes at these places.
     unsafe fn nodes(nodes: *const Node, at: Self::U) -> (Self::U, Self::U);
-    /// Writes to the stack, in every lane.
+    /// Writes to the stack at these places of 8 bytes, in every lane.
     unsafe fn push(
         stack: *mut Waiting,
         at: Self::U,
@@ -83,6 +89,6 @@ pub(super) trait Simd: Copy {
         t_enter: Self::F,
         t_exit: Self::F,
     );
-    /// Reads from the stack.
+    /// Reads from the stack likewise.
     unsafe fn pop(stack: *const Waiting, at: Self::U) -> (Self::U, Self::F, Self::F);
 }

@@ -185,14 +185,14 @@ impl Simd for Portable {
                 t_exit: t_exit[k],
             };
             // SAFETY: the places are within the lanes' stacks.
-            unsafe { *stack.add(at[k] as usize) = waiting };
+            unsafe { *stack.byte_add(8 * at[k] as usize) = waiting };
         }
     }
 
     #[inline(always)]
     unsafe fn pop(stack: *const Waiting, at: Self::U) -> (Self::U, Self::F, Self::F) {
         // SAFETY: as above.
-        let waiting = at.map(|at| unsafe { *stack.add(at as usize) });
+        let waiting = at.map(|at| unsafe { *stack.byte_add(8 * at as usize) });
         (
             waiting.map(|w| w.node),
             waiting.map(|w| w.t_enter),
