@@ -76,9 +76,8 @@ impl Group {
     #[inline(always)]
     unsafe fn begin(&mut self, lane: usize, rays: &LaneRays, start: &Start) {
         let ray = rays.rays.get_unchecked(start.ray as usize);
-        let shifted = ray.shifted(rays.thick);
-        for k in 0..3 {
-            *self.shifted[k].get_unchecked_mut(lane) = shifted[k];
+        for (k, shifted) in ray.shifted(rays.thick).into_iter().enumerate() {
+            *self.shifted[k].get_unchecked_mut(lane) = shifted;
             *self.inverse[k].get_unchecked_mut(lane) = ray.inverse[k];
         }
         *self.t_enter.get_unchecked_mut(lane) = start.t_enter;
@@ -239,7 +238,7 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
             let (place, group) = (&mut places[J], &mut groups[J]);
             let bottom = S::load_u(bottoms[J].as_ptr());
             let limits = &mut limits[J];
-            go_on::<S>(place, group, limits, stack, bottom, tree.thick, rays, &mut waiting_rays);
+            go_on::<S>(place, group, limits, stack, bottom, rays, &mut waiting_rays);
             living |= place.alive;
         });
         if living == 0 {
@@ -275,7 +274,6 @@ unsafe fn go_on<S: Simd>(
     limits: &mut [f32; WIDEST],
     stack: *const Waiting,
     bottom: S::U,
-    thick: f32,
     rays: &LaneRays,
     waiting_rays: &mut &[Start],
 ) {
@@ -284,7 +282,7 @@ unsafe fn go_on<S: Simd>(
         return;
     }
     let entry = S::splat_u(Waiting::PLACES);
-    let thickness = S::splat(2.0 * thick);
+    let thickness = S::splat(2.0 * rays.thick);
     let wx = S::mul(S::abs(S::load(group.inverse[0].as_ptr())), thickness);
     let wy = S::mul(S::abs(S::load(group.inverse[1].as_ptr())), thickness);
     let wz = S::mul(S::abs(S::load(group.inverse[2].as_ptr())), thickness);
