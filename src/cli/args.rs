@@ -740,6 +740,7 @@ impl WindowArgs {
 
 impl CameraArgs {
     /// How many of the four were given.
+    #[cfg(feature = "gui")]
     pub fn given(&self) -> usize {
         let points = [self.from, self.at, self.up];
         points.iter().flatten().count() + usize::from(self.angle.is_some())
