@@ -119,6 +119,25 @@ fn a_method_is_chosen_by_its_list() {
 }
 
 #[test]
+fn the_kernel_is_chosen_by_its_list_and_named_beside_the_times() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    assert!(has(&window, "Timed kernel: plain"));
+    let tests = figure(&window, "tests per hit");
+    window
+        .query_all_by_role(egui::accesskit::Role::ComboBox)
+        .find(|node| node.value().is_some_and(|v| v == "plain"))
+        .expect("the list of kernels")
+        .click();
+    window.run_steps(3);
+    click(&mut window, "lanes");
+    wait(&mut window, "the other kernel's times", |w| {
+        is_finished(w) && has(w, "Timed kernel: lanes")
+    });
+    assert_eq!(figure(&window, "tests per hit"), tests);
+}
+
+#[test]
 fn depth_and_leaf_size_follow_their_keys() {
     let mut window = open(small("balls:1"));
     finish(&mut window);

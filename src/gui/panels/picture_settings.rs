@@ -4,7 +4,7 @@ use super::{Panel, Side, row};
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::State;
 use crate::scene::{Cylinders, Sampling};
-use crate::trace::PrecisionChoice;
+use crate::trace::{KernelChoice, PrecisionChoice};
 
 pub(super) const PANEL: Panel = Panel {
     title: "Picture",
@@ -81,6 +81,25 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
                         ui.weak(used).on_hover_text(&about);
                     }
                 }
+            },
+        );
+        row(
+            ui,
+            "Kernel",
+            "How timed passes walk rays through the tree: plain, one after the other through exactly the \
+             nodes that are counted, as in the paper; lanes, batches in the lanes of vectors; auto, \
+             lanes where the processor has instructions for them. Hits are the same.",
+            |ui| {
+                let asked = &mut render.kernel;
+                egui::ComboBox::from_id_salt("kernel")
+                    .selected_text(asked.name())
+                    .show_ui(ui, |ui| {
+                        for choice in KernelChoice::ALL {
+                            ui.selectable_value(asked, choice, choice.name());
+                        }
+                    })
+                    .response
+                    .on_hover_text(format!("On this processor: {}.", asked.used()));
             },
         );
         row(

@@ -149,8 +149,8 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
     for &(row, at) in &places {
         let rect = Rect::from_center_size(at, vec2(11.0, 11.0));
         let point = ui.interact(rect, drawn.response.id.with(row), Sense::click());
-        let words = shown.words(&shown.rows[row]);
-        point.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &words));
+        let name = format!("Load {}", shown.words(&shown.rows[row]));
+        point.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
         // Where points crowd, the nearest is meant, not the one on top.
         let pointer = point.interact_pointer_pos().or(point.hover_pos());
         let meant = pointer.map_or(row, |pointer| nearest(&places, pointer).unwrap_or(row));
