@@ -668,6 +668,7 @@ fn trade_writes_every_form_and_takes_only_what_is_asked_for() {
         "precision f32",
         "cylinders 10 polygons",
         "SSIM",
+        "FLIP",
     ] {
         assert!(text.contains(words), "{words}\n{text}");
     }
@@ -685,7 +686,7 @@ fn trade_writes_every_form_and_takes_only_what_is_asked_for() {
         .map(|record| record.unwrap().len())
         .collect();
     assert!(
-        widths.len() > 20 && widths.iter().all(|&w| w == 13),
+        widths.len() > 20 && widths.iter().all(|&w| w == 14),
         "{widths:?}"
     );
 }
