@@ -3,16 +3,16 @@
 
 mod tough;
 
-use bspscope::geometry::Ray;
+use bspscope::geometry::{Ray, Vec3};
 use bspscope::measure::{RaySample, answer, compare, unsplit};
 use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
-use bspscope::trace::{RayKind, thread_pool};
+use bspscope::trace::{Batch, RayKind, RayTracer, Timed, thread_pool};
 use bspscope::tree::{BuildSettings, MaxDepth, Method, OverlapRule, build, validate};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::sync::OnceLock;
-use tough::{primitive, ray, scene_of};
+use tough::{lattice, primitive, ray, scene_of};
 
 /// The suite runs the same cases everywhere; other seeds are for searching.
 const SEED: u64 = 1;
@@ -35,6 +35,15 @@ fn settings() -> impl Strategy<Value = BuildSettings> {
                 ..BuildSettings::for_method(method)
             },
         )
+}
+
+/// At lattice points, from up to 10⁸ times as far as the scene is wide.
+fn ray_from_afar() -> impl Strategy<Value = Ray> {
+    let direction = prop::array::uniform3(-1.0f64..1.0).prop_map(Vec3::from_array);
+    (lattice(), direction, 0.0f64..9.0).prop_map(|(target, direction, away)| {
+        let origin = target - direction * 10f64.powf(away);
+        Ray::new(origin, target - origin)
+    })
 }
 
 fn pool() -> &'static rayon::ThreadPool {
@@ -65,6 +74,30 @@ proptest! {
             .map(|(ray, end)| Ray { t_max: end, ..*ray })
             .collect();
         for precision in Precision::ALL {
+            let expected = answer(&scene, &naive, precision, &sample, pool(), &progress).unwrap();
+            let found = answer(&scene, &tree, precision, &sample, pool(), &progress).unwrap();
+            let result = compare(&scene, &sample, &expected, &found, None);
+            prop_assert!(result.is_identical(), "{:?}, {:?}: {:?}", settings, precision, result);
+        }
+    }
+
+    #[test]
+    fn what_a_shadow_ray_ends_on_is_met(
+        objects in prop::collection::vec(primitive(), 1..24),
+        rays in prop::collection::vec(ray_from_afar(), 64),
+        settings in settings(),
+    ) {
+        let scene = scene_of(objects);
+        let progress = Progress::new();
+        let tree = build(&scene, &settings, &progress).unwrap();
+        let naive = unsplit(&scene, &progress).unwrap();
+        for precision in Precision::ALL {
+            let batch = Batch { kind: RayKind::Primary, rays: &rays, pixels: &[] };
+            let mut hits = Vec::new();
+            Timed::new(&naive, scene.shapes(precision), &progress).closest_hits(batch, &mut hits);
+            let to_hits = rays.iter().zip(&hits).map(|(ray, hit)| Ray { t_max: hit.t, ..*ray });
+            let mut sample = RaySample::default();
+            sample.rays[RayKind::Shadow as usize] = to_hits.collect();
             let expected = answer(&scene, &naive, precision, &sample, pool(), &progress).unwrap();
             let found = answer(&scene, &tree, precision, &sample, pool(), &progress).unwrap();
             let result = compare(&scene, &sample, &expected, &found, None);

@@ -101,10 +101,14 @@ impl Search {
         }
     }
 
+    /// The entries that hold the words as they were typed come first, then the nearest.
     fn find(&mut self) {
         let pattern = Pattern::parse(&self.query, CaseMatching::Ignore, Normalization::Smart);
         let found = pattern.match_list(&self.all, &mut self.matcher);
         self.found = found.into_iter().map(|(entry, _)| entry.clone()).collect();
+        let typed = self.query.to_lowercase();
+        self.found
+            .sort_by_key(|entry| !entry.text.to_lowercase().contains(&typed));
         self.selected = 0;
     }
 

@@ -85,9 +85,10 @@ pub(crate) trait Line {
 /// the division and both conversions into the coordinates of the root cell round once each.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Relative rounding that a hit may carry: grazing roots are known far less well than planes. A hit
-/// this near to the next leaf does not end the walk, for what that leaf holds may be nearer still.
-const HIT_ROUNDING: f64 = 1e-10;
+/// Relative rounding that a hit may carry, and so the end of a ray that ends on one: a grazing root,
+/// or one at the tip of a cone, is known to about the root of what a plane is known to. A hit this near
+/// to the next leaf does not end the walk, for what that leaf holds may be nearer still.
+const HIT_ROUNDING: f64 = 1e-7;
 
 #[inline(always)]
 fn later(t: f64) -> f64 {
@@ -97,6 +98,12 @@ fn later(t: f64) -> f64 {
 #[inline(always)]
 pub(super) fn earlier(t: f64) -> f64 {
     t - t.abs() * ROUNDING
+}
+
+/// How far a hit at `t` may truly lie.
+#[inline(always)]
+fn beyond_hit(t: f64) -> f64 {
+    t + t.abs() * HIT_ROUNDING
 }
 
 /// In `f64`: the tree and the objects were decided in the same numbers, only the distance rounds.
@@ -131,7 +138,8 @@ impl Line for WideLine {
 
     #[inline(always)]
     fn within_root(&self, [t_min, t_max]: [f64; 2]) -> Option<(f64, f64)> {
-        let (mut t_enter, mut t_exit) = (t_min, t_max);
+        // Ends may lie on hits, and be known no better.
+        let (mut t_enter, mut t_exit) = (-beyond_hit(-t_min), beyond_hit(t_max));
         for k in 0..3 {
             const SIDE: f64 = 1.0 + ROUNDING;
             let (origin, inverse) = (self.origin[k], self.inverse[k]);
@@ -166,7 +174,7 @@ impl Line for WideLine {
     #[inline(always)]
     fn reaches(t_enter: f64, limit: f64) -> bool {
         // A limit of −∞ gives NaN.
-        t_enter <= limit + limit.abs() * HIT_ROUNDING
+        t_enter <= beyond_hit(limit)
     }
 }
 

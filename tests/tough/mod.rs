@@ -6,7 +6,7 @@ use bspscope::scene::{Camera, Material, Scene, SceneParts};
 use proptest::prelude::*;
 
 /// Lattice points: many coordinates coincide with each other and with midpoint planes.
-fn lattice() -> impl Strategy<Value = Vec3> {
+pub fn lattice() -> impl Strategy<Value = Vec3> {
     (-4i32..=4, -4i32..=4, -4i32..=4).prop_map(|(x, y, z)| Vec3::new(x.into(), y.into(), z.into()))
 }
 

@@ -40,7 +40,7 @@ pub const CASES: &[Case] = &[
     case(
         "identical objects",
         "10,000 times the same sphere and triangle: right hits; where a tree would pass 256 MiB, the \
-         error that says so, and right hits with D_MAX 8",
+         error that says so, and right hits with D_MAX 8 or the coarsest grid",
         identical,
     ),
     case(

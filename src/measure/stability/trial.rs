@@ -7,6 +7,7 @@ use crate::primitive::Precision;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::trace::{Batch, RayKind, RayTracer, Timed, objects_fit_f32};
+use crate::tree::split::Structure;
 use crate::tree::{BuildError, BuildSettings, MaxDepth, Method, Tree, build, validate};
 use serde::Serialize;
 
@@ -163,7 +164,7 @@ impl Trial<'_> {
     }
 
     /// The same for a scene that may take too much memory: where the tree would pass 256 MiB, the
-    /// error must say so, and a tree of at most 8 levels be right.
+    /// error must say so, and a tree of at most 8 levels, or a grid of few voxels, be right.
     pub fn check_bounded(&self, scene: &Scene, rays: &[Ray]) -> Outcome {
         let settings = BuildSettings {
             memory_limit: 256 << 20,
@@ -172,8 +173,19 @@ impl Trial<'_> {
         match build(scene, &settings, self.progress) {
             Ok(tree) => self.check_tree(scene, &tree, rays),
             Err(BuildError::MemoryLimit { .. }) => {
-                let d_max = MaxDepth::Fixed(8);
-                self.check(scene, &BuildSettings { d_max, ..settings }, rays)
+                let mut small = settings;
+                match self.method.structure {
+                    Structure::Bintree | Structure::Octree => small.d_max = MaxDepth::Fixed(8),
+                    Structure::Grid => {
+                        let lowest = self
+                            .method
+                            .constants
+                            .iter()
+                            .map(|c| (c.name.into(), c.lowest));
+                        small.constants.extend(lowest);
+                    }
+                }
+                self.check(scene, &small, rays)
             }
             Err(error) => Outcome::fail(error.to_string()),
         }

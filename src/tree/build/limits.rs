@@ -3,6 +3,7 @@
 use super::{BuildError, Node};
 use crate::geometry::Aabb;
 use crate::tree::ObjectPlanes;
+use crate::tree::split::Structure;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// What the parts of a build hold together. Whether a tree fits does not depend on the order in which
@@ -11,6 +12,7 @@ pub(super) struct Limits {
     /// Bytes.
     limit: u64,
     objects: usize,
+    structure: Structure,
     nodes: AtomicUsize,
     references: AtomicUsize,
     /// Objects in the lists of the cells from the root to a cell, the most of any cell.
@@ -23,10 +25,11 @@ const GROWTH: usize = 3;
 
 impl Limits {
     /// For a scene of so many objects.
-    pub(super) fn new(limit: u64, objects: usize) -> Self {
+    pub(super) fn new(limit: u64, objects: usize, structure: Structure) -> Self {
         Limits {
             limit,
             objects,
+            structure,
             nodes: AtomicUsize::new(0),
             references: AtomicUsize::new(0),
             waiting: AtomicUsize::new(0),
@@ -59,6 +62,7 @@ impl Limits {
             depth,
             nodes: held_nodes,
             references: held_references,
+            structure: self.structure,
         })
     }
 

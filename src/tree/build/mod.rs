@@ -28,8 +28,9 @@ pub enum BuildError {
     Cancelled(#[from] Cancelled),
     #[error(
         "the tree needs more than the memory limit of {} MiB: stopped at depth {depth} after \
-         {nodes} nodes and {references} references; lower D_MAX, raise N_OILF or the limit",
-        .limit >> 20
+         {nodes} nodes and {references} references; {} or raise the limit",
+        .limit >> 20,
+        .structure.made_smaller_by()
     )]
     MemoryLimit {
         /// Bytes.
@@ -38,6 +39,8 @@ pub enum BuildError {
         /// About how many there were; how many exactly depends on the order in which threads work.
         nodes: usize,
         references: usize,
+        /// Of the method.
+        structure: Structure,
     },
     #[error("the scene has {0} objects; a tree can hold {most}", most = Node::MAX_LEAF - 1)]
     TooManyObjects(usize),
@@ -73,7 +76,11 @@ fn in_pool(
     let frame = Frame::around(&scene.bounds(), settings.root_margin);
     let depth_limit = settings.d_max.resolve(objects.len());
     let rule = (settings.method.rule)(settings);
-    let limits = Limits::new(settings.memory_limit, objects.len());
+    let limits = Limits::new(
+        settings.memory_limit,
+        objects.len(),
+        settings.method.structure,
+    );
     limits.wait(0, objects.len())?;
     let (mut bounds, mut planes) = (Vec::new(), Vec::new());
     objects

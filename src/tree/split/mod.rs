@@ -96,6 +96,14 @@ impl Structure {
             Structure::Bintree | Structure::Grid => 1,
         }
     }
+
+    /// What to do for a smaller tree.
+    pub(super) fn made_smaller_by(self) -> &'static str {
+        match self {
+            Structure::Bintree | Structure::Octree => "lower D_MAX, raise N_OILF",
+            Structure::Grid => "lower the density of voxels",
+        }
+    }
 }
 
 /// A constant of a build method that can be set.
