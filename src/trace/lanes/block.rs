@@ -203,35 +203,32 @@ impl Block for Triangles {
             let last = S::max(S::max(ta, tb), tc);
             let reached = S::and(S::le(first, farthest), S::le(nearest, last));
             let maybe = S::and_not(reached, missed);
-            if S::bits(maybe) == 0 {
-                MayHit::default()
-            } else {
-                // The distance is a mean of those of the vertices, weighted by the edge functions.
-                // With D their sum: if they are off by `error` each, it is by 3 `error` / |D| times
-                // the span of those distances, at most.
-                let sum = S::add(S::add(u, v), w);
-                let inverse = S::div(S::splat(1.0), sum);
-                let t = S::mul(
-                    S::mul_add(u, ta, S::mul_add(v, tb, S::mul(w, tc))),
-                    inverse,
-                );
-                let off = S::mul(S::mul(error, S::splat(4.0)), S::abs(inverse));
-                let clear = S::lt(off, S::splat(1.0));
-                let off = S::mul(off, S::sub(last, first));
-                let (early, late) = (S::sub(t, off), S::add(t, off));
-                let out = S::or(S::lt(late, nearest), S::lt(farthest, early));
-                let maybe = S::and_not(maybe, S::and(clear, out));
-                let mut found = MayHit {
-                    maybe: S::bits(maybe),
-                    surely: 0,
-                };
-                if any {
-                    let inside = S::or(S::lt(error, least), S::lt(most, S::sub(zero, error)));
-                    let within = S::and(S::le(begin, early), S::le(late, end));
-                    found.surely = S::bits(S::and(S::and(inside, within), S::and(clear, maybe)));
-                }
-                found
+            // The distance is a mean of those of the vertices, weighted by the edge functions.
+            // With D their sum: if they are off by `error` each, it is by 3 `error` / |D| times
+            // the span of those distances, at most. Nothing predicts whether it is wanted: it is
+            // computed without asking.
+            let sum = S::add(S::add(u, v), w);
+            let inverse = S::div(S::splat(1.0), sum);
+            let t = S::mul(
+                S::mul_add(u, ta, S::mul_add(v, tb, S::mul(w, tc))),
+                inverse,
+            );
+            let off = S::mul(S::mul(error, S::splat(4.0)), S::abs(inverse));
+            let clear = S::lt(off, S::splat(1.0));
+            let off = S::mul(off, S::sub(last, first));
+            let (early, late) = (S::sub(t, off), S::add(t, off));
+            let out = S::or(S::lt(late, nearest), S::lt(farthest, early));
+            let maybe = S::and_not(maybe, S::and(clear, out));
+            let mut found = MayHit {
+                maybe: S::bits(maybe),
+                surely: 0,
+            };
+            if any {
+                let inside = S::or(S::lt(error, least), S::lt(most, S::sub(zero, error)));
+                let within = S::and(S::le(begin, early), S::le(late, end));
+                found.surely = S::bits(S::and(S::and(inside, within), S::and(clear, maybe)));
             }
+            found
         })
     }
 }
@@ -276,7 +273,7 @@ unsafe fn cross<S: Simd>(p: [S::F; 3], q: [S::F; 3]) -> S::F {
 /// The larger of the first two coordinates.
 #[inline(always)]
 unsafe fn size<S: Simd>(p: [S::F; 3]) -> S::F {
-    S::max(S::abs(p[0]), S::abs(p[1]))
+    S::max_abs(p[0], p[1])
 }
 
 #[inline(always)]

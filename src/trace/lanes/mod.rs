@@ -14,6 +14,7 @@ mod exact;
 mod prepare;
 mod ray;
 mod simd;
+mod stacks;
 mod tracer;
 mod walk;
 
@@ -26,9 +27,9 @@ use block::{Block, Boxes, Spheres, Triangles};
 use exact::{Any, Closest, InArray, InBlocks, Narrow, Numbers, Objects, Wide};
 use prepare::Prepared;
 use ray::{CHUNK, LaneRays, Root};
-use simd::Waiting;
+use stacks::Stacks;
 pub use tracer::{KernelChoice, TimedKernel};
-use walk::{Tests, walk};
+use walk::{Candidate, Tests, walk};
 
 /// Three values by number. Unlike `array::map` it is never a call, which would pass arrays through
 /// memory in pieces of other sizes than they are read in; processors wait then.
@@ -146,7 +147,8 @@ pub struct LaneKernel<'a> {
     shapes: &'a Shapes,
     instructions: InstructionSet,
     rays: Box<LaneRays>,
-    stack: Vec<Waiting>,
+    stacks: Stacks,
+    candidates: Vec<Candidate>,
     scratch: Scratch,
 }
 
@@ -168,7 +170,8 @@ impl<'a> LaneKernel<'a> {
             shapes,
             instructions,
             rays: LaneRays::new(),
-            stack: Vec::new(),
+            stacks: Stacks::default(),
+            candidates: Vec::new(),
             scratch: Scratch::default(),
         }
     }
@@ -277,16 +280,17 @@ impl<'a> LaneKernel<'a> {
     }
 
     fn walk(&mut self, tests: &mut dyn Tests) {
-        let (rays, stack) = (&*self.rays, &mut self.stack);
+        let (rays, stacks) = (&*self.rays, &mut self.stacks);
+        let candidates = &mut self.candidates;
         with_prepared!(self.lanes, tree => {
             // SAFETY: a kernel is only made for instructions that the processor has.
             unsafe {
                 match self.instructions {
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx512 => walk_avx512(tree, rays, stack, tests),
+                    InstructionSet::Avx512 => walk_avx512(tree, rays, stacks, candidates, tests),
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx2 => walk_avx2(tree, rays, stack, tests),
-                    _ => walk::<simd::portable::Portable, _, 2>(tree, rays, stack, tests),
+                    InstructionSet::Avx2 => walk_avx2(tree, rays, stacks, candidates, tests),
+                    _ => walk::<simd::portable::Portable, _, 2>(tree, rays, stacks, candidates, tests),
                 }
             }
         });
@@ -317,11 +321,12 @@ macro_rules! compiled {
         unsafe fn $walk<B: Block>(
             tree: &Prepared<B>,
             rays: &LaneRays,
-            stack: &mut Vec<Waiting>,
+            stacks: &mut Stacks,
+            candidates: &mut Vec<Candidate>,
             tests: &mut dyn Tests,
         ) {
             // SAFETY: the caller's.
-            unsafe { walk::<$simd, B, $groups>(tree, rays, stack, tests) }
+            unsafe { walk::<$simd, B, $groups>(tree, rays, stacks, candidates, tests) }
         }
     };
 }

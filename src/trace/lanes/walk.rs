@@ -9,7 +9,8 @@
 use super::block::{BLOCK, Block};
 use super::prepare::{ABOVE_EMPTY, BELOW_EMPTY, PLACE, Prepared};
 use super::ray::{LaneRays, Start};
-use super::simd::{Simd, Waiting};
+use super::simd::Simd;
+use super::stacks::Stacks;
 
 /// An object that the ray of a lane may hit.
 #[derive(Clone, Copy, Default)]
@@ -41,9 +42,6 @@ const WIDEST: usize = 16;
 
 /// The most groups there are room for.
 const MOST_GROUPS: usize = 6;
-
-/// Candidates that are tested at once, at most; a block adds up to [`BLOCK`].
-const MOST_CANDIDATES: usize = 256;
 
 /// What a group's lanes hold of their rays.
 #[derive(Clone, Copy)]
@@ -86,6 +84,17 @@ impl Group {
         *self.ray.get_unchecked_mut(lane) = start.ray;
     }
 }
+
+/// The lanes of all groups.
+const NUMBERS: [[u32; WIDEST]; MOST_GROUPS] = {
+    let mut numbers = [[0; WIDEST]; MOST_GROUPS];
+    let mut k = 0;
+    while k < MOST_GROUPS * WIDEST {
+        numbers[k / WIDEST][k % WIDEST] = k as u32;
+        k += 1;
+    }
+    numbers
+};
 
 /// Where a group's lanes are.
 struct Place<S: Simd> {
@@ -149,18 +158,16 @@ unsafe fn by_axis<S: Simd>(values: &[[f32; WIDEST]; 3], is_1: S::M, is_2: S::M) 
 pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     tree: &Prepared<B>,
     rays: &LaneRays,
-    stack: &mut Vec<Waiting>,
+    stacks: &mut Stacks,
+    candidates: &mut Vec<Candidate>,
     tests: &mut dyn Tests,
 ) {
     const { assert!(GROUPS <= MOST_GROUPS && S::LANES <= WIDEST) };
-    let depth = tree.most_waiting + 1;
-    stack.resize(GROUPS * S::LANES * depth, Waiting::default());
-    let stack = stack.as_mut_ptr();
-    // Every lane's stack follows that of the lane before.
+    stacks.reserve(GROUPS * S::LANES, tree.most_waiting + 1);
     let mut bottoms = [[0_u32; WIDEST]; MOST_GROUPS];
     for (j, bottoms) in bottoms.iter_mut().enumerate() {
         for (lane, bottom) in bottoms.iter_mut().enumerate() {
-            *bottom = ((j * S::LANES + lane) * depth) as u32 * Waiting::PLACES;
+            *bottom = stacks.bottom(j * S::LANES + lane);
         }
     }
     let all = (1_u32 << S::LANES) - 1;
@@ -174,71 +181,79 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
         active: S::mask(0),
     });
     let mut limits = [[-1.0_f32; WIDEST]; GROUPS];
-    let mut candidates = [Candidate::default(); MOST_CANDIDATES];
+    candidates.resize(GROUPS * S::LANES * BLOCK + 1, Candidate::default());
+    let mut list = [0_u32; WIDEST * (MOST_GROUPS + 1)];
     let any_will_do = tests.any_will_do();
     let mut waiting_rays = rays.starts();
     // A round of tests is worth its while once half the lanes wait.
     let enough = (GROUPS * S::LANES / 2) as u32;
 
     loop {
-        let mut found = 0;
-        let mut at_leaves = [0; GROUPS];
+        let mut at_leaves = 0;
         each_group!(GROUPS, J => {
             let blocks = S::load_u(groups[J].blocks.as_ptr());
             let full = S::bits(S::test_u(blocks, S::splat_u(u32::MAX)));
-            at_leaves[J] = places[J].waiting() & full;
+            let here = places[J].waiting() & full;
+            let numbers = S::load_u(NUMBERS[J].as_ptr());
+            S::append(list.as_mut_ptr().add(at_leaves), S::mask(here), numbers);
+            at_leaves += here.count_ones() as usize;
         });
-        for j in 0..GROUPS {
-            let group = &groups[j];
-            let mut waiting = at_leaves[j];
-            while waiting != 0 {
-                let lane = waiting.trailing_zeros() as usize;
-                waiting &= waiting - 1;
-                let first = *group.first.get_unchecked(lane) as usize;
-                let blocks = *group.blocks.get_unchecked(lane) as usize;
+        for &lane in list.get_unchecked(..at_leaves) {
+            let (j, lane) = (lane as usize / WIDEST, lane as usize % WIDEST);
+            let first = *groups.get_unchecked(j).first.get_unchecked(lane);
+            prefetch(tree.blocks.as_ptr().add(first as usize));
+        }
+        // A block of every leaf, then the next of those that have more.
+        while at_leaves > 0 {
+            let (mut found, mut going_on) = (0, 0);
+            for k in 0..at_leaves {
+                let number = *list.get_unchecked(k);
+                let (j, lane) = (number as usize / WIDEST, number as usize % WIDEST);
+                let group = groups.get_unchecked_mut(j);
+                let block_number = *group.first.get_unchecked(lane);
+                let left = *group.blocks.get_unchecked(lane) - 1;
+                *group.first.get_unchecked_mut(lane) = block_number + 1;
+                *group.blocks.get_unchecked_mut(lane) = left;
                 let ray = *group.ray.get_unchecked(lane);
-                for number in first..first + blocks {
-                    let block = tree.blocks.get_unchecked(number);
-                    let limit = *limits.get_unchecked(j).get_unchecked(lane);
-                    let may_hit = block.candidates::<S>(rays, ray as usize, limit, any_will_do);
-                    let enough = may_hit.surely != 0;
-                    let mut maybe = if enough {
-                        may_hit.surely
-                    } else {
-                        may_hit.maybe
+                let block = tree.blocks.get_unchecked(block_number as usize);
+                let limit = *limits.get_unchecked(j).get_unchecked(lane);
+                let may_hit = block.candidates::<S>(rays, ray as usize, limit, any_will_do);
+                let surely = may_hit.surely != 0;
+                let mut maybe = if surely {
+                    lowest(may_hit.surely)
+                } else {
+                    may_hit.maybe
+                };
+                *list.get_unchecked_mut(going_on) = number;
+                going_on += usize::from((left > 0) & !surely);
+                // One is written in any case: nothing predicts whether there is one.
+                loop {
+                    let place = maybe.trailing_zeros() % BLOCK as u32;
+                    *candidates.get_unchecked_mut(found) = Candidate {
+                        lane: number,
+                        ray,
+                        block: block_number,
+                        place,
+                        object: *block.objects().get_unchecked(place as usize),
+                        surely,
                     };
-                    while maybe != 0 {
-                        let place = maybe.trailing_zeros();
-                        *candidates.get_unchecked_mut(found) = Candidate {
-                            lane: (j * WIDEST + lane) as u32,
-                            ray,
-                            block: number as u32,
-                            place,
-                            object: *block.objects().get_unchecked(place as usize),
-                            surely: enough,
-                        };
-                        maybe &= if enough { 0 } else { maybe - 1 };
-                        found += 1;
-                    }
-                    if enough {
+                    found += usize::from(maybe != 0);
+                    maybe &= maybe.wrapping_sub(1);
+                    if maybe == 0 {
                         break;
-                    }
-                    if found > MOST_CANDIDATES - BLOCK {
-                        tests.test(rays, &candidates[..found], limits.as_flattened_mut());
-                        found = 0;
                     }
                 }
             }
-        }
-        if found > 0 {
             tests.test(rays, &candidates[..found], limits.as_flattened_mut());
+            at_leaves = going_on;
         }
+        stacks.settle();
         let mut living = 0;
         each_group!(GROUPS, J => {
             let (place, group) = (&mut places[J], &mut groups[J]);
             let bottom = S::load_u(bottoms[J].as_ptr());
             let limits = &mut limits[J];
-            go_on::<S>(place, group, limits, stack, bottom, rays, &mut waiting_rays);
+            go_on::<S>(place, group, limits, stacks, bottom, rays, &mut waiting_rays);
             living |= place.alive;
         });
         if living == 0 {
@@ -250,7 +265,7 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
         each_group!(GROUPS, J => fetched[J] = S::nodes(nodes, places[J].node));
         loop {
             each_group!(GROUPS, J => {
-                step(&mut places[J], &mut groups[J], fetched[J], stack, tree);
+                step(&mut places[J], &mut groups[J], fetched[J], stacks, tree);
                 fetched[J] = S::nodes(nodes, places[J].node);
             });
             let (mut waiting, mut moving) = (0, 0);
@@ -272,7 +287,7 @@ unsafe fn go_on<S: Simd>(
     place: &mut Place<S>,
     group: &mut Group,
     limits: &mut [f32; WIDEST],
-    stack: *const Waiting,
+    stacks: &Stacks,
     bottom: S::U,
     rays: &LaneRays,
     waiting_rays: &mut &[Start],
@@ -281,7 +296,7 @@ unsafe fn go_on<S: Simd>(
     if waiting == 0 {
         return;
     }
-    let entry = S::splat_u(Waiting::PLACES);
+    let entry = S::splat_u(1);
     let thickness = S::splat(2.0 * rays.thick);
     let wx = S::mul(S::abs(S::load(group.inverse[0].as_ptr())), thickness);
     let wy = S::mul(S::abs(S::load(group.inverse[1].as_ptr())), thickness);
@@ -293,7 +308,7 @@ unsafe fn go_on<S: Simd>(
     let done = S::bits(S::or(S::eq_u(place.top, bottom), over)) & waiting;
     let pops = S::mask(waiting & !done);
     place.top = S::select_u(pops, S::sub_u(place.top, entry), place.top);
-    let (node, t_enter, t_exit) = S::pop(stack, place.top);
+    let (node, t_enter, t_exit) = stacks.at::<S>(place.top);
     place.enter = S::select(pops, t_enter, place.enter);
     place.exit = S::select(pops, t_exit, place.exit);
     place.node = S::select_u(pops, node, place.node);
@@ -332,35 +347,18 @@ unsafe fn step<S: Simd, B: Block>(
     place: &mut Place<S>,
     group: &mut Group,
     (payload, word): (S::U, S::U),
-    stack: *mut Waiting,
+    stacks: &mut Stacks,
     tree: &Prepared<B>,
 ) {
-    #[repr(align(64))]
-    struct Firsts([u32; WIDEST]);
     let (one, two) = (S::splat_u(1), S::splat_u(2));
     let (is_1, is_2) = (S::test_u(word, one), S::test_u(word, two));
     let mask = S::and(S::and(is_1, is_2), place.active);
-    let leaves = S::bits(mask);
-    if leaves != 0 {
-        place.active = S::and_not(place.active, mask);
-        let first = S::select_u(mask, payload, S::load_u(group.first.as_ptr()));
-        S::store_u(group.first.as_mut_ptr(), first);
-        let blocks = S::shr_u::<2>(word);
-        let mut full = S::bits(S::test_u(blocks, S::splat_u(u32::MAX))) & leaves;
-        let blocks = S::select_u(mask, blocks, S::load_u(group.blocks.as_ptr()));
-        S::store_u(group.blocks.as_mut_ptr(), blocks);
-        let mut firsts = Firsts([0; WIDEST]);
-        S::store_u(firsts.0.as_mut_ptr(), payload);
-        while full != 0 {
-            let lane = full.trailing_zeros() as usize;
-            full &= full - 1;
-            prefetch(
-                tree.blocks
-                    .as_ptr()
-                    .add(*firsts.0.get_unchecked(lane) as usize),
-            );
-        }
-    }
+    place.active = S::and_not(place.active, mask);
+    let first = S::select_u(mask, payload, S::load_u(group.first.as_ptr()));
+    S::store_u(group.first.as_mut_ptr(), first);
+    let blocks = S::shr_u::<2>(word);
+    let blocks = S::select_u(mask, blocks, S::load_u(group.blocks.as_ptr()));
+    S::store_u(group.blocks.as_mut_ptr(), blocks);
     let act = place.active;
     let shifted = by_axis::<S>(&group.shifted, is_1, is_2);
     let inverse = by_axis::<S>(&group.inverse, is_1, is_2);
@@ -379,14 +377,19 @@ unsafe fn step<S: Simd, B: Block>(
     let take = S::and_not(both, near_empty);
     let push = S::and_not(take, far_empty);
     let after = S::max(place.enter, begins);
-    S::push(stack, place.top, far, after, place.exit);
-    let entry = S::splat_u(Waiting::PLACES);
-    place.top = S::select_u(push, S::add_u(place.top, entry), place.top);
+    stacks.push::<S>(push, place.top, far, after, place.exit);
+    place.top = S::select_u(push, S::add_u(place.top, one), place.top);
     place.enter = S::select(skip, after, place.enter);
     place.exit = S::select(take, S::min(place.exit, ends), place.exit);
     let to_far = S::or(only_far, skip);
     let next = S::select_u(to_far, far, near);
     place.node = S::select_u(act, next, place.node);
+}
+
+/// The lowest bit that is set.
+#[inline(always)]
+fn lowest(bits: u32) -> u32 {
+    bits & bits.wrapping_neg()
 }
 
 /// Asks for a block before it is needed.

@@ -2,7 +2,8 @@
 #![allow(unsafe_op_in_unsafe_fn)] // the trait's contract covers every line
 
 use super::super::prepare::Node;
-use super::{Simd, Waiting};
+use super::super::stacks::Waiting;
+use super::Simd;
 use std::arch::x86_64::*;
 
 #[derive(Clone, Copy)]
@@ -49,23 +50,11 @@ unsafe fn two(from: *const f64, at: &[usize]) -> __m128 {
     _mm_castpd_ps(_mm_loadh_pd(low, from.add(at[1])))
 }
 
-/// Writes the entries of two lanes, four apart.
-#[inline(always)]
-unsafe fn write_two(to: *mut Waiting, at: &[usize], entries: __m256d) {
-    let entries = _mm256_castpd_ps(entries);
-    _mm_store_ps(
-        to.byte_add(8 * at[0]).cast(),
-        _mm256_castps256_ps128(entries),
-    );
-    let second = _mm256_extractf128_ps::<1>(entries);
-    _mm_store_ps(to.byte_add(8 * at[4]).cast(), second);
-}
-
 /// Reads the entries of two lanes, four apart.
 #[inline(always)]
 unsafe fn read_two(from: *const Waiting, at: &[usize]) -> __m256 {
-    let first = _mm_load_ps(from.byte_add(8 * at[0]).cast());
-    let second = _mm_load_ps(from.byte_add(8 * at[4]).cast());
+    let first = _mm_load_ps(from.add(at[0]).cast());
+    let second = _mm_load_ps(from.add(at[4]).cast());
     _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(first), second)
 }
 
@@ -215,26 +204,6 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
-    unsafe fn push(
-        stack: *mut Waiting,
-        at: __m256i,
-        node: __m256i,
-        t_enter: __m256,
-        t_exit: __m256,
-    ) {
-        let at = numbers(at);
-        let node = _mm256_castsi256_ps(node);
-        let low = _mm256_castps_pd(_mm256_unpacklo_ps(node, t_enter));
-        let high = _mm256_castps_pd(_mm256_unpackhi_ps(node, t_enter));
-        let exit_low = _mm256_castps_pd(_mm256_unpacklo_ps(t_exit, t_exit));
-        let exit_high = _mm256_castps_pd(_mm256_unpackhi_ps(t_exit, t_exit));
-        write_two(stack, &at, _mm256_unpacklo_pd(low, exit_low));
-        write_two(stack, &at[1..], _mm256_unpackhi_pd(low, exit_low));
-        write_two(stack, &at[2..], _mm256_unpacklo_pd(high, exit_high));
-        write_two(stack, &at[3..], _mm256_unpackhi_pd(high, exit_high));
-    }
-
-    #[inline(always)]
     unsafe fn pop(stack: *const Waiting, at: __m256i) -> (__m256i, __m256, __m256) {
         let at = numbers(at);
         let (a, b) = (read_two(stack, &at), read_two(stack, &at[1..]));
@@ -249,4 +218,29 @@ impl Simd for Avx2 {
             _mm256_castpd_ps(_mm256_unpacklo_pd(high, other_high)),
         )
     }
+
+    #[inline(always)]
+    unsafe fn append(to: *mut u32, mask: __m256i, x: __m256i) {
+        let order = _mm_loadl_epi64(ORDERS[Self::bits(mask) as usize].as_ptr().cast());
+        let packed = _mm256_permutevar8x32_epi32(x, _mm256_cvtepu8_epi32(order));
+        _mm256_storeu_si256(to.cast(), packed);
+    }
 }
+
+/// For every mask, its lanes one after the other.
+static ORDERS: [[u8; 8]; 256] = {
+    let mut orders = [[0; 8]; 256];
+    let mut mask = 0;
+    while mask < 256 {
+        let (mut lane, mut count) = (0, 0);
+        while lane < 8 {
+            if mask >> lane & 1 == 1 {
+                orders[mask][count] = lane as u8;
+                count += 1;
+            }
+            lane += 1;
+        }
+        mask += 1;
+    }
+    orders
+};

@@ -2,7 +2,8 @@
 #![allow(unsafe_op_in_unsafe_fn)] // the trait's contract covers every line
 
 use super::super::prepare::Node;
-use super::{Simd, Waiting};
+use super::super::stacks::Waiting;
+use super::Simd;
 use std::arch::x86_64::*;
 
 #[derive(Clone, Copy)]
@@ -56,21 +57,10 @@ unsafe fn eight(from: *const f64, at: &[usize]) -> __m512i {
     _mm512_inserti64x4::<1>(low, four(from, &at[4..]))
 }
 
-/// Writes entries of every fourth lane.
-#[inline(always)]
-unsafe fn write_four(to: *mut Waiting, at: &[usize], entries: __m512d) {
-    let entries = _mm512_castpd_ps(entries);
-    let place = |k: usize| to.byte_add(8 * at[k]).cast::<f32>();
-    _mm_store_ps(place(0), _mm512_castps512_ps128(entries));
-    _mm_store_ps(place(4), _mm512_extractf32x4_ps::<1>(entries));
-    _mm_store_ps(place(8), _mm512_extractf32x4_ps::<2>(entries));
-    _mm_store_ps(place(12), _mm512_extractf32x4_ps::<3>(entries));
-}
-
 /// Reads entries of every fourth lane.
 #[inline(always)]
 unsafe fn read_four(from: *const Waiting, at: &[usize]) -> __m512 {
-    let place = |k: usize| from.byte_add(8 * at[k]).cast::<f32>();
+    let place = |k: usize| from.add(at[k]).cast::<f32>();
     let four = _mm512_castps128_ps512(_mm_load_ps(place(0)));
     let four = _mm512_insertf32x4::<1>(four, _mm_load_ps(place(4)));
     let four = _mm512_insertf32x4::<2>(four, _mm_load_ps(place(8)));
@@ -220,27 +210,6 @@ impl Simd for Avx512 {
         unzip(eight(nodes.cast(), &at), eight(nodes.cast(), &at[8..]))
     }
 
-    /// Stores one after the other are as fast as the scattering instruction.
-    #[inline(always)]
-    unsafe fn push(
-        stack: *mut Waiting,
-        at: __m512i,
-        node: __m512i,
-        t_enter: __m512,
-        t_exit: __m512,
-    ) {
-        let at = numbers(at);
-        let node = _mm512_castsi512_ps(node);
-        let low = _mm512_castps_pd(_mm512_unpacklo_ps(node, t_enter));
-        let high = _mm512_castps_pd(_mm512_unpackhi_ps(node, t_enter));
-        let exit_low = _mm512_castps_pd(_mm512_unpacklo_ps(t_exit, t_exit));
-        let exit_high = _mm512_castps_pd(_mm512_unpackhi_ps(t_exit, t_exit));
-        write_four(stack, &at, _mm512_unpacklo_pd(low, exit_low));
-        write_four(stack, &at[1..], _mm512_unpackhi_pd(low, exit_low));
-        write_four(stack, &at[2..], _mm512_unpacklo_pd(high, exit_high));
-        write_four(stack, &at[3..], _mm512_unpackhi_pd(high, exit_high));
-    }
-
     #[inline(always)]
     unsafe fn pop(stack: *const Waiting, at: __m512i) -> (__m512i, __m512, __m512) {
         let at = numbers(at);
@@ -255,5 +224,16 @@ impl Simd for Avx512 {
             _mm512_castpd_ps(_mm512_unpackhi_pd(low, other_low)),
             _mm512_castpd_ps(_mm512_unpacklo_pd(high, other_high)),
         )
+    }
+
+    #[inline(always)]
+    unsafe fn append(to: *mut u32, mask: __mmask16, x: __m512i) {
+        _mm512_storeu_si512(to.cast(), _mm512_maskz_compress_epi32(mask, x));
+    }
+
+    #[inline(always)]
+    unsafe fn max_abs(a: __m512, b: __m512) -> __m512 {
+        // Of the sizes, the larger; without a sign.
+        _mm512_range_ps::<0b10_11>(a, b)
     }
 }

@@ -7,21 +7,7 @@ pub(super) mod avx512;
 pub(super) mod portable;
 
 use super::prepare::Node;
-
-/// A node that waits for its turn, and where on the ray its cell lies.
-#[derive(Clone, Copy, Default)]
-#[repr(C, align(16))]
-pub(super) struct Waiting {
-    pub(super) node: u32,
-    pub(super) t_enter: f32,
-    pub(super) t_exit: f32,
-}
-
-impl Waiting {
-    /// What an entry counts in places on the stack, which are of 8 bytes: processors find such
-    /// addresses without an instruction for the product.
-    pub(super) const PLACES: u32 = (size_of::<Waiting>() / 8) as u32;
-}
+use super::stacks::Waiting;
 
 /// Lanes of numbers (`F`), words (`U`) and yes or no (`M`).
 ///
@@ -81,14 +67,14 @@ pub(super) trait Simd: Copy {
 
     /// Both words of the nodes at these places.
     unsafe fn nodes(nodes: *const Node, at: Self::U) -> (Self::U, Self::U);
-    /// Writes to the stack at these places of 8 bytes, in every lane.
-    unsafe fn push(
-        stack: *mut Waiting,
-        at: Self::U,
-        node: Self::U,
-        t_enter: Self::F,
-        t_exit: Self::F,
-    );
-    /// Reads from the stack likewise.
-    unsafe fn pop(stack: *const Waiting, at: Self::U) -> (Self::U, Self::F, Self::F);
+    /// Reads from the stacks at these places.
+    unsafe fn pop(stacks: *const Waiting, at: Self::U) -> (Self::U, Self::F, Self::F);
+    /// Writes the lanes of the mask one after the other. `to` has room for all lanes, and what follows
+    /// those written may be overwritten.
+    unsafe fn append(to: *mut u32, mask: Self::M, x: Self::U);
+    /// The larger of both sizes, whatever the signs.
+    #[inline(always)]
+    unsafe fn max_abs(a: Self::F, b: Self::F) -> Self::F {
+        Self::max(Self::abs(a), Self::abs(b))
+    }
 }

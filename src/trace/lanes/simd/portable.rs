@@ -1,7 +1,8 @@
 //! Eight lanes in plain Rust, for processors without a path of their own.
 
 use super::super::prepare::Node;
-use super::{Simd, Waiting};
+use super::super::stacks::Waiting;
+use super::Simd;
 
 #[derive(Clone, Copy)]
 pub(in super::super) struct Portable;
@@ -171,32 +172,23 @@ impl Simd for Portable {
     }
 
     #[inline(always)]
-    unsafe fn push(
-        stack: *mut Waiting,
-        at: Self::U,
-        node: Self::U,
-        t_enter: Self::F,
-        t_exit: Self::F,
-    ) {
-        for k in 0..LANES {
-            let waiting = Waiting {
-                node: node[k],
-                t_enter: t_enter[k],
-                t_exit: t_exit[k],
-            };
-            // SAFETY: the places are within the lanes' stacks.
-            unsafe { *stack.byte_add(8 * at[k] as usize) = waiting };
-        }
-    }
-
-    #[inline(always)]
     unsafe fn pop(stack: *const Waiting, at: Self::U) -> (Self::U, Self::F, Self::F) {
         // SAFETY: as above.
-        let waiting = at.map(|at| unsafe { *stack.byte_add(8 * at as usize) });
+        let waiting = at.map(|at| unsafe { *stack.add(at as usize) });
         (
             waiting.map(|w| w.node),
             waiting.map(|w| w.t_enter),
             waiting.map(|w| w.t_exit),
         )
+    }
+
+    #[inline(always)]
+    unsafe fn append(to: *mut u32, mask: u32, x: Self::U) {
+        let mut count = 0;
+        for (k, x) in x.into_iter().enumerate() {
+            // SAFETY: there is room for all lanes.
+            unsafe { *to.add(count) = x };
+            count += (mask >> k & 1) as usize;
+        }
     }
 }
