@@ -2,11 +2,10 @@
 //! the ray may hit, whatever `f32` has rounded; those few are then tested one by one.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::ray::{LaneRay, LaneRays};
+use super::ray::LaneRays;
 use super::simd::Simd;
 use super::three;
-use crate::geometry::Ray;
-use crate::primitive::{Form, PackedSphere, PackedTriangle, Primitive, Shape, UnitFrame};
+use crate::primitive::{PackedSphere, Primitive, Shape, UnitFrame};
 
 /// Objects of a block.
 pub(super) const BLOCK: usize = 16;
@@ -42,23 +41,6 @@ pub(super) struct MayHit {
     pub(super) maybe: u32,
     /// Those of them that it certainly hits, up to its own end.
     pub(super) surely: u32,
-}
-
-/// A block that holds all there is of its objects in `f32`.
-pub(super) trait Whole: Block {
-    /// [`Form::settle`] of the packed object.
-    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64>;
-}
-
-/// A ray in `f64`, its axes in this order.
-#[inline(always)]
-pub(super) fn widened(ray: &LaneRay, axes: [usize; 3]) -> Ray {
-    Ray {
-        origin: three(|k| f64::from(ray.origin[axes[k]])).into(),
-        direction: three(|k| f64::from(ray.direction[axes[k]])).into(),
-        t_min: f64::from(ray.t_min),
-        t_max: f64::from(ray.t_max),
-    }
 }
 
 /// Bounds on errors in `f32`, for packed objects and for the exact ones that these are nearest to, as
@@ -233,21 +215,19 @@ impl Block for Triangles {
     }
 }
 
-impl Whole for Triangles {
+impl Triangles {
+    /// A triangle's vertices, their coordinates along these axes.
     #[inline(always)]
-    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64> {
-        let axes = ray.turned_axes();
-        let vertices = three(|i| three(|k| self.vertices[i][axes[k]][place]).into());
-        PackedTriangle::settle_turned(vertices, &widened(ray, axes), t_max)
+    pub(super) fn vertices(&self, place: usize, axes: [usize; 3]) -> [[f32; 3]; 3] {
+        three(|i| three(|k| self.vertices[i][axes[k]][place]))
     }
 }
 
-impl Whole for Spheres {
+impl Spheres {
     #[inline(always)]
-    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64> {
+    pub(super) fn sphere(&self, place: usize) -> PackedSphere {
         let center = three(|k| self.center[k][place]).into();
-        let ray = widened(ray, [0, 1, 2]);
-        PackedSphere::from_center(center, self.radius[place]).settle(&ray, t_max)
+        PackedSphere::from_center(center, self.radius[place])
     }
 }
 

@@ -10,6 +10,7 @@
 //! Rays of one call keep each other company: fewer than about 500 leave lanes idle.
 
 mod block;
+mod crossings;
 mod exact;
 mod prepare;
 mod ray;
@@ -24,7 +25,7 @@ use crate::primitive::{PrimitiveKind, Shapes, UnitFrame, with_array};
 use crate::scene::Scene;
 use crate::tree::Tree;
 use block::{Block, Boxes, Spheres, Triangles};
-use exact::{Any, Closest, InArray, InBlocks, Narrow, Numbers, Objects, Wide};
+use exact::{Any, Closest, InArray, InSpheres, InTriangles, Narrow, Numbers, Objects, Wide};
 use prepare::Prepared;
 use ray::{CHUNK, LaneRays, Root};
 use stacks::Stacks;
@@ -187,10 +188,11 @@ impl<'a> LaneKernel<'a> {
         for (rays, hits) in rays.chunks(CHUNK).zip(hits.chunks_mut(CHUNK)) {
             match (&self.lanes.prepared, self.shapes) {
                 (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
-                    self.closest_of(InBlocks(&p.blocks), rays, hits);
+                    let objects = InTriangles::new(&p.blocks, self.instructions);
+                    self.closest_of(objects, rays, hits);
                 }
                 (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
-                    self.closest_of(InBlocks(&p.blocks), rays, hits);
+                    self.closest_of(InSpheres(&p.blocks), rays, hits);
                 }
                 (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
                     self.closest_of(InArray::<Narrow, _>::new(objects), rays, hits);
@@ -212,10 +214,11 @@ impl<'a> LaneKernel<'a> {
         for (rays, blocked) in rays.chunks(CHUNK).zip(blocked.chunks_mut(CHUNK)) {
             match (&self.lanes.prepared, self.shapes) {
                 (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
-                    self.any_of(InBlocks(&p.blocks), rays, blocked);
+                    let objects = InTriangles::new(&p.blocks, self.instructions);
+                    self.any_of(objects, rays, blocked);
                 }
                 (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
-                    self.any_of(InBlocks(&p.blocks), rays, blocked);
+                    self.any_of(InSpheres(&p.blocks), rays, blocked);
                 }
                 (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
                     self.any_of(InArray::<Narrow, _>::new(objects), rays, blocked);
