@@ -11,6 +11,7 @@ use super::prepare::{ABOVE_EMPTY, BELOW_EMPTY, PLACE, Prepared};
 use super::ray::{LaneRays, Start};
 use super::simd::Simd;
 use super::stacks::Stacks;
+use std::hint::select_unpredictable;
 
 /// An object that the ray of a lane may hit.
 #[derive(Clone, Copy, Default)]
@@ -182,7 +183,8 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     });
     let mut limits = [[-1.0_f32; WIDEST]; GROUPS];
     candidates.resize(GROUPS * S::LANES * BLOCK + 1, Candidate::default());
-    let mut list = [0_u32; WIDEST * (MOST_GROUPS + 1)];
+    // Lanes that wait at leaves: their numbers, the next block, and how many are left with it.
+    let mut leaves = [[0_u32; WIDEST * (MOST_GROUPS + 1)]; 3];
     let any_will_do = tests.any_will_do();
     let mut waiting_rays = rays.starts();
     // A round of tests is worth its while once half the lanes wait.
@@ -191,41 +193,43 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     loop {
         let mut at_leaves = 0;
         each_group!(GROUPS, J => {
-            let blocks = S::load_u(groups[J].blocks.as_ptr());
+            let group = &groups[J];
+            let blocks = S::load_u(group.blocks.as_ptr());
             let full = S::bits(S::test_u(blocks, S::splat_u(u32::MAX)));
             let here = places[J].waiting() & full;
-            let numbers = S::load_u(NUMBERS[J].as_ptr());
-            S::append(list.as_mut_ptr().add(at_leaves), S::mask(here), numbers);
+            let columns = [
+                S::load_u(NUMBERS[J].as_ptr()),
+                S::load_u(group.first.as_ptr()),
+                blocks,
+            ];
+            for (list, column) in leaves.iter_mut().zip(columns) {
+                S::append(list.as_mut_ptr().add(at_leaves), S::mask(here), column);
+            }
             at_leaves += here.count_ones() as usize;
         });
-        for &lane in list.get_unchecked(..at_leaves) {
-            let (j, lane) = (lane as usize / WIDEST, lane as usize % WIDEST);
-            let first = *groups.get_unchecked(j).first.get_unchecked(lane);
-            prefetch(tree.blocks.as_ptr().add(first as usize));
+        let [lanes, next, left] = &mut leaves;
+        for &block in next.get_unchecked(..at_leaves) {
+            prefetch(tree.blocks.as_ptr().add(block as usize));
         }
         // A block of every leaf, then the next of those that have more.
         while at_leaves > 0 {
             let (mut found, mut going_on) = (0, 0);
             for k in 0..at_leaves {
-                let number = *list.get_unchecked(k);
+                let number = *lanes.get_unchecked(k);
+                let block_number = *next.get_unchecked(k);
+                let more = *left.get_unchecked(k) - 1;
                 let (j, lane) = (number as usize / WIDEST, number as usize % WIDEST);
-                let group = groups.get_unchecked_mut(j);
-                let block_number = *group.first.get_unchecked(lane);
-                let left = *group.blocks.get_unchecked(lane) - 1;
-                *group.first.get_unchecked_mut(lane) = block_number + 1;
-                *group.blocks.get_unchecked_mut(lane) = left;
+                let group = groups.get_unchecked(j);
                 let ray = *group.ray.get_unchecked(lane);
                 let block = tree.blocks.get_unchecked(block_number as usize);
                 let limit = *limits.get_unchecked(j).get_unchecked(lane);
                 let may_hit = block.candidates::<S>(rays, ray as usize, limit, any_will_do);
                 let surely = may_hit.surely != 0;
-                let mut maybe = if surely {
-                    lowest(may_hit.surely)
-                } else {
-                    may_hit.maybe
-                };
-                *list.get_unchecked_mut(going_on) = number;
-                going_on += usize::from((left > 0) & !surely);
+                let mut maybe = select_unpredictable(surely, lowest(may_hit.surely), may_hit.maybe);
+                *lanes.get_unchecked_mut(going_on) = number;
+                *next.get_unchecked_mut(going_on) = block_number + 1;
+                *left.get_unchecked_mut(going_on) = more;
+                going_on += usize::from((more > 0) & !surely);
                 // One is written in any case: nothing predicts whether there is one.
                 loop {
                     let place = maybe.trailing_zeros() % BLOCK as u32;
@@ -244,7 +248,9 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
                     }
                 }
             }
-            tests.test(rays, &candidates[..found], limits.as_flattened_mut());
+            if found > 0 {
+                tests.test(rays, &candidates[..found], limits.as_flattened_mut());
+            }
             at_leaves = going_on;
         }
         stacks.settle();
