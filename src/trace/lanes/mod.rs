@@ -236,13 +236,13 @@ impl<'a> LaneKernel<'a> {
             let (i, scratch) = (i as usize, &mut self.scratch);
             hits[i] = closest_hit(self.tree, self.shapes, &rays[i], scratch, &mut ());
         }
-        for start in self.rays.starts() {
-            let i = start.ray as usize;
+        for &start in self.rays.meeting() {
+            let i = start as usize;
             hits[i].t = O::Numbers::t_max(&self.rays, i, rays);
         }
         self.walk(&mut Closest::new(objects, rays, hits));
-        for start in self.rays.starts() {
-            let i = start.ray as usize;
+        for &start in self.rays.meeting() {
+            let i = start as usize;
             let hit = &mut hits[i];
             *hit = if hit.is_hit() {
                 let t = O::Numbers::to_world(&self.rays, i, hit.t);
@@ -277,7 +277,7 @@ impl<'a> LaneKernel<'a> {
                 InstructionSet::Avx512 => fill_avx512(&mut self.rays, root, rays),
                 #[cfg(target_arch = "x86_64")]
                 InstructionSet::Avx2 => fill_avx2(&mut self.rays, root, rays),
-                _ => self.rays.fill(root, rays),
+                _ => self.rays.fill::<simd::portable::Portable>(root, rays),
             }
         }
     }
@@ -315,7 +315,8 @@ macro_rules! compiled {
         /// The processor has these instructions.
         #[target_feature(enable = $features)]
         unsafe fn $fill(lane_rays: &mut LaneRays, root: Root<'_>, rays: &[Ray]) {
-            lane_rays.fill(root, rays);
+            // SAFETY: the caller's.
+            unsafe { lane_rays.fill::<$simd>(root, rays) }
         }
 
         /// # Safety

@@ -8,8 +8,8 @@
 
 use super::block::{BLOCK, Block};
 use super::prepare::{ABOVE_EMPTY, BELOW_EMPTY, PLACE, Prepared};
-use super::ray::{LaneRays, Start};
-use super::simd::Simd;
+use super::ray::{CHUNK, LaneRays};
+use super::simd::{Simd, WIDEST};
 use super::stacks::Stacks;
 use std::hint::select_unpredictable;
 
@@ -38,9 +38,6 @@ pub(super) trait Tests {
     fn test(&mut self, rays: &LaneRays, candidates: &[Candidate], limits: &mut [f32]);
 }
 
-/// Lanes of the widest vector.
-const WIDEST: usize = 16;
-
 /// The most groups there are room for.
 const MOST_GROUPS: usize = 6;
 
@@ -50,9 +47,6 @@ const MOST_GROUPS: usize = 6;
 struct Group {
     shifted: [[f32; WIDEST]; 3],
     inverse: [[f32; WIDEST]; 3],
-    /// Where new rays enter and leave the scene.
-    t_enter: [f32; WIDEST],
-    t_exit: [f32; WIDEST],
     /// The leaf that the lane has come to: its first block and the number of its blocks.
     first: [u32; WIDEST],
     blocks: [u32; WIDEST],
@@ -64,26 +58,10 @@ impl Group {
     const NEW: Group = Group {
         shifted: [[0.0; WIDEST]; 3],
         inverse: [[1.0; WIDEST]; 3],
-        t_enter: [0.0; WIDEST],
-        t_exit: [0.0; WIDEST],
         first: [0; WIDEST],
         blocks: [0; WIDEST],
         ray: [0; WIDEST],
     };
-
-    /// Gives a lane a new ray.
-    #[inline(always)]
-    unsafe fn begin(&mut self, lane: usize, rays: &LaneRays, start: &Start) {
-        let ray = rays.rays.get_unchecked(start.ray as usize);
-        for (k, shifted) in ray.shifted(rays.thick).into_iter().enumerate() {
-            *self.shifted[k].get_unchecked_mut(lane) = shifted;
-            *self.inverse[k].get_unchecked_mut(lane) = ray.inverse[k];
-        }
-        *self.t_enter.get_unchecked_mut(lane) = start.t_enter;
-        *self.t_exit.get_unchecked_mut(lane) = start.t_exit;
-        *self.blocks.get_unchecked_mut(lane) = 0;
-        *self.ray.get_unchecked_mut(lane) = start.ray;
-    }
 }
 
 /// The lanes of all groups.
@@ -186,7 +164,7 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     // Lanes that wait at leaves: their numbers, the next block, and how many are left with it.
     let mut leaves = [[0_u32; WIDEST * (MOST_GROUPS + 1)]; 3];
     let any_will_do = tests.any_will_do();
-    let mut waiting_rays = rays.starts();
+    let mut begun = 0;
     // A round of tests is worth its while once half the lanes wait.
     let enough = (GROUPS * S::LANES / 2) as u32;
 
@@ -259,7 +237,7 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
             let (place, group) = (&mut places[J], &mut groups[J]);
             let bottom = S::load_u(bottoms[J].as_ptr());
             let limits = &mut limits[J];
-            go_on::<S>(place, group, limits, stacks, bottom, rays, &mut waiting_rays);
+            go_on::<S>(place, group, limits, stacks, bottom, rays, &mut begun);
             living |= place.alive;
         });
         if living == 0 {
@@ -296,7 +274,7 @@ unsafe fn go_on<S: Simd>(
     stacks: &Stacks,
     bottom: S::U,
     rays: &LaneRays,
-    waiting_rays: &mut &[Start],
+    rays_begun: &mut usize,
 ) {
     let waiting = place.waiting();
     if waiting == 0 {
@@ -327,24 +305,39 @@ unsafe fn go_on<S: Simd>(
     if done == 0 {
         return;
     }
-    let (mut ended, mut begun) = (done, 0);
-    while ended != 0
-        && let Some((start, others)) = waiting_rays.split_first()
-    {
-        let lane = ended.trailing_zeros() as usize;
-        ended &= ended - 1;
-        *waiting_rays = others;
-        group.begin(lane, rays, start);
-        *limits.get_unchecked_mut(lane) = start.t_exit;
-        begun |= 1 << lane;
+    let starts = &rays.starts;
+    let mut begins = done;
+    while begins.count_ones() as usize > starts.count - *rays_begun {
+        begins &= begins - 1;
     }
-    place.alive &= !ended;
-    let begun = S::mask(begun);
-    place.active = S::or(place.active, begun);
-    place.enter = S::select(begun, S::load(group.t_enter.as_ptr()), place.enter);
-    place.exit = S::select(begun, S::load(group.t_exit.as_ptr()), place.exit);
-    place.node = S::select_u(begun, S::splat_u(0), place.node);
-    place.top = S::select_u(begun, bottom, place.top);
+    place.alive &= !(done ^ begins);
+    let first = *rays_begun;
+    *rays_begun += begins.count_ones() as usize;
+    let begins = S::mask(begins);
+    let expand = |column: &[f32; CHUNK + WIDEST], old: S::F| {
+        let from = column.as_ptr().add(first).cast();
+        S::from_bits(S::expand(begins, from, S::bits_of(old)))
+    };
+    let columns = [
+        (&starts.shifted, &mut group.shifted),
+        (&starts.inverse, &mut group.inverse),
+    ];
+    for (starts, lanes) in columns {
+        for k in 0..3 {
+            let lane = lanes[k].as_mut_ptr();
+            S::store_u(lane.cast(), S::bits_of(expand(&starts[k], S::load(lane))));
+        }
+    }
+    let limits = limits.as_mut_ptr().cast();
+    S::store_u(limits, S::bits_of(expand(&starts.t_exit, limit)));
+    let ray = group.ray.as_mut_ptr();
+    let from = starts.ray.as_ptr().add(first);
+    S::store_u(ray, S::expand(begins, from, S::load_u(ray)));
+    place.active = S::or(place.active, begins);
+    place.enter = expand(&starts.t_enter, place.enter);
+    place.exit = expand(&starts.t_exit, place.exit);
+    place.node = S::select_u(begins, S::splat_u(0), place.node);
+    place.top = S::select_u(begins, bottom, place.top);
 }
 
 /// Lets lanes at an inner node go to a child, and lanes at a leaf wait.
