@@ -12,6 +12,7 @@
 mod block;
 mod crossings;
 mod exact;
+mod leaves;
 mod prepare;
 mod ray;
 mod simd;
