@@ -37,13 +37,13 @@ pub(super) trait Tests {
 }
 
 /// Lanes of the widest vector.
-const WIDEST: usize = 16;
+pub(super) const WIDEST: usize = 16;
 
 /// The most groups there are room for.
 const MOST_GROUPS: usize = 6;
 
 /// Candidates that are tested at once, at most; a block adds up to [`BLOCK`].
-const MOST_CANDIDATES: usize = 256;
+pub(super) const MOST_CANDIDATES: usize = 256;
 
 /// What a group's lanes hold of their rays.
 #[derive(Clone, Copy)]
@@ -149,6 +149,7 @@ unsafe fn by_axis<S: Simd>(values: &[[f32; WIDEST]; 3], is_1: S::M, is_2: S::M) 
 pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     tree: &Prepared<B>,
     rays: &LaneRays,
+    mut starts: &[Start],
     stack: &mut Vec<Waiting>,
     tests: &mut dyn Tests,
 ) {
@@ -176,7 +177,6 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     let mut limits = [[-1.0_f32; WIDEST]; GROUPS];
     let mut candidates = [Candidate::default(); MOST_CANDIDATES];
     let any_will_do = tests.any_will_do();
-    let mut waiting_rays = rays.starts();
     // A round of tests is worth its while once half the lanes wait.
     let enough = (GROUPS * S::LANES / 2) as u32;
 
@@ -238,7 +238,7 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
             let (place, group) = (&mut places[J], &mut groups[J]);
             let bottom = S::load_u(bottoms[J].as_ptr());
             let limits = &mut limits[J];
-            go_on::<S>(place, group, limits, stack, bottom, rays, &mut waiting_rays);
+            go_on::<S>(place, group, limits, stack, bottom, rays, &mut starts);
             living |= place.alive;
         });
         if living == 0 {
