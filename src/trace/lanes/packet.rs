@@ -69,12 +69,11 @@ impl Packet {
         self.lanes = (1 << starts.len()) - 1;
         for (lane, start) in starts.iter().enumerate() {
             let ray = &rays.rays[start.ray as usize];
-            let shifted = ray.shifted(rays.thick);
-            for k in 0..3 {
+            for (k, shifted) in ray.shifted(rays.thick).into_iter().enumerate() {
                 self.origin[k][lane] = ray.origin[k];
                 self.direction[k][lane] = ray.direction[k];
                 self.inverse[k][lane] = ray.inverse[k];
-                self.shifted[k][lane] = shifted[k];
+                self.shifted[k][lane] = shifted;
             }
             self.t_min[lane] = ray.t_min;
             self.t_max[lane] = ray.t_max;
