@@ -24,11 +24,11 @@ use crate::geometry::Ray;
 use crate::primitive::{PrimitiveKind, Shapes, UnitFrame, with_array};
 use crate::scene::Scene;
 use crate::tree::Tree;
-use block::{Block, Boxes, Spheres, Triangles};
+use block::{Boxes, Spheres, Triangles};
 use exact::{Any, Closest, InArray, InBlocks, Narrow, Numbers, Objects, Wide};
 use packet::{Aside, Company, walk_packets};
 use prepare::Prepared;
-use ray::{CHUNK, LaneRays, Root, Start};
+use ray::{CHUNK, LaneRays, Root};
 use simd::Waiting;
 use simd::portable::Portable;
 use std::ops::Range;
@@ -318,6 +318,7 @@ impl<'a> LaneKernel<'a> {
             forward_only: N::FORWARD_ONLY,
         };
         // SAFETY: a kernel is only made for instructions that the processor has.
+        #[cfg_attr(not(target_arch = "x86_64"), allow(unused_unsafe))]
         unsafe {
             match self.instructions {
                 #[cfg(target_arch = "x86_64")]
@@ -401,10 +402,10 @@ macro_rules! compiled {
         /// # Safety
         /// The processor has these instructions.
         #[target_feature(enable = $features)]
-        unsafe fn $walk<B: Block>(
+        unsafe fn $walk<B: block::Block>(
             tree: &Prepared<B>,
             rays: &LaneRays,
-            starts: &[Start],
+            starts: &[ray::Start],
             stack: &mut Vec<Waiting>,
             tests: &mut dyn Tests,
         ) {
@@ -415,10 +416,10 @@ macro_rules! compiled {
         /// # Safety
         /// The processor has these instructions.
         #[target_feature(enable = $features)]
-        unsafe fn $packets<B: Block>(
+        unsafe fn $packets<B: block::Block>(
             tree: &Prepared<B>,
             rays: &LaneRays,
-            starts: &[Start],
+            starts: &[ray::Start],
             stack: &mut Vec<Aside>,
             tests: &mut dyn Tests,
         ) -> Company {
