@@ -6,8 +6,7 @@ use super::packet::Packet;
 use super::ray::{LaneRay, LaneRays};
 use super::simd::Simd;
 use super::three;
-use crate::geometry::Ray;
-use crate::primitive::{Form, PackedSphere, PackedTriangle, Primitive, Shape, UnitFrame};
+use crate::primitive::{PackedSphere, Primitive, Shape, UnitFrame};
 
 /// Objects of a block.
 pub(super) const BLOCK: usize = 16;
@@ -56,23 +55,6 @@ pub(super) struct MayHit {
     pub(super) maybe: u32,
     /// Those of them that certainly hit or are hit, up to the ray's own end.
     pub(super) surely: u32,
-}
-
-/// A block that holds all there is of its objects in `f32`.
-pub(super) trait Whole: Block {
-    /// [`Form::settle`] of the packed object.
-    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64>;
-}
-
-/// A ray in `f64`, its axes in this order.
-#[inline(always)]
-pub(super) fn widened(ray: &LaneRay, axes: [usize; 3]) -> Ray {
-    Ray {
-        origin: three(|k| f64::from(ray.origin[axes[k]])).into(),
-        direction: three(|k| f64::from(ray.direction[axes[k]])).into(),
-        t_min: f64::from(ray.t_min),
-        t_max: f64::from(ray.t_max),
-    }
 }
 
 /// Bounds on errors in `f32`, for packed objects and for the exact ones that these are nearest to, as
@@ -306,12 +288,10 @@ impl<S: Simd> Turned<S> {
         let last = S::max(S::max(ta, tb), tc);
         let reached = S::and(S::le(first, farthest), S::le(nearest, last));
         let maybe = S::and_not(reached, missed);
-        if S::bits(maybe) == 0 {
-            return MayHit::default();
-        }
         // The distance is a mean of those of the vertices, weighted by the edge functions. With D
         // their sum: if they are off by `error` each, it is by 3 `error` / |D| times the span of
-        // those distances, at most.
+        // those distances, at most. Nothing predicts whether it is wanted: it is computed without
+        // asking.
         let sum = S::add(S::add(u, v), w);
         let inverse = S::div(S::splat(1.0), sum);
         let t = S::mul(S::mul_add(u, ta, S::mul_add(v, tb, S::mul(w, tc))), inverse);
@@ -334,21 +314,19 @@ impl<S: Simd> Turned<S> {
     }
 }
 
-impl Whole for Triangles {
+impl Triangles {
+    /// A triangle's vertices, their coordinates along these axes.
     #[inline(always)]
-    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64> {
-        let axes = ray.turned_axes();
-        let vertices = three(|i| three(|k| self.vertices[i][axes[k]][place]).into());
-        PackedTriangle::settle_turned(vertices, &widened(ray, axes), t_max)
+    pub(super) fn vertices(&self, place: usize, axes: [usize; 3]) -> [[f32; 3]; 3] {
+        three(|i| three(|k| self.vertices[i][axes[k]][place]))
     }
 }
 
-impl Whole for Spheres {
+impl Spheres {
     #[inline(always)]
-    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64> {
+    pub(super) fn sphere(&self, place: usize) -> PackedSphere {
         let center = three(|k| self.center[k][place]).into();
-        let ray = widened(ray, [0, 1, 2]);
-        PackedSphere::from_center(center, self.radius[place]).settle(&ray, t_max)
+        PackedSphere::from_center(center, self.radius[place])
     }
 }
 
@@ -370,7 +348,7 @@ unsafe fn cross<S: Simd>(p: [S::F; 3], q: [S::F; 3]) -> S::F {
 /// The larger of the first two coordinates.
 #[inline(always)]
 unsafe fn size<S: Simd>(p: [S::F; 3]) -> S::F {
-    S::max(S::abs(p[0]), S::abs(p[1]))
+    S::max_abs(p[0], p[1])
 }
 
 #[inline(always)]

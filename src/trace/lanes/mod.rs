@@ -11,11 +11,13 @@
 //! Rays of one call keep each other company: fewer than about 500 leave lanes idle.
 
 mod block;
+mod crossings;
 mod exact;
 mod packet;
 mod prepare;
 mod ray;
 mod simd;
+mod stacks;
 mod tracer;
 mod walk;
 
@@ -25,15 +27,15 @@ use crate::primitive::{PrimitiveKind, Shapes, UnitFrame, with_array};
 use crate::scene::Scene;
 use crate::tree::Tree;
 use block::{Boxes, Spheres, Triangles};
-use exact::{Any, Closest, InArray, InBlocks, Narrow, Numbers, Objects, Wide};
+use exact::{Any, Closest, InArray, InSpheres, InTriangles, Narrow, Numbers, Objects, Wide};
 use packet::{Aside, Company, walk_packets};
 use prepare::Prepared;
 use ray::{CHUNK, LaneRays, Root};
-use simd::Waiting;
 use simd::portable::Portable;
+use stacks::Stacks;
 use std::ops::Range;
 pub use tracer::{KernelChoice, TimedKernel};
-use walk::{Tests, walk};
+use walk::{Candidate, Tests, walk};
 
 /// Three values by number. Unlike `array::map` it is never a call, which would pass arrays through
 /// memory in pieces of other sizes than they are read in; processors wait then.
@@ -159,8 +161,9 @@ pub struct LaneKernel<'a> {
     company: RayCompany,
     /// Whether rays of this call go in packets; `None` until that was tried.
     in_packets: Option<bool>,
-    stack: Vec<Waiting>,
+    stacks: Stacks,
     asides: Vec<Aside>,
+    candidates: Vec<Candidate>,
     scratch: Scratch,
 }
 
@@ -218,8 +221,9 @@ impl<'a> LaneKernel<'a> {
             rays: LaneRays::new(),
             company,
             in_packets: None,
-            stack: Vec::new(),
+            stacks: Stacks::default(),
             asides: Vec::new(),
+            candidates: Vec::new(),
             scratch: Scratch::default(),
         }
     }
@@ -236,10 +240,11 @@ impl<'a> LaneKernel<'a> {
         for (rays, hits) in rays.chunks(CHUNK).zip(hits.chunks_mut(CHUNK)) {
             match (&self.lanes.prepared, self.shapes) {
                 (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
-                    self.closest_of(InBlocks(&p.blocks), rays, hits);
+                    let objects = InTriangles::new(&p.blocks, self.instructions);
+                    self.closest_of(objects, rays, hits);
                 }
                 (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
-                    self.closest_of(InBlocks(&p.blocks), rays, hits);
+                    self.closest_of(InSpheres(&p.blocks), rays, hits);
                 }
                 (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
                     self.closest_of(InArray::<Narrow, _>::new(objects), rays, hits);
@@ -262,10 +267,11 @@ impl<'a> LaneKernel<'a> {
         for (rays, blocked) in rays.chunks(CHUNK).zip(blocked.chunks_mut(CHUNK)) {
             match (&self.lanes.prepared, self.shapes) {
                 (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
-                    self.any_of(InBlocks(&p.blocks), rays, blocked);
+                    let objects = InTriangles::new(&p.blocks, self.instructions);
+                    self.any_of(objects, rays, blocked);
                 }
                 (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
-                    self.any_of(InBlocks(&p.blocks), rays, blocked);
+                    self.any_of(InSpheres(&p.blocks), rays, blocked);
                 }
                 (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
                     self.any_of(InArray::<Narrow, _>::new(objects), rays, blocked);
@@ -283,13 +289,13 @@ impl<'a> LaneKernel<'a> {
             let (i, scratch) = (i as usize, &mut self.scratch);
             hits[i] = closest_hit(self.tree, self.shapes, &rays[i], scratch, &mut ());
         }
-        for start in self.rays.starts() {
-            let i = start.ray as usize;
+        for &start in self.rays.meeting() {
+            let i = start as usize;
             hits[i].t = O::Numbers::t_max(&self.rays, i, rays);
         }
         self.walk(&mut Closest::new(objects, rays, hits));
-        for start in self.rays.starts() {
-            let i = start.ray as usize;
+        for &start in self.rays.meeting() {
+            let i = start as usize;
             let hit = &mut hits[i];
             *hit = if hit.is_hit() {
                 let t = O::Numbers::to_world(&self.rays, i, hit.t);
@@ -318,21 +324,20 @@ impl<'a> LaneKernel<'a> {
             forward_only: N::FORWARD_ONLY,
         };
         // SAFETY: a kernel is only made for instructions that the processor has.
-        #[cfg_attr(not(target_arch = "x86_64"), allow(unused_unsafe))]
         unsafe {
             match self.instructions {
                 #[cfg(target_arch = "x86_64")]
                 InstructionSet::Avx512 => fill_avx512(&mut self.rays, root, rays),
                 #[cfg(target_arch = "x86_64")]
                 InstructionSet::Avx2 => fill_avx2(&mut self.rays, root, rays),
-                _ => self.rays.fill(root, rays),
+                _ => self.rays.fill::<simd::portable::Portable>(root, rays),
             }
         }
     }
 
     /// Walks the rays made ready.
     fn walk(&mut self, tests: &mut dyn Tests) {
-        let mut ahead = 0..self.rays.starts().len();
+        let mut ahead = 0..self.rays.starts.count;
         if self.in_packets.is_none() {
             let first = ahead.end.min(SAMPLE);
             let company = self.walk_packets(0..first, tests);
@@ -346,35 +351,34 @@ impl<'a> LaneKernel<'a> {
         }
     }
 
-    fn walk_lanes(&mut self, starts: Range<usize>, tests: &mut dyn Tests) {
-        let (rays, stack) = (&*self.rays, &mut self.stack);
-        let starts = &rays.starts()[starts];
+    fn walk_lanes(&mut self, ahead: Range<usize>, tests: &mut dyn Tests) {
+        let (rays, stacks) = (&*self.rays, &mut self.stacks);
+        let found = &mut self.candidates;
         with_prepared!(self.lanes, tree => {
             // SAFETY: a kernel is only made for instructions that the processor has.
             unsafe {
                 match self.instructions {
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx512 => walk_avx512(tree, rays, starts, stack, tests),
+                    InstructionSet::Avx512 => walk_avx512(tree, rays, ahead, stacks, found, tests),
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx2 => walk_avx2(tree, rays, starts, stack, tests),
-                    _ => walk::<Portable, _, 2>(tree, rays, starts, stack, tests),
+                    InstructionSet::Avx2 => walk_avx2(tree, rays, ahead, stacks, found, tests),
+                    _ => walk::<Portable, _, 2>(tree, rays, ahead, stacks, found, tests),
                 }
             }
         });
     }
 
-    fn walk_packets(&mut self, starts: Range<usize>, tests: &mut dyn Tests) -> Company {
+    fn walk_packets(&mut self, ahead: Range<usize>, tests: &mut dyn Tests) -> Company {
         let (rays, stack) = (&*self.rays, &mut self.asides);
-        let starts = &rays.starts()[starts];
         with_prepared!(self.lanes, tree => {
             // SAFETY: as above.
             unsafe {
                 match self.instructions {
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx512 => packets_avx512(tree, rays, starts, stack, tests),
+                    InstructionSet::Avx512 => packets_avx512(tree, rays, ahead, stack, tests),
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx2 => packets_avx2(tree, rays, starts, stack, tests),
-                    _ => walk_packets::<Portable, _>(tree, rays, starts, stack, tests),
+                    InstructionSet::Avx2 => packets_avx2(tree, rays, ahead, stack, tests),
+                    _ => walk_packets::<Portable, _>(tree, rays, ahead, stack, tests),
                 }
             }
         })
@@ -396,7 +400,8 @@ macro_rules! compiled {
         /// The processor has these instructions.
         #[target_feature(enable = $features)]
         unsafe fn $fill(lane_rays: &mut LaneRays, root: Root<'_>, rays: &[Ray]) {
-            lane_rays.fill(root, rays);
+            // SAFETY: the caller's.
+            unsafe { lane_rays.fill::<$simd>(root, rays) }
         }
 
         /// # Safety
@@ -405,12 +410,13 @@ macro_rules! compiled {
         unsafe fn $walk<B: block::Block>(
             tree: &Prepared<B>,
             rays: &LaneRays,
-            starts: &[ray::Start],
-            stack: &mut Vec<Waiting>,
+            ahead: Range<usize>,
+            stacks: &mut Stacks,
+            candidates: &mut Vec<Candidate>,
             tests: &mut dyn Tests,
         ) {
             // SAFETY: the caller's.
-            unsafe { walk::<$simd, B, $groups>(tree, rays, starts, stack, tests) }
+            unsafe { walk::<$simd, B, $groups>(tree, rays, ahead, stacks, candidates, tests) }
         }
 
         /// # Safety
@@ -419,12 +425,12 @@ macro_rules! compiled {
         unsafe fn $packets<B: block::Block>(
             tree: &Prepared<B>,
             rays: &LaneRays,
-            starts: &[ray::Start],
+            ahead: Range<usize>,
             stack: &mut Vec<Aside>,
             tests: &mut dyn Tests,
         ) -> Company {
             // SAFETY: the caller's.
-            unsafe { walk_packets::<$simd, B>(tree, rays, starts, stack, tests) }
+            unsafe { walk_packets::<$simd, B>(tree, rays, ahead, stack, tests) }
         }
     };
 }
