@@ -40,8 +40,8 @@ impl Crossings {
         let axes = ray.turned_axes();
         let vertices = block.vertices(place, axes);
         for j in 0..3 {
-            for i in 0..3 {
-                self.vertices[i][j][k] = vertices[i][j];
+            for (to, vertex) in self.vertices.iter_mut().zip(&vertices) {
+                to[j][k] = vertex[j];
             }
             self.origin[j][k] = ray.origin[axes[j]];
             self.direction[j][k] = ray.direction[axes[j]];

@@ -13,6 +13,7 @@ use super::ray::{CHUNK, LaneRays};
 use super::simd::{Simd, WIDEST};
 use super::stacks::Stacks;
 use std::hint::select_unpredictable;
+use std::ops::Range;
 
 /// An object that the ray of a lane may hit.
 #[derive(Clone, Copy, Default)]
@@ -128,7 +129,7 @@ unsafe fn by_axis<S: Simd>(values: &[[f32; WIDEST]; 3], is_1: S::M, is_2: S::M) 
     S::select(is_2, z, x_or_y)
 }
 
-/// Walks rays through a tree in `GROUPS` groups of lanes.
+/// Walks rays that meet the scene, `ahead` of them, through a tree in `GROUPS` groups of lanes.
 ///
 /// # Safety
 /// As [`Simd`].
@@ -136,6 +137,7 @@ unsafe fn by_axis<S: Simd>(values: &[[f32; WIDEST]; 3], is_1: S::M, is_2: S::M) 
 pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     tree: &Prepared<B>,
     rays: &LaneRays,
+    mut ahead: Range<usize>,
     stacks: &mut Stacks,
     candidates: &mut Vec<Candidate>,
     tests: &mut dyn Tests,
@@ -162,7 +164,6 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     candidates.resize(GROUPS * S::LANES * BLOCK + 1, Candidate::default());
     let mut leaves = Leaves::new();
     let any_will_do = tests.any_will_do();
-    let mut begun = 0;
     // A round of tests is worth its while once half the lanes wait.
     let enough = (GROUPS * S::LANES / 2) as u32;
 
@@ -218,7 +219,7 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
             let (place, group) = (&mut places[J], &mut groups[J]);
             let bottom = S::load_u(bottoms[J].as_ptr());
             let limits = &mut limits[J];
-            go_on::<S>(place, group, limits, stacks, bottom, rays, &mut begun);
+            go_on::<S>(place, group, limits, stacks, bottom, rays, &mut ahead);
             living |= place.alive;
         });
         if living == 0 {
@@ -256,7 +257,7 @@ unsafe fn go_on<S: Simd>(
     stacks: &Stacks,
     bottom: S::U,
     rays: &LaneRays,
-    rays_begun: &mut usize,
+    ahead: &mut Range<usize>,
 ) {
     let waiting = place.waiting();
     if waiting == 0 {
@@ -286,12 +287,12 @@ unsafe fn go_on<S: Simd>(
     }
     let starts = &rays.starts;
     let mut begins = done;
-    while begins.count_ones() as usize > starts.count - *rays_begun {
+    while begins.count_ones() as usize > ahead.len() {
         begins &= begins - 1;
     }
     place.alive &= !(done ^ begins);
-    let first = *rays_begun;
-    *rays_begun += begins.count_ones() as usize;
+    let first = ahead.start;
+    ahead.start += begins.count_ones() as usize;
     let begins = S::mask(begins);
     let expand = |column: &[f32; CHUNK + WIDEST], old: S::F| {
         let from = column.as_ptr().add(first).cast();

@@ -34,6 +34,7 @@ pub(super) trait Simd: Copy {
     unsafe fn sub(a: Self::F, b: Self::F) -> Self::F;
     unsafe fn mul(a: Self::F, b: Self::F) -> Self::F;
     unsafe fn div(a: Self::F, b: Self::F) -> Self::F;
+    unsafe fn sqrt(a: Self::F) -> Self::F;
     /// `a · b + c`, rounded once or twice.
     unsafe fn mul_add(a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     /// `c − a · b`, rounded once or twice.
@@ -91,6 +92,7 @@ pub(super) trait Simd: Copy {
     /// The larger of both sizes, whatever the signs.
     #[inline(always)]
     unsafe fn max_abs(a: Self::F, b: Self::F) -> Self::F {
-        Self::max(Self::abs(a), Self::abs(b))
+        // SAFETY: the caller's.
+        unsafe { Self::max(Self::abs(a), Self::abs(b)) }
     }
 }

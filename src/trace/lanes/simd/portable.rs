@@ -57,6 +57,10 @@ impl Simd for Portable {
         map(a, b, |a, b| a / b)
     }
     #[inline(always)]
+    unsafe fn sqrt(a: Self::F) -> Self::F {
+        a.map(f32::sqrt)
+    }
+    #[inline(always)]
     unsafe fn mul_add(a: Self::F, b: Self::F, c: Self::F) -> Self::F {
         std::array::from_fn(|k| a[k] * b[k] + c[k])
     }
