@@ -6,7 +6,7 @@
 //! themselves, which are the plain kernel's. All before them only decides what is certain, in `f32` and
 //! with room for what that rounds, in either precision: planes are as thick as rounding may move rays
 //! and objects ([`prepare`]), and blocks of 16 objects are held against a ray at once, or an object
-//! against a packet ([`block`]). What is left, one or two objects a ray, is tested one by one.
+//! against a packet ([`block`]). What is left, one or two objects a ray, gets the exact test.
 //!
 //! Rays of one call keep each other company: fewer than about 500 leave lanes idle.
 
