@@ -6,8 +6,8 @@ use bspscope::primitive::{Cone, Polygon, Precision, Primitive, Sphere, Triangle}
 use bspscope::progress::Progress;
 use bspscope::scene::{Camera, Material, Scene, SceneParts, SceneRequest, load};
 use bspscope::trace::{
-    Hit, InstructionSet, KernelChoice, LaneKernel, LaneTree, Picture, RenderSettings, Scratch,
-    any_hit, closest_hit, thread_pool, timed_pass,
+    Hit, InstructionSet, KernelChoice, LaneKernel, LaneTree, Picture, RayCompany, RenderSettings,
+    Scratch, any_hit, closest_hit, thread_pool, timed_pass,
 };
 use bspscope::tree::{BuildSettings, MaxDepth, Method, OverlapRule, Tree, build};
 use std::sync::Mutex;
@@ -222,8 +222,10 @@ fn rays(scene: &Scene, tree: &Tree) -> Vec<Ray> {
     rays
 }
 
-fn instruction_sets() -> impl Iterator<Item = InstructionSet> {
-    InstructionSet::ALL.into_iter().filter(|set| set.is_here())
+/// Everything that this processor has.
+fn paths() -> impl Iterator<Item = (InstructionSet, RayCompany)> {
+    let here = InstructionSet::ALL.into_iter().filter(|set| set.is_here());
+    here.flat_map(|set| RayCompany::ALL.map(|company| (set, company)))
 }
 
 fn exactly(hit: &Hit) -> (u64, u32) {
@@ -246,9 +248,10 @@ fn assert_same(scene: &Scene, tree: &Tree, what: &str) -> usize {
             .map(|ray| any_hit(tree, shapes, ray, &mut scratch, &mut ()))
             .collect();
         hit_count += expected.iter().filter(|hit| hit.is_hit()).count();
-        for instructions in instruction_sets() {
-            let mut kernel = LaneKernel::new(tree, lanes, shapes, instructions);
-            let name = format!("{what}, {}, {}", precision.name(), instructions.name());
+        for (instructions, company) in paths() {
+            let mut kernel = LaneKernel::new(tree, lanes, shapes, instructions, company);
+            let [precision, company] = [precision.name(), company.name()];
+            let name = format!("{what}, {precision}, {company}, {}", instructions.name());
             let mut hits = vec![Hit::MISS; rays.len()];
             kernel.closest_hits(&rays, &mut hits);
             for ((ray, hit), expected) in rays.iter().zip(&hits).zip(&expected) {
@@ -295,9 +298,9 @@ fn any_number_of_rays_is_answered() {
     let tree = build(&scene, &settings, &Progress::new()).unwrap();
     let rays = rays(&scene, &tree);
     let shapes = scene.shapes(Precision::F32);
-    for instructions in instruction_sets() {
+    for (instructions, company) in paths() {
         let lanes = LaneTree::of(&scene, &tree);
-        let mut kernel = LaneKernel::new(&tree, lanes, shapes, instructions);
+        let mut kernel = LaneKernel::new(&tree, lanes, shapes, instructions, company);
         let mut all = vec![Hit::MISS; rays.len()];
         kernel.closest_hits(&rays, &mut all);
         for n in [0, 1, 15, 16, 17, 48, 49, 1023, 1024, 1025] {
@@ -340,10 +343,7 @@ fn every_kernel_gives_the_same_picture() {
             .unwrap();
             picture.into_inner().unwrap()
         });
-        assert!(
-            pictures[0] == pictures[1] && pictures[1] == pictures[2],
-            "{name}"
-        );
+        assert!(pictures.iter().all(|p| *p == pictures[0]), "{name}");
     }
 }
 

@@ -5,7 +5,7 @@ use bspscope::primitive::{Precision, Shapes};
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
 use bspscope::trace::{
-    Batch, Hit, InstructionSet, LaneKernel, LaneTree, RayKind, RayTracer, Timed,
+    Batch, Hit, InstructionSet, LaneKernel, LaneTree, RayCompany, RayKind, RayTracer, Timed,
 };
 use bspscope::tree::{BuildSettings, MaxDepth, Method, Tree, build as build_tree};
 
@@ -36,14 +36,18 @@ pub fn kernels<'a>(
         };
         kernels.push((format!("plain {}", precision.name()), Box::new(plain)));
         for instructions in InstructionSet::ALL.into_iter().filter(|set| set.is_here()) {
-            let kernel = Lanes {
-                tree,
-                lanes,
-                shapes,
-                instructions,
-            };
-            let name = format!("lanes {} {}", instructions.name(), precision.name());
-            kernels.push((name, Box::new(kernel)));
+            for company in RayCompany::ALL {
+                let kernel = Lanes {
+                    tree,
+                    lanes,
+                    shapes,
+                    instructions,
+                    company,
+                };
+                let [company, set] = [company.name(), instructions.name()];
+                let name = format!("{company} {set} {}", precision.name());
+                kernels.push((name, Box::new(kernel)));
+            }
         }
     }
     kernels
@@ -54,11 +58,18 @@ struct Lanes<'a> {
     lanes: &'a LaneTree,
     shapes: &'a Shapes,
     instructions: InstructionSet,
+    company: RayCompany,
 }
 
 impl Lanes<'_> {
     fn kernel(&self) -> LaneKernel<'_> {
-        LaneKernel::new(self.tree, self.lanes, self.shapes, self.instructions)
+        LaneKernel::new(
+            self.tree,
+            self.lanes,
+            self.shapes,
+            self.instructions,
+            self.company,
+        )
     }
 }
 

@@ -693,7 +693,8 @@ pub struct TraceArgs {
     #[arg(long, value_name = "NUMBERS", value_parser = precision_names(), default_value = "f64")]
     pub precision: PrecisionChoice,
     /// Kernel of the timed pass: plain for one ray after the other, as the paper timed; lanes for
-    /// batches of rays in vectors; auto for lanes where the processor has vectors for them
+    /// batches of rays in vectors; packets for rays in vectors that walk together; auto for packets
+    /// where rays keep together, lanes elsewhere, plain where the processor has no wide vectors
     #[arg(long, value_name = "KERNEL", value_parser = kernel_names(), default_value = "plain")]
     pub kernel: KernelChoice,
     /// Where the first sample lies: in the pixel's centre, or on a lattice that spans the angle

@@ -149,14 +149,25 @@ pub struct PackedTriangle {
 }
 
 impl PackedTriangle {
-    /// [`Form::settle`] of a triangle with these vertices, for a ray whose coordinates and the
-    /// triangle's are in cyclic order with the axis of its direction's largest component last.
+    /// Where a ray from `origin` meets a triangle with these vertices, NaN where it does not: for
+    /// coordinates in cyclic order with the axis of the direction's largest component last. With
+    /// [`PackedTriangle::settled`] it is [`Form::settle`].
     #[inline(always)]
-    pub(crate) fn settle_turned(vertices: [Point; 3], ray: &Ray, t_max: f64) -> Option<f64> {
-        let vertices = vertices.map(|v| v.as_dvec3() - ray.origin);
-        let shear = Shear::of_turned(ray.direction);
-        let t = triangle::crossing(vertices, &shear, [ray.t_min, t_max * UP])?;
-        rounded(t, t_max)
+    pub(crate) fn crossing_turned(
+        vertices: [Vec3; 3],
+        origin: Vec3,
+        direction: Vec3,
+        t_min: f64,
+    ) -> f64 {
+        let [a, b, c] = vertices;
+        let shear = Shear::of_turned(direction);
+        triangle::crossing_or_nan([a - origin, b - origin, c - origin], &shear, t_min)
+    }
+
+    /// A distance of [`PackedTriangle::crossing_turned`] rounded, if it is at most `t_max` then.
+    #[inline(always)]
+    pub(crate) fn settled(crossing: f64, t_max: f64) -> Option<f64> {
+        rounded(crossing, t_max).filter(|_| crossing <= t_max * UP)
     }
 
     /// Whether the ray's line certainly misses it, decided in `f32`.

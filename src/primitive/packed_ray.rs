@@ -43,7 +43,7 @@ pub(crate) struct FramedRay {
 impl FramedRay {
     /// A ray whose origin is farther out than this is moved towards the scene, whose coordinates are
     /// at most ½: rounding is that of places near the scene, wherever the eye is.
-    const FAR: f64 = 2.0;
+    pub(crate) const FAR: f64 = 2.0;
 
     /// `None` where the ray certainly misses the scene, has no direction, or one so short or long that
     /// its distances to the scene have no number.

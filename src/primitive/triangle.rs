@@ -107,6 +107,27 @@ pub(super) fn crossing(
     (in_reach && !is_edge_on(vertices, determinant, [a, b, c])).then_some(t)
 }
 
+/// [`crossing`] up to any distance, NaN where there is none; without branches, so that a loop over many
+/// triangles computes several at a time. It does the same arithmetic.
+#[inline(always)]
+pub(super) fn crossing_or_nan(vertices: [Vec3; 3], shear: &Shear, t_min: f64) -> f64 {
+    let a = shear.apply_turned(vertices[0]);
+    let b = shear.apply_turned(vertices[1]);
+    let c = shear.apply_turned(vertices[2]);
+    let u = c.x * b.y - c.y * b.x;
+    let v = a.x * c.y - a.y * c.x;
+    let w = b.x * a.y - b.y * a.x;
+    let outside = (u.min(v).min(w) < 0.0) & (u.max(v).max(w) > 0.0);
+    let determinant = u + v + w;
+    let t = (u * a.z + v * b.z + w * c.z) / determinant;
+    let in_reach = (t_min <= t) & t.is_finite();
+    if !outside & in_reach & !is_edge_on(vertices, determinant, [a, b, c]) {
+        t
+    } else {
+        f64::NAN
+    }
+}
+
 /// Whether the determinant of the edge functions may be rounding alone: then their signs mean
 /// nothing, and the ray runs within the triangle's plane as far as can be told.
 ///

@@ -37,6 +37,11 @@ impl UnitFrame {
         self.scale
     }
 
+    /// The scene's centre, scaled: what [`UnitFrame::point`] takes off.
+    pub(crate) fn center(&self) -> Vec3 {
+        self.center
+    }
+
     /// A point of the world.
     #[inline]
     pub fn point(&self, world: Vec3) -> Vec3 {

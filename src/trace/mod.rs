@@ -27,7 +27,7 @@ pub use kernel::{
     Batch, Counting, Hit, RayKind, RayTracer, Timed, any_hit, any_of_all, closest_hit,
     closest_of_all,
 };
-pub use lanes::{InstructionSet, KernelChoice, LaneKernel, LaneTree, TimedKernel};
+pub use lanes::{InstructionSet, KernelChoice, LaneKernel, LaneTree, RayCompany, TimedKernel};
 #[cfg(test)]
 pub(crate) use line::{Line, Meeting, WideLine};
 pub use picture::{Picture, TILE, Tile, srgb8, tiles};

@@ -87,8 +87,9 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
             ui,
             "Kernel",
             "How timed passes walk rays through the tree: plain, one after the other through exactly the \
-             nodes that are counted, as in the paper; lanes, batches in the lanes of vectors; auto, \
-             lanes where the processor has instructions for them. Hits are the same.",
+             nodes that are counted, as in the paper; lanes, batches in the lanes of vectors; packets, \
+             rays in vectors that walk together; auto, packets where rays keep together, lanes \
+             elsewhere, plain where the processor has no wide vectors. Hits are the same.",
             |ui| {
                 let asked = &mut render.kernel;
                 egui::ComboBox::from_id_salt("kernel")

@@ -57,7 +57,7 @@ pub static KNOBS: &[Knob] = &[
     },
     Knob {
         name: "kernel",
-        about: "how rays are walked through the tree: one by one, or in the lanes of vectors",
+        about: "how rays are walked through the tree: one by one, in the lanes of vectors, or in packets",
         moves_image: false,
         values: kernel,
     },
@@ -193,17 +193,21 @@ fn resolution(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
 }
 
 fn kernel(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
-    [KernelChoice::Plain, KernelChoice::Lanes]
-        .into_iter()
-        .filter(|kernel| kernel.instructions() != at.render.kernel.instructions())
-        .map(|kernel| {
-            let render = RenderSettings {
-                kernel,
-                ..at.render
-            };
-            with_render(at, kernel.name().into(), render)
-        })
-        .collect()
+    [
+        KernelChoice::Plain,
+        KernelChoice::Lanes,
+        KernelChoice::Packets,
+    ]
+    .into_iter()
+    .filter(|kernel| kernel.in_vectors() != at.render.kernel.in_vectors())
+    .map(|kernel| {
+        let render = RenderSettings {
+            kernel,
+            ..at.render
+        };
+        with_render(at, kernel.name().into(), render)
+    })
+    .collect()
 }
 
 fn method(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {

@@ -2,11 +2,11 @@
 //! the ray may hit, whatever `f32` has rounded; those few are then tested one by one.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
+use super::packet::Packet;
 use super::ray::{LaneRay, LaneRays};
 use super::simd::Simd;
 use super::three;
-use crate::geometry::Ray;
-use crate::primitive::{Form, PackedSphere, PackedTriangle, Primitive, Shape, UnitFrame};
+use crate::primitive::{PackedSphere, Primitive, Shape, UnitFrame};
 
 /// Objects of a block.
 pub(super) const BLOCK: usize = 16;
@@ -34,31 +34,27 @@ pub(super) trait Block: Default + Send + Sync {
         limit: f32,
         any: bool,
     ) -> MayHit;
+
+    /// The same the other way about: which rays of a packet may hit, or surely hit, the object in a
+    /// place, each up to its own limit. The rays have one axis of the largest component.
+    ///
+    /// # Safety
+    /// As [`Simd`].
+    unsafe fn rays_that_may_hit<S: Simd>(
+        &self,
+        place: usize,
+        packet: &Packet,
+        limits: S::F,
+        any: bool,
+    ) -> MayHit;
 }
 
-/// Objects of a block that a ray may hit, a bit for each.
+/// Objects of a block that a ray may hit, or rays of a packet that may hit an object, a bit for each.
 #[derive(Clone, Copy, Default)]
 pub(super) struct MayHit {
     pub(super) maybe: u32,
-    /// Those of them that it certainly hits, up to its own end.
+    /// Those of them that certainly hit or are hit, up to the ray's own end.
     pub(super) surely: u32,
-}
-
-/// A block that holds all there is of its objects in `f32`.
-pub(super) trait Whole: Block {
-    /// [`Form::settle`] of the packed object.
-    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64>;
-}
-
-/// A ray in `f64`, its axes in this order.
-#[inline(always)]
-pub(super) fn widened(ray: &LaneRay, axes: [usize; 3]) -> Ray {
-    Ray {
-        origin: three(|k| f64::from(ray.origin[axes[k]])).into(),
-        direction: three(|k| f64::from(ray.direction[axes[k]])).into(),
-        t_min: f64::from(ray.t_min),
-        t_max: f64::from(ray.t_max),
-    }
 }
 
 /// Bounds on errors in `f32`, for packed objects and for the exact ones that these are nearest to, as
@@ -157,9 +153,6 @@ impl Block for Triangles {
         &self.objects
     }
 
-    /// The edge functions of Woop, Benthin and Wald ("Watertight ray/triangle intersection", JCGT
-    /// 2(1), 2013), which decide where they are off 0 by more than rounding; and the distances of the
-    /// vertices, between which that of a hit lies.
     #[inline(always)]
     unsafe fn candidates<S: Simd>(
         &self,
@@ -170,100 +163,179 @@ impl Block for Triangles {
     ) -> MayHit {
         let ray = rays.rays.get_unchecked(ray);
         let axes = ray.turned_axes();
-        let origin = splat3::<S>(three(|k| *ray.origin.get_unchecked(axes[k])));
-        let [dx, dy, _] = three(|k| *ray.direction.get_unchecked(axes[k]));
         let along = *ray.inverse.get_unchecked(axes[2]);
-        let shear = [S::splat(dx * along), S::splat(dy * along)];
-        let along = S::splat(along);
-        let reach = ray.reach;
-        let error = S::splat(EDGE_ERROR * reach);
-        let nearest = S::splat(ray.t_min - T_ERROR * reach);
-        let farthest = S::splat(limit + T_ERROR * reach);
-        let begin = S::splat(ray.t_min + T_ERROR * reach);
-        let end = S::splat(ray.t_max - T_ERROR * reach);
-        let zero = S::splat(0.0);
+        let [dx, dy, _] = three(|k| *ray.direction.get_unchecked(axes[k]));
+        let turned = Turned::<S> {
+            origin: splat3::<S>(three(|k| *ray.origin.get_unchecked(axes[k]))),
+            shear: [S::splat(dx * along), S::splat(dy * along)],
+            along: S::splat(along),
+            error: S::splat(EDGE_ERROR * ray.reach),
+            within: Within::of_one(ray, limit),
+        };
         parts!(S, self.objects, at => {
             let vertex = |i: usize| {
                 let v = self.vertices.get_unchecked(i);
-                three(|k| v.get_unchecked(axes[k]).as_ptr().add(at))
+                three(|k| S::load(v.get_unchecked(axes[k]).as_ptr().add(at)))
             };
-            let a = sheared::<S>(vertex(0), origin, shear);
-            let b = sheared::<S>(vertex(1), origin, shear);
-            let c = sheared::<S>(vertex(2), origin, shear);
-            let u = cross::<S>(c, b);
-            let v = cross::<S>(a, c);
-            let w = cross::<S>(b, a);
-            let size = S::max(S::max(size::<S>(a), size::<S>(b)), size::<S>(c));
-            let error = S::mul(error, size);
-            let least = S::min(S::min(u, v), w);
-            let most = S::max(S::max(u, v), w);
-            let missed = S::and(S::lt(least, S::sub(zero, error)), S::lt(error, most));
-            let (ta, tb, tc) = (S::mul(a[2], along), S::mul(b[2], along), S::mul(c[2], along));
-            let first = S::min(S::min(ta, tb), tc);
-            let last = S::max(S::max(ta, tb), tc);
-            let reached = S::and(S::le(first, farthest), S::le(nearest, last));
-            let maybe = S::and_not(reached, missed);
-            if S::bits(maybe) == 0 {
-                MayHit::default()
-            } else {
-                // The distance is a mean of those of the vertices, weighted by the edge functions.
-                // With D their sum: if they are off by `error` each, it is by 3 `error` / |D| times
-                // the span of those distances, at most.
-                let sum = S::add(S::add(u, v), w);
-                let inverse = S::div(S::splat(1.0), sum);
-                let t = S::mul(
-                    S::mul_add(u, ta, S::mul_add(v, tb, S::mul(w, tc))),
-                    inverse,
-                );
-                let off = S::mul(S::mul(error, S::splat(4.0)), S::abs(inverse));
-                let clear = S::lt(off, S::splat(1.0));
-                let off = S::mul(off, S::sub(last, first));
-                let (early, late) = (S::sub(t, off), S::add(t, off));
-                let out = S::or(S::lt(late, nearest), S::lt(farthest, early));
-                let maybe = S::and_not(maybe, S::and(clear, out));
-                let mut found = MayHit {
-                    maybe: S::bits(maybe),
-                    surely: 0,
-                };
-                if any {
-                    let inside = S::or(S::lt(error, least), S::lt(most, S::sub(zero, error)));
-                    let within = S::and(S::le(begin, early), S::le(late, end));
-                    found.surely = S::bits(S::and(S::and(inside, within), S::and(clear, maybe)));
-                }
-                found
-            }
+            turned.may_hit([vertex(0), vertex(1), vertex(2)], any)
         })
     }
-}
 
-impl Whole for Triangles {
     #[inline(always)]
-    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64> {
-        let axes = ray.turned_axes();
-        let vertices = three(|i| three(|k| self.vertices[i][axes[k]][place]).into());
-        PackedTriangle::settle_turned(vertices, &widened(ray, axes), t_max)
+    unsafe fn rays_that_may_hit<S: Simd>(
+        &self,
+        place: usize,
+        packet: &Packet,
+        limits: S::F,
+        any: bool,
+    ) -> MayHit {
+        let axes = packet.turned_axes;
+        let load = |numbers: &[f32; BLOCK]| S::load(numbers.as_ptr());
+        let along = load(packet.inverse.get_unchecked(axes[2]));
+        let turned = Turned::<S> {
+            origin: three(|k| load(packet.origin.get_unchecked(axes[k]))),
+            shear: [0, 1].map(|k| S::mul(load(packet.direction.get_unchecked(axes[k])), along)),
+            along,
+            error: S::mul(load(&packet.reach), S::splat(EDGE_ERROR)),
+            within: Within::of_each(packet, limits),
+        };
+        let vertex = |i: usize| {
+            let v = self.vertices.get_unchecked(i);
+            three(|k| S::splat(*v.get_unchecked(axes[k]).get_unchecked(place)))
+        };
+        turned.may_hit([vertex(0), vertex(1), vertex(2)], any)
     }
 }
 
-impl Whole for Spheres {
+/// Where on a ray in `f32` a hit must lie to count, and where to count whatever was rounded.
+#[derive(Clone, Copy)]
+struct Within<S: Simd> {
+    nearest: S::F,
+    farthest: S::F,
+    begin: S::F,
+    end: S::F,
+}
+
+impl<S: Simd> Within<S> {
+    /// One ray in all lanes.
     #[inline(always)]
-    fn settle(&self, place: usize, ray: &LaneRay, t_max: f64) -> Option<f64> {
+    unsafe fn of_one(ray: &LaneRay, limit: f32) -> Self {
+        let error = T_ERROR * ray.reach;
+        Within {
+            nearest: S::splat(ray.t_min - error),
+            farthest: S::splat(limit + error),
+            begin: S::splat(ray.t_min + error),
+            end: S::splat(ray.t_max - error),
+        }
+    }
+
+    /// A ray a lane.
+    #[inline(always)]
+    unsafe fn of_each(packet: &Packet, limits: S::F) -> Self {
+        let error = S::mul(S::load(packet.reach.as_ptr()), S::splat(T_ERROR));
+        let [t_min, t_max] = [&packet.t_min, &packet.t_max].map(|t| S::load(t.as_ptr()));
+        Within {
+            nearest: S::sub(t_min, error),
+            farthest: S::add(limits, error),
+            begin: S::add(t_min, error),
+            end: S::sub(t_max, error),
+        }
+    }
+}
+
+/// Rays as triangles are held against them, the axis of the largest component last.
+struct Turned<S: Simd> {
+    origin: [S::F; 3],
+    shear: [S::F; 2],
+    /// 1 over the last component.
+    along: S::F,
+    /// Of an edge function, for a triangle of size 1.
+    error: S::F,
+    within: Within<S>,
+}
+
+impl<S: Simd> Turned<S> {
+    /// The edge functions of Woop, Benthin and Wald ("Watertight ray/triangle intersection", JCGT
+    /// 2(1), 2013), which decide where they are off 0 by more than rounding; and the distances of the
+    /// vertices, between which that of a hit lies.
+    #[inline(always)]
+    unsafe fn may_hit(&self, [a, b, c]: [[S::F; 3]; 3], any: bool) -> MayHit {
+        let zero = S::splat(0.0);
+        let Within {
+            nearest,
+            farthest,
+            begin,
+            end,
+        } = self.within;
+        let a = sheared::<S>(a, self.origin, self.shear);
+        let b = sheared::<S>(b, self.origin, self.shear);
+        let c = sheared::<S>(c, self.origin, self.shear);
+        let u = cross::<S>(c, b);
+        let v = cross::<S>(a, c);
+        let w = cross::<S>(b, a);
+        let size = S::max(S::max(size::<S>(a), size::<S>(b)), size::<S>(c));
+        let error = S::mul(self.error, size);
+        let least = S::min(S::min(u, v), w);
+        let most = S::max(S::max(u, v), w);
+        let missed = S::and(S::lt(least, S::sub(zero, error)), S::lt(error, most));
+        let along = self.along;
+        let (ta, tb, tc) = (
+            S::mul(a[2], along),
+            S::mul(b[2], along),
+            S::mul(c[2], along),
+        );
+        let first = S::min(S::min(ta, tb), tc);
+        let last = S::max(S::max(ta, tb), tc);
+        let reached = S::and(S::le(first, farthest), S::le(nearest, last));
+        let maybe = S::and_not(reached, missed);
+        // The distance is a mean of those of the vertices, weighted by the edge functions. With D
+        // their sum: if they are off by `error` each, it is by 3 `error` / |D| times the span of
+        // those distances, at most. Nothing predicts whether it is wanted: it is computed without
+        // asking.
+        let sum = S::add(S::add(u, v), w);
+        let inverse = S::div(S::splat(1.0), sum);
+        let t = S::mul(S::mul_add(u, ta, S::mul_add(v, tb, S::mul(w, tc))), inverse);
+        let off = S::mul(S::mul(error, S::splat(4.0)), S::abs(inverse));
+        let clear = S::lt(off, S::splat(1.0));
+        let off = S::mul(off, S::sub(last, first));
+        let (early, late) = (S::sub(t, off), S::add(t, off));
+        let out = S::or(S::lt(late, nearest), S::lt(farthest, early));
+        let maybe = S::and_not(maybe, S::and(clear, out));
+        let mut found = MayHit {
+            maybe: S::bits(maybe),
+            surely: 0,
+        };
+        if any {
+            let inside = S::or(S::lt(error, least), S::lt(most, S::sub(zero, error)));
+            let within = S::and(S::le(begin, early), S::le(late, end));
+            found.surely = S::bits(S::and(S::and(inside, within), S::and(clear, maybe)));
+        }
+        found
+    }
+}
+
+impl Triangles {
+    /// A triangle's vertices, their coordinates along these axes.
+    #[inline(always)]
+    pub(super) fn vertices(&self, place: usize, axes: [usize; 3]) -> [[f32; 3]; 3] {
+        three(|i| three(|k| self.vertices[i][axes[k]][place]))
+    }
+}
+
+impl Spheres {
+    #[inline(always)]
+    pub(super) fn sphere(&self, place: usize) -> PackedSphere {
         let center = three(|k| self.center[k][place]).into();
-        let ray = widened(ray, [0, 1, 2]);
-        PackedSphere::from_center(center, self.radius[place]).settle(&ray, t_max)
+        PackedSphere::from_center(center, self.radius[place])
     }
 }
 
 /// Points in coordinates in which the ray is the third axis, which stays unscaled.
 #[inline(always)]
-unsafe fn sheared<S: Simd>(
-    point: [*const f32; 3],
-    origin: [S::F; 3],
-    shear: [S::F; 2],
-) -> [S::F; 3] {
-    let z = S::sub(S::load(point[2]), origin[2]);
-    let x = S::sub(S::load(point[0]), origin[0]);
-    let y = S::sub(S::load(point[1]), origin[1]);
+unsafe fn sheared<S: Simd>(point: [S::F; 3], origin: [S::F; 3], shear: [S::F; 2]) -> [S::F; 3] {
+    let z = S::sub(point[2], origin[2]);
+    let x = S::sub(point[0], origin[0]);
+    let y = S::sub(point[1], origin[1]);
     [S::sub_mul(x, shear[0], z), S::sub_mul(y, shear[1], z), z]
 }
 
@@ -276,7 +348,7 @@ unsafe fn cross<S: Simd>(p: [S::F; 3], q: [S::F; 3]) -> S::F {
 /// The larger of the first two coordinates.
 #[inline(always)]
 unsafe fn size<S: Simd>(p: [S::F; 3]) -> S::F {
-    S::max(S::abs(p[0]), S::abs(p[1]))
+    S::max_abs(p[0], p[1])
 }
 
 #[inline(always)]
@@ -306,7 +378,6 @@ impl Block for Spheres {
         &self.objects
     }
 
-    /// The distance between the centre and the ray's line.
     #[inline(always)]
     unsafe fn candidates<S: Simd>(
         &self,
@@ -318,52 +389,93 @@ impl Block for Spheres {
         let ray = rays.rays.get_unchecked(ray);
         let [x, y, z] = ray.direction;
         let squared = x * x + y * y + z * z;
-        let origin = splat3::<S>(ray.origin);
-        let direction = splat3::<S>(ray.direction);
-        let per_square = S::splat(1.0 / squared);
-        let reach = ray.reach;
-        let error = S::splat(OFFSET_ERROR * reach);
-        let nearest = S::splat(ray.t_min - T_ERROR * reach);
-        let farthest = S::splat(limit + T_ERROR * reach);
-        let begin = S::splat(ray.t_min + T_ERROR * reach);
-        let end = S::splat(ray.t_max - T_ERROR * reach);
-        let zero = S::splat(0.0);
-        // Not below 1 over the length.
-        let per_length = S::splat((1.0 + 4.0 * f32::EPSILON) / squared.sqrt());
+        let line = Straight::<S> {
+            origin: splat3::<S>(ray.origin),
+            direction: splat3::<S>(ray.direction),
+            per_square: S::splat(1.0 / squared),
+            per_length: S::splat(MORE / squared.sqrt()),
+            error: S::splat(OFFSET_ERROR * ray.reach),
+            within: Within::of_one(ray, limit),
+        };
         parts!(S, self.objects, at => {
-            let [x, y, z] = three(|k| self.center[k].as_ptr().add(at));
-            let to = [
-                S::sub(S::load(x), origin[0]),
-                S::sub(S::load(y), origin[1]),
-                S::sub(S::load(z), origin[2]),
-            ];
-            let along = S::mul(dot::<S>(to, direction), per_square);
-            let off = [
-                S::sub_mul(to[0], along, direction[0]),
-                S::sub_mul(to[1], along, direction[1]),
-                S::sub_mul(to[2], along, direction[2]),
-            ];
-            let squared = dot::<S>(off, off);
-            let radius = S::load(self.radius.as_ptr().add(at));
-            let reach = S::add(radius, error);
-            let met = S::le(squared, S::mul(reach, reach));
-            let half = S::mul(reach, per_length);
-            let first = S::sub(along, half);
-            let reached = S::and(
-                S::le(first, farthest),
-                S::le(nearest, S::add(along, half)),
-            );
-            let maybe = S::and(met, reached);
-            let mut found = MayHit { maybe: S::bits(maybe), surely: 0 };
-            if any {
-                // The ray enters between there and the point nearest to the centre.
-                let inner = S::max(S::sub(radius, error), zero);
-                let enters = S::lt(squared, S::mul(inner, inner));
-                let within = S::and(S::le(begin, first), S::le(along, end));
-                found.surely = S::bits(S::and(maybe, S::and(enters, within)));
-            }
-            found
+            let center = three(|k| S::load(self.center[k].as_ptr().add(at)));
+            line.may_hit(center, S::load(self.radius.as_ptr().add(at)), any)
         })
+    }
+
+    #[inline(always)]
+    unsafe fn rays_that_may_hit<S: Simd>(
+        &self,
+        place: usize,
+        packet: &Packet,
+        limits: S::F,
+        any: bool,
+    ) -> MayHit {
+        let load = |numbers: &[f32; BLOCK]| S::load(numbers.as_ptr());
+        let direction = three(|k| load(&packet.direction[k]));
+        let squared = dot::<S>(direction, direction);
+        let one = S::splat(1.0);
+        let line = Straight::<S> {
+            origin: three(|k| load(&packet.origin[k])),
+            direction,
+            per_square: S::div(one, squared),
+            per_length: S::div(S::splat(MORE), S::sqrt(squared)),
+            error: S::mul(load(&packet.reach), S::splat(OFFSET_ERROR)),
+            within: Within::of_each(packet, limits),
+        };
+        let center = three(|k| S::splat(*self.center[k].get_unchecked(place)));
+        line.may_hit(center, S::splat(*self.radius.get_unchecked(place)), any)
+    }
+}
+
+/// Makes what is 1 over a length not less than that, whatever was rounded.
+const MORE: f32 = 1.0 + 4.0 * f32::EPSILON;
+
+/// Rays as spheres are held against them.
+struct Straight<S: Simd> {
+    origin: [S::F; 3],
+    direction: [S::F; 3],
+    /// 1 over the direction's square.
+    per_square: S::F,
+    /// Not below 1 over the direction's length.
+    per_length: S::F,
+    /// Of the distance between a centre and the ray.
+    error: S::F,
+    within: Within<S>,
+}
+
+impl<S: Simd> Straight<S> {
+    /// The distance between the centre and the ray's line.
+    #[inline(always)]
+    unsafe fn may_hit(&self, center: [S::F; 3], radius: S::F, any: bool) -> MayHit {
+        let Within {
+            nearest,
+            farthest,
+            begin,
+            end,
+        } = self.within;
+        let to = three(|k| S::sub(center[k], self.origin[k]));
+        let along = S::mul(dot::<S>(to, self.direction), self.per_square);
+        let off = three(|k| S::sub_mul(to[k], along, self.direction[k]));
+        let squared = dot::<S>(off, off);
+        let reach = S::add(radius, self.error);
+        let met = S::le(squared, S::mul(reach, reach));
+        let half = S::mul(reach, self.per_length);
+        let first = S::sub(along, half);
+        let reached = S::and(S::le(first, farthest), S::le(nearest, S::add(along, half)));
+        let maybe = S::and(met, reached);
+        let mut found = MayHit {
+            maybe: S::bits(maybe),
+            surely: 0,
+        };
+        if any {
+            // The ray enters between there and the point nearest to the centre.
+            let inner = S::max(S::sub(radius, self.error), S::splat(0.0));
+            let enters = S::lt(squared, S::mul(inner, inner));
+            let within = S::and(S::le(begin, first), S::le(along, end));
+            found.surely = S::bits(S::and(maybe, S::and(enters, within)));
+        }
+        found
     }
 }
 
@@ -413,5 +525,35 @@ impl Block for Boxes {
             }
             MayHit { maybe: S::bits(S::le(enter, exit)), surely: 0 }
         })
+    }
+
+    #[inline(always)]
+    unsafe fn rays_that_may_hit<S: Simd>(
+        &self,
+        place: usize,
+        packet: &Packet,
+        limits: S::F,
+        _: bool,
+    ) -> MayHit {
+        let load = |numbers: &[f32; BLOCK]| S::load(numbers.as_ptr());
+        let Within {
+            nearest, farthest, ..
+        } = Within::<S>::of_each(packet, limits);
+        let (mut enter, mut exit) = (nearest, farthest);
+        for k in 0..3 {
+            let inverse = load(&packet.inverse[k]);
+            let shifted = load(&packet.shifted[k]);
+            let width = S::mul(S::abs(inverse), S::splat(2.0 * packet.thick));
+            let [low, high] = [0, 1].map(|end| {
+                let corner = S::splat(*self.corners[end][k].get_unchecked(place));
+                S::mul(S::sub(corner, shifted), inverse)
+            });
+            enter = S::max(enter, S::min(low, high));
+            exit = S::min(exit, S::add(S::max(low, high), width));
+        }
+        MayHit {
+            maybe: S::bits(S::le(enter, exit)),
+            surely: 0,
+        }
     }
 }

@@ -1,12 +1,26 @@
 //! The tests that decide: those of the plain kernel, with the very same numbers.
 
-use super::block::{Whole, widened};
-use super::ray::LaneRays;
+use super::InstructionSet;
+use super::block::{Spheres, Triangles};
+use super::crossings::{Crossings, MANY};
+use super::ray::{LaneRay, LaneRays};
+use super::three;
 use super::walk::{Candidate, Tests};
 use crate::geometry::Ray;
-use crate::primitive::Form;
+use crate::primitive::{Form, PackedTriangle};
 use crate::trace::Hit;
 use std::marker::PhantomData;
+
+/// A ray in `f64`.
+#[inline(always)]
+fn widened(ray: &LaneRay) -> Ray {
+    Ray {
+        origin: three(|k| f64::from(ray.origin[k])).into(),
+        direction: three(|k| f64::from(ray.direction[k])).into(),
+        t_min: f64::from(ray.t_min),
+        t_max: f64::from(ray.t_max),
+    }
+}
 
 /// What a precision makes of a ray.
 pub(super) trait Numbers {
@@ -35,7 +49,7 @@ impl Numbers for Narrow {
 
     #[inline(always)]
     fn tested(rays: &LaneRays, ray: usize, _: &[Ray]) -> Ray {
-        widened(&rays.rays[ray], [0, 1, 2])
+        widened(&rays.rays[ray])
     }
 
     #[inline(always)]
@@ -85,9 +99,15 @@ impl Numbers for Wide {
 pub(super) trait Objects {
     type Numbers: Numbers;
 
-    /// [`Form::settle`] of a candidate up to `t_max`; `world` are the rays in the world.
+    /// What can be computed for several candidates at once, at most [`MANY`]; [`Objects::settle`] asks
+    /// for them next.
+    fn begin(&mut self, _: &[Candidate], _: &LaneRays) {}
+
+    /// [`Form::settle`] of a candidate up to `t_max`, the one of this number among those that were
+    /// begun; `world` are the rays in the world.
     fn settle(
         &self,
+        number: usize,
         candidate: &Candidate,
         rays: &LaneRays,
         world: &[Ray],
@@ -95,17 +115,67 @@ pub(super) trait Objects {
     ) -> Option<f64>;
 }
 
-/// In the blocks themselves, which were just read.
-pub(super) struct InBlocks<'a, B>(pub(super) &'a [B]);
+/// Triangles in the blocks themselves, which were just read.
+pub(super) struct InTriangles<'a> {
+    blocks: &'a [Triangles],
+    crossings: Crossings,
+    instructions: InstructionSet,
+}
 
-impl<B: Whole> Objects for InBlocks<'_, B> {
+impl<'a> InTriangles<'a> {
+    pub(super) fn new(blocks: &'a [Triangles], instructions: InstructionSet) -> Self {
+        InTriangles {
+            blocks,
+            crossings: Crossings::new(),
+            instructions,
+        }
+    }
+}
+
+impl Objects for InTriangles<'_> {
     type Numbers = Narrow;
 
     #[inline(always)]
-    fn settle(&self, candidate: &Candidate, rays: &LaneRays, _: &[Ray], t_max: f64) -> Option<f64> {
+    fn begin(&mut self, candidates: &[Candidate], rays: &LaneRays) {
+        for (k, candidate) in candidates.iter().enumerate() {
+            let ray = &rays.rays[candidate.ray as usize];
+            let block = &self.blocks[candidate.block as usize];
+            self.crossings.set(k, block, candidate.place as usize, ray);
+        }
+        self.crossings.compute(self.instructions, candidates.len());
+    }
+
+    #[inline(always)]
+    fn settle(
+        &self,
+        number: usize,
+        _: &Candidate,
+        _: &LaneRays,
+        _: &[Ray],
+        t_max: f64,
+    ) -> Option<f64> {
+        PackedTriangle::settled(self.crossings.of(number), t_max)
+    }
+}
+
+/// Spheres likewise.
+pub(super) struct InSpheres<'a>(pub(super) &'a [Spheres]);
+
+impl Objects for InSpheres<'_> {
+    type Numbers = Narrow;
+
+    #[inline(always)]
+    fn settle(
+        &self,
+        _: usize,
+        candidate: &Candidate,
+        rays: &LaneRays,
+        _: &[Ray],
+        t_max: f64,
+    ) -> Option<f64> {
+        let ray = widened(&rays.rays[candidate.ray as usize]);
         let block = &self.0[candidate.block as usize];
-        let ray = &rays.rays[candidate.ray as usize];
-        block.settle(candidate.place as usize, ray, t_max)
+        block.sphere(candidate.place as usize).settle(&ray, t_max)
     }
 }
 
@@ -130,6 +200,7 @@ impl<N: Numbers, F: Form> Objects for InArray<'_, N, F> {
     #[inline(always)]
     fn settle(
         &self,
+        _: usize,
         candidate: &Candidate,
         rays: &LaneRays,
         world: &[Ray],
@@ -164,18 +235,21 @@ impl<O: Objects> Tests for Closest<'_, O> {
     }
 
     fn test(&mut self, rays: &LaneRays, candidates: &[Candidate], limits: &mut [f32]) {
-        for candidate in candidates {
-            let (ray, object) = (candidate.ray as usize, candidate.object);
-            let best = &mut self.hits[ray];
-            // Found in the leaf before.
-            if object == best.object {
-                continue;
-            }
-            if let Some(t) = self.objects.settle(candidate, rays, self.rays, best.t)
-                && (t < best.t || object < best.object)
-            {
-                *best = Hit { t, object };
-                limits[candidate.lane as usize] = O::Numbers::limit(rays, ray, t);
+        for candidates in candidates.chunks(MANY) {
+            self.objects.begin(candidates, rays);
+            for (k, candidate) in candidates.iter().enumerate() {
+                let (ray, object) = (candidate.ray as usize, candidate.object);
+                let best = &mut self.hits[ray];
+                // Found in the leaf before.
+                if object == best.object {
+                    continue;
+                }
+                if let Some(t) = self.objects.settle(k, candidate, rays, self.rays, best.t)
+                    && (t < best.t || object < best.object)
+                {
+                    *best = Hit { t, object };
+                    limits[candidate.lane as usize] = O::Numbers::limit(rays, ray, t);
+                }
             }
         }
     }
@@ -186,6 +260,8 @@ pub(super) struct Any<'a, O> {
     objects: O,
     rays: &'a [Ray],
     blocked: &'a mut [bool],
+    /// Those of the candidates that have to be tested.
+    unsure: Vec<Candidate>,
 }
 
 impl<'a, O> Any<'a, O> {
@@ -194,6 +270,7 @@ impl<'a, O> Any<'a, O> {
             objects,
             rays,
             blocked,
+            unsure: Vec::new(),
         }
     }
 }
@@ -204,19 +281,26 @@ impl<O: Objects> Tests for Any<'_, O> {
     }
 
     fn test(&mut self, rays: &LaneRays, candidates: &[Candidate], limits: &mut [f32]) {
+        let mut block = |candidate: &Candidate| {
+            self.blocked[candidate.ray as usize] = true;
+            limits[candidate.lane as usize] = -1.0;
+        };
+        self.unsure.clear();
         for candidate in candidates {
-            let ray = candidate.ray as usize;
-            if self.blocked[ray] {
-                continue;
+            if candidate.surely {
+                block(candidate);
+            } else {
+                self.unsure.push(*candidate);
             }
-            let is_hit = || {
-                let t_max = O::Numbers::t_max(rays, ray, self.rays);
-                let t = self.objects.settle(candidate, rays, self.rays, t_max);
-                t.is_some()
-            };
-            if candidate.surely || is_hit() {
-                self.blocked[ray] = true;
-                limits[candidate.lane as usize] = -1.0;
+        }
+        for candidates in self.unsure.chunks(MANY) {
+            self.objects.begin(candidates, rays);
+            for (k, candidate) in candidates.iter().enumerate() {
+                let t_max = O::Numbers::t_max(rays, candidate.ray as usize, self.rays);
+                let t = self.objects.settle(k, candidate, rays, self.rays, t_max);
+                if t.is_some() {
+                    block(candidate);
+                }
             }
         }
     }

@@ -1,19 +1,23 @@
-//! Batches of rays in the lanes of vectors, each lane its own ray: the kernel for speed.
+//! Batches of rays in the lanes of vectors, each lane its own ray: the kernels for speed. The rays go
+//! through the tree each on its own ([`walk`]) or in packets ([`packet`]).
 //!
-//! It walks the same tree as the plain kernel, any method's, in a form made once a tree, and gives the
+//! They walk the same tree as the plain kernel, any method's, in a form made once a tree, and give the
 //! same hits, ray for ray and bit for bit. For that, nothing of it needs to be exact but the tests
-//! themselves, which are the plain kernel's. All before them only decides what is certain, in `f32` and with room
-//! for what that rounds, in either precision: planes are as thick as rounding may move rays and
-//! objects ([`prepare`]), and blocks of 16 objects are held against a ray at once ([`block`]). What is
-//! left, one or two objects a ray, is tested one by one.
+//! themselves, which are the plain kernel's. All before them only decides what is certain, in `f32` and
+//! with room for what that rounds, in either precision: planes are as thick as rounding may move rays
+//! and objects ([`prepare`]), and blocks of 16 objects are held against a ray at once, or an object
+//! against a packet ([`block`]). What is left, one or two objects a ray, is tested one by one.
 //!
 //! Rays of one call keep each other company: fewer than about 500 leave lanes idle.
 
 mod block;
+mod crossings;
 mod exact;
+mod packet;
 mod prepare;
 mod ray;
 mod simd;
+mod stacks;
 mod tracer;
 mod walk;
 
@@ -22,13 +26,16 @@ use crate::geometry::Ray;
 use crate::primitive::{PrimitiveKind, Shapes, UnitFrame, with_array};
 use crate::scene::Scene;
 use crate::tree::Tree;
-use block::{Block, Boxes, Spheres, Triangles};
-use exact::{Any, Closest, InArray, InBlocks, Narrow, Numbers, Objects, Wide};
+use block::{Boxes, Spheres, Triangles};
+use exact::{Any, Closest, InArray, InSpheres, InTriangles, Narrow, Numbers, Objects, Wide};
+use packet::{Aside, Company, walk_packets};
 use prepare::Prepared;
 use ray::{CHUNK, LaneRays, Root};
-use simd::Waiting;
+use simd::portable::Portable;
+use stacks::Stacks;
+use std::ops::Range;
 pub use tracer::{KernelChoice, TimedKernel};
-use walk::{Tests, walk};
+use walk::{Candidate, Tests, walk};
 
 /// Three values by number. Unlike `array::map` it is never a call, which would pass arrays through
 /// memory in pieces of other sizes than they are read in; processors wait then.
@@ -58,6 +65,11 @@ impl InstructionSet {
     /// As reports have it.
     pub const fn name(self) -> &'static str {
         ["AVX-512", "AVX2", "portable"][self as usize]
+    }
+
+    /// Rays that a vector holds.
+    fn lanes(self) -> usize {
+        [16, 8, 8][self as usize]
     }
 
     /// Whether this processor has it.
@@ -146,8 +158,46 @@ pub struct LaneKernel<'a> {
     shapes: &'a Shapes,
     instructions: InstructionSet,
     rays: Box<LaneRays>,
-    stack: Vec<Waiting>,
+    company: RayCompany,
+    /// Whether rays of this call go in packets; `None` until that was tried.
+    in_packets: Option<bool>,
+    stacks: Stacks,
+    asides: Vec<Aside>,
+    candidates: Vec<Candidate>,
     scratch: Scratch,
+}
+
+/// Rays of a call that tell whether packets are worth their while for the others: neighbours in it are
+/// alike. A few packets, which in lanes would be faster by at most half.
+const SAMPLE: usize = 64;
+
+/// How rays keep each other company.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RayCompany {
+    /// Every ray walks on its own, in a lane that goes on with another ray when it is done.
+    Lanes,
+    /// As many neighbours as there are lanes walk together, for rays that take much the same way.
+    Packets,
+    /// Packets, if those at the beginning of a call keep together; else lanes.
+    Auto,
+}
+
+impl RayCompany {
+    pub const ALL: [RayCompany; 3] = [RayCompany::Lanes, RayCompany::Packets, RayCompany::Auto];
+
+    /// As reports have it.
+    pub const fn name(self) -> &'static str {
+        ["lanes", "packets", "lanes and packets"][self as usize]
+    }
+
+    /// Whether it is packets; `None` where that must be tried.
+    fn in_packets(self) -> Option<bool> {
+        match self {
+            RayCompany::Lanes => Some(false),
+            RayCompany::Packets => Some(true),
+            RayCompany::Auto => None,
+        }
+    }
 }
 
 impl<'a> LaneKernel<'a> {
@@ -160,6 +210,7 @@ impl<'a> LaneKernel<'a> {
         lanes: &'a LaneTree,
         shapes: &'a Shapes,
         instructions: InstructionSet,
+        company: RayCompany,
     ) -> Self {
         assert!(instructions.is_here(), "no {} here", instructions.name());
         LaneKernel {
@@ -168,7 +219,11 @@ impl<'a> LaneKernel<'a> {
             shapes,
             instructions,
             rays: LaneRays::new(),
-            stack: Vec::new(),
+            company,
+            in_packets: None,
+            stacks: Stacks::default(),
+            asides: Vec::new(),
+            candidates: Vec::new(),
             scratch: Scratch::default(),
         }
     }
@@ -181,13 +236,15 @@ impl<'a> LaneKernel<'a> {
     pub fn closest_hits(&mut self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len());
         hits.fill(Hit::MISS);
+        self.in_packets = self.company.in_packets();
         for (rays, hits) in rays.chunks(CHUNK).zip(hits.chunks_mut(CHUNK)) {
             match (&self.lanes.prepared, self.shapes) {
                 (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
-                    self.closest_of(InBlocks(&p.blocks), rays, hits);
+                    let objects = InTriangles::new(&p.blocks, self.instructions);
+                    self.closest_of(objects, rays, hits);
                 }
                 (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
-                    self.closest_of(InBlocks(&p.blocks), rays, hits);
+                    self.closest_of(InSpheres(&p.blocks), rays, hits);
                 }
                 (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
                     self.closest_of(InArray::<Narrow, _>::new(objects), rays, hits);
@@ -206,13 +263,15 @@ impl<'a> LaneKernel<'a> {
     pub fn any_hits(&mut self, rays: &[Ray], blocked: &mut [bool]) {
         assert_eq!(rays.len(), blocked.len());
         blocked.fill(false);
+        self.in_packets = self.company.in_packets();
         for (rays, blocked) in rays.chunks(CHUNK).zip(blocked.chunks_mut(CHUNK)) {
             match (&self.lanes.prepared, self.shapes) {
                 (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
-                    self.any_of(InBlocks(&p.blocks), rays, blocked);
+                    let objects = InTriangles::new(&p.blocks, self.instructions);
+                    self.any_of(objects, rays, blocked);
                 }
                 (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
-                    self.any_of(InBlocks(&p.blocks), rays, blocked);
+                    self.any_of(InSpheres(&p.blocks), rays, blocked);
                 }
                 (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
                     self.any_of(InArray::<Narrow, _>::new(objects), rays, blocked);
@@ -230,13 +289,13 @@ impl<'a> LaneKernel<'a> {
             let (i, scratch) = (i as usize, &mut self.scratch);
             hits[i] = closest_hit(self.tree, self.shapes, &rays[i], scratch, &mut ());
         }
-        for start in self.rays.starts() {
-            let i = start.ray as usize;
+        for &start in self.rays.meeting() {
+            let i = start as usize;
             hits[i].t = O::Numbers::t_max(&self.rays, i, rays);
         }
         self.walk(&mut Closest::new(objects, rays, hits));
-        for start in self.rays.starts() {
-            let i = start.ray as usize;
+        for &start in self.rays.meeting() {
+            let i = start as usize;
             let hit = &mut hits[i];
             *hit = if hit.is_hit() {
                 let t = O::Numbers::to_world(&self.rays, i, hit.t);
@@ -271,25 +330,58 @@ impl<'a> LaneKernel<'a> {
                 InstructionSet::Avx512 => fill_avx512(&mut self.rays, root, rays),
                 #[cfg(target_arch = "x86_64")]
                 InstructionSet::Avx2 => fill_avx2(&mut self.rays, root, rays),
-                _ => self.rays.fill(root, rays),
+                _ => self.rays.fill::<simd::portable::Portable>(root, rays),
             }
         }
     }
 
+    /// Walks the rays made ready.
     fn walk(&mut self, tests: &mut dyn Tests) {
-        let (rays, stack) = (&*self.rays, &mut self.stack);
+        let mut ahead = 0..self.rays.starts.count;
+        if self.in_packets.is_none() {
+            let first = ahead.end.min(SAMPLE);
+            let company = self.walk_packets(0..first, tests);
+            self.in_packets = Some(company.is_close(self.instructions.lanes()));
+            ahead.start = first;
+        }
+        if self.in_packets == Some(true) {
+            self.walk_packets(ahead, tests);
+        } else {
+            self.walk_lanes(ahead, tests);
+        }
+    }
+
+    fn walk_lanes(&mut self, ahead: Range<usize>, tests: &mut dyn Tests) {
+        let (rays, stacks) = (&*self.rays, &mut self.stacks);
+        let found = &mut self.candidates;
         with_prepared!(self.lanes, tree => {
             // SAFETY: a kernel is only made for instructions that the processor has.
             unsafe {
                 match self.instructions {
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx512 => walk_avx512(tree, rays, stack, tests),
+                    InstructionSet::Avx512 => walk_avx512(tree, rays, ahead, stacks, found, tests),
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx2 => walk_avx2(tree, rays, stack, tests),
-                    _ => walk::<simd::portable::Portable, _, 2>(tree, rays, stack, tests),
+                    InstructionSet::Avx2 => walk_avx2(tree, rays, ahead, stacks, found, tests),
+                    _ => walk::<Portable, _, 2>(tree, rays, ahead, stacks, found, tests),
                 }
             }
         });
+    }
+
+    fn walk_packets(&mut self, ahead: Range<usize>, tests: &mut dyn Tests) -> Company {
+        let (rays, stack) = (&*self.rays, &mut self.asides);
+        with_prepared!(self.lanes, tree => {
+            // SAFETY: as above.
+            unsafe {
+                match self.instructions {
+                    #[cfg(target_arch = "x86_64")]
+                    InstructionSet::Avx512 => packets_avx512(tree, rays, ahead, stack, tests),
+                    #[cfg(target_arch = "x86_64")]
+                    InstructionSet::Avx2 => packets_avx2(tree, rays, ahead, stack, tests),
+                    _ => walk_packets::<Portable, _>(tree, rays, ahead, stack, tests),
+                }
+            }
+        })
     }
 }
 
@@ -303,25 +395,42 @@ impl LaneTree {
 /// The kernel compiled for an instruction set, all of it in functions of that set.
 #[cfg(target_arch = "x86_64")]
 macro_rules! compiled {
-    ($features:literal, $fill:ident, $walk:ident, $simd:ty, $groups:literal) => {
+    ($features:literal, $fill:ident, $walk:ident, $packets:ident, $simd:ty, $groups:literal) => {
         /// # Safety
         /// The processor has these instructions.
         #[target_feature(enable = $features)]
         unsafe fn $fill(lane_rays: &mut LaneRays, root: Root<'_>, rays: &[Ray]) {
-            lane_rays.fill(root, rays);
+            // SAFETY: the caller's.
+            unsafe { lane_rays.fill::<$simd>(root, rays) }
         }
 
         /// # Safety
         /// The processor has these instructions.
         #[target_feature(enable = $features)]
-        unsafe fn $walk<B: Block>(
+        unsafe fn $walk<B: block::Block>(
             tree: &Prepared<B>,
             rays: &LaneRays,
-            stack: &mut Vec<Waiting>,
+            ahead: Range<usize>,
+            stacks: &mut Stacks,
+            candidates: &mut Vec<Candidate>,
             tests: &mut dyn Tests,
         ) {
             // SAFETY: the caller's.
-            unsafe { walk::<$simd, B, $groups>(tree, rays, stack, tests) }
+            unsafe { walk::<$simd, B, $groups>(tree, rays, ahead, stacks, candidates, tests) }
+        }
+
+        /// # Safety
+        /// The processor has these instructions.
+        #[target_feature(enable = $features)]
+        unsafe fn $packets<B: block::Block>(
+            tree: &Prepared<B>,
+            rays: &LaneRays,
+            ahead: Range<usize>,
+            stack: &mut Vec<Aside>,
+            tests: &mut dyn Tests,
+        ) -> Company {
+            // SAFETY: the caller's.
+            unsafe { walk_packets::<$simd, B>(tree, rays, ahead, stack, tests) }
         }
     };
 }
@@ -330,6 +439,7 @@ compiled!(
     "avx512f,avx512dq,avx512vl,avx512bw,fma,bmi1,popcnt",
     fill_avx512,
     walk_avx512,
+    packets_avx512,
     simd::avx512::Avx512,
     3
 );
@@ -338,6 +448,7 @@ compiled!(
     "avx2,fma,bmi1,popcnt",
     fill_avx2,
     walk_avx2,
+    packets_avx2,
     simd::avx2::Avx2,
     6
 );

@@ -1,5 +1,7 @@
 //! Rays as lanes walk and test them: in `f32`, with bounds on what that rounds.
+#![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
+use super::simd::{Simd, WIDEST};
 use super::three;
 use crate::geometry::Ray;
 use crate::primitive::{FramedRay, UnitFrame};
@@ -14,26 +16,44 @@ pub(super) struct LaneRay {
     pub(super) origin: [f32; 3],
     /// Its largest component is from ½ to 2.
     pub(super) direction: [f32; 3],
-    /// 1 over the direction, finite.
-    pub(super) inverse: [f32; 3],
     pub(super) t_min: f32,
     pub(super) t_max: f32,
+    /// 1 over the direction, finite.
+    pub(super) inverse: [f32; 3],
     /// Bound on how far any coordinate of the scene is from that of the origin.
     pub(super) reach: f32,
     /// The axis of the direction's largest component.
     pub(super) axis: u32,
+    _room: [u32; 3],
 }
 
+/// Numbers of half a [`LaneRay`].
+pub(super) const HALF: usize = 8;
+
 impl LaneRay {
+    /// Ends before it begins.
     const NONE: LaneRay = LaneRay {
         origin: [0.0; 3],
         direction: [1.0; 3],
-        inverse: [1.0; 3],
         t_min: 0.0,
         t_max: -1.0,
+        inverse: [1.0; 3],
         reach: 0.0,
         axis: 0,
+        _room: [0; 3],
     };
+
+    fn set_uncommon(&mut self, ray: &FramedRay) {
+        let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin.to_array(), ray.direction.to_array());
+        self.set([ox, oy, oz, dx, dy, dz, ray.t_min, ray.t_max]);
+    }
+
+    #[inline(always)]
+    fn set(&mut self, [ox, oy, oz, dx, dy, dz, t_min, t_max]: [f32; HALF]) {
+        self.origin = [ox, oy, oz];
+        self.direction = [dx, dy, dz];
+        (self.t_min, self.t_max) = (t_min, t_max);
+    }
 
     /// The axes in cyclic order, that of the largest component last.
     #[inline(always)]
@@ -51,12 +71,20 @@ impl LaneRay {
     }
 }
 
-/// A ray that meets the scene, and where it is within.
-#[derive(Clone, Copy)]
-pub(super) struct Start {
-    pub(super) ray: u32,
-    pub(super) t_enter: f32,
-    pub(super) t_exit: f32,
+/// A number for every ray that meets the scene, with room for what vectors write beyond.
+type Column<T> = [T; CHUNK + WIDEST];
+
+/// What lanes begin rays with that meet the scene, number by number.
+pub(super) struct Starts {
+    /// [`LaneRay::shifted`].
+    pub(super) shifted: [Column<f32>; 3],
+    pub(super) inverse: [Column<f32>; 3],
+    /// Where the ray is within the scene.
+    pub(super) t_enter: Column<f32>,
+    pub(super) t_exit: Column<f32>,
+    /// The ray's place among those made ready.
+    pub(super) ray: Column<u32>,
+    pub(super) count: usize,
 }
 
 /// Rays made ready, up to [`CHUNK`].
@@ -69,9 +97,7 @@ pub(super) struct LaneRays {
     scale: [f64; CHUNK],
     /// Those that the unit frame cannot hold.
     pub(super) others: Vec<u32>,
-    /// Those that meet the scene come first, and then one place to write to.
-    starts: [Start; CHUNK + 1],
-    meeting: usize,
+    pub(super) starts: Starts,
 }
 
 /// What all rays through a tree have in common.
@@ -86,88 +112,162 @@ pub(super) struct Root<'a> {
     pub(super) forward_only: bool,
 }
 
-/// Rays whose numbers are computed at once.
-const BATCH: usize = 16;
-
-type Numbers = [f32; BATCH];
-
-/// Rays number by number.
-struct Columns {
-    origin: [Numbers; 3],
-    direction: [Numbers; 3],
-    inverse: [Numbers; 3],
-    t_min: Numbers,
-    t_max: Numbers,
-    t_enter: Numbers,
-    t_exit: Numbers,
-    reach: Numbers,
-    axis: [u32; BATCH],
-}
-
 impl LaneRays {
     pub(super) fn new() -> Box<LaneRays> {
-        let none = Start {
-            ray: 0,
-            t_enter: 0.0,
-            t_exit: 0.0,
-        };
+        const ZERO: Column<f32> = [0.0; CHUNK + WIDEST];
         Box::new(LaneRays {
             thick: 0.0,
             rays: [LaneRay::NONE; CHUNK],
             start: [0.0; CHUNK],
             scale: [1.0; CHUNK],
             others: Vec::new(),
-            starts: [none; CHUNK + 1],
-            meeting: 0,
+            starts: Starts {
+                shifted: [ZERO; 3],
+                inverse: [ZERO; 3],
+                t_enter: ZERO,
+                t_exit: ZERO,
+                ray: [0; CHUNK + WIDEST],
+                count: 0,
+            },
         })
     }
 
     /// The rays that meet the scene.
-    pub(super) fn starts(&self) -> &[Start] {
-        &self.starts[..self.meeting]
+    pub(super) fn meeting(&self) -> &[u32] {
+        &self.starts.ray[..self.starts.count]
     }
 
     /// Makes rays ready, at most [`CHUNK`].
+    ///
+    /// # Safety
+    /// As [`Simd`].
     #[inline(always)]
-    pub(super) fn fill(&mut self, root: Root<'_>, rays: &[Ray]) {
+    pub(super) unsafe fn fill<S: Simd>(&mut self, root: Root<'_>, rays: &[Ray]) {
+        const { assert!(CHUNK.is_multiple_of(S::LANES) && S::LANES <= WIDEST) };
         assert!(rays.len() <= CHUNK);
         self.thick = root.thick;
         self.others.clear();
-        self.meeting = 0;
-        for (number, rays) in rays.chunks(BATCH).enumerate() {
-            self.fill_batch(root, number * BATCH, rays);
+        self.starts.count = 0;
+        self.start[..rays.len()].fill(0.0);
+        self.scale[..rays.len()].fill(root.frame.scale());
+        for (number, rays) in rays.chunks(S::LANES).enumerate() {
+            let first = number * S::LANES;
+            self.set::<S>(&root, first, rays);
+            self.derive::<S>(&root, first);
         }
     }
 
+    /// The first halves of rays, a vector of them at most.
     #[inline(always)]
-    fn fill_batch(&mut self, root: Root<'_>, first: usize, rays: &[Ray]) {
-        let mut columns = Columns::new();
-        for (lane, ray) in rays.iter().enumerate() {
-            let i = first + lane;
-            match FramedRay::new(root.frame, ray) {
-                Some(framed) if !(root.forward_only && ray.t_min < 0.0) => {
-                    columns.set(lane, &framed);
-                    self.start[i] = framed.start;
-                    self.scale[i] = framed.scale;
-                }
-                _ => self.others.push(i as u32),
+    unsafe fn set<S: Simd>(&mut self, root: &Root<'_>, first: usize, rays: &[Ray]) {
+        let lanes = self.rays.get_unchecked_mut(first..first + S::LANES);
+        let least = if root.forward_only {
+            0.0
+        } else {
+            f64::NEG_INFINITY
+        };
+        // What `FramedRay` makes of common rays.
+        let (c, scale) = (root.frame.center(), root.frame.scale());
+        let no = f64::NEG_INFINITY;
+        let to_frame = [
+            [scale, scale, scale, 1.0, 1.0, 1.0, scale, scale],
+            [c.x, c.y, c.z, 0.0, 0.0, 0.0, 0.0, 0.0],
+            [no, no, no, no, no, no, 0.0, no],
+        ];
+        let mut uncommon = 0;
+        for (k, (lane, ray)) in lanes.iter_mut().zip(rays).enumerate() {
+            let (o, d) = (ray.origin, ray.direction);
+            let world = [o.x, o.y, o.z, d.x, d.y, d.z, ray.t_min, ray.t_max];
+            lane.set(S::narrowed(&world, &to_frame));
+            let ordered = ray.t_min >= least;
+            uncommon |= u32::from(!ordered) << k;
+        }
+        for lane in lanes.iter_mut().skip(rays.len()) {
+            *lane = LaneRay::NONE;
+        }
+        // What passes here does so before it is rounded, too.
+        let [ox, oy, oz, dx, dy, dz, ..] = S::columns(lanes.as_ptr().cast());
+        let origin = S::max_abs(ox, S::max_abs(oy, oz));
+        let direction = S::max_abs(dx, S::max_abs(dy, dz));
+        let near = S::lt(origin, S::splat(FramedRay::FAR as f32));
+        let unit = S::and(
+            S::lt(S::splat(0.5), direction),
+            S::lt(direction, S::splat(2.0)),
+        );
+        uncommon |= !S::bits(S::and(near, unit));
+        uncommon &= (1 << rays.len()) - 1;
+        while uncommon != 0 {
+            let k = uncommon.trailing_zeros() as usize;
+            uncommon &= uncommon - 1;
+            self.set_uncommon(root, first + k, &rays[k]);
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn set_uncommon(&mut self, root: &Root<'_>, i: usize, ray: &Ray) {
+        match FramedRay::new(root.frame, ray) {
+            Some(framed) if !(root.forward_only && ray.t_min < 0.0) => {
+                self.rays[i].set_uncommon(&framed);
+                self.start[i] = framed.start;
+                self.scale[i] = framed.scale;
+            }
+            _ => {
+                self.rays[i] = LaneRay::NONE;
+                self.others.push(i as u32);
             }
         }
-        for lane in 0..BATCH {
-            columns.derive(&root, lane);
+    }
+
+    /// What follows from the first halves of a vector of rays.
+    #[inline(always)]
+    unsafe fn derive<S: Simd>(&mut self, root: &Root<'_>, first: usize) {
+        const EPSILON: f32 = f32::EPSILON;
+        let rays = self.rays.as_mut_ptr().add(first).cast::<f32>();
+        let [ox, oy, oz, dx, dy, dz, t_min, t_max] = S::columns(rays);
+        let (origin, direction) = ([ox, oy, oz], [dx, dy, dz]);
+        let size = three(|k| S::abs(direction[k]));
+        let mut t_enter = S::mul(t_min, S::splat(1.0 - 2.0 * EPSILON));
+        let mut t_exit = S::mul(t_max, S::splat(1.0 + 2.0 * EPSILON));
+        let (mut inverse, mut shifted) = (direction, origin);
+        for k in 0..3 {
+            let backward = S::test_u(S::bits_of(direction[k]), S::splat_u(1 << 31));
+            let signed = |x: f32| S::select(backward, S::splat(-x), S::splat(x));
+            // Below, its inverse may not be a number.
+            let least = S::splat(1e-20);
+            let finite = S::select(S::lt(size[k], least), signed(1e-20), direction[k]);
+            inverse[k] = S::div(S::splat(1.0), finite);
+            shifted[k] = S::add(origin[k], signed(root.thick));
+            let to = |corner: f32| S::mul(S::sub(S::splat(corner), origin[k]), inverse[k]);
+            let (a, b) = (to(root.corners[0][k]), to(root.corners[1][k]));
+            t_enter = S::max(S::min(a, b), t_enter);
+            t_exit = S::min(S::max(a, b), t_exit);
         }
-        for lane in 0..rays.len() {
-            let i = first + lane;
-            self.rays[i] = columns.ray(lane);
-            let (t_enter, t_exit) = (columns.t_enter[lane], columns.t_exit[lane]);
-            // Written over by the next if it does not count.
-            self.starts[self.meeting] = Start {
-                ray: i as u32,
-                t_enter,
-                t_exit,
-            };
-            self.meeting += usize::from(t_enter <= t_exit);
+        let reach = S::max_abs(ox, S::max_abs(oy, oz));
+        let reach = S::add(reach, S::splat(0.5));
+        let y_or_z = S::select_u(S::lt(size[2], size[1]), S::splat_u(1), S::splat_u(2));
+        let is_x = S::and(S::lt(size[1], size[0]), S::lt(size[2], size[0]));
+        let axis = S::select_u(is_x, S::splat_u(0), y_or_z);
+        let [x, y, z] = inverse;
+        let rest = S::splat(0.0);
+        let half = [x, y, z, reach, S::from_bits(axis), rest, rest, rest];
+        S::write_columns(rays.add(HALF), half);
+
+        let starts = &mut self.starts;
+        let meets = S::le(t_enter, t_exit);
+        let at = starts.count;
+        let append = |column: &mut Column<f32>, x: S::F| {
+            S::append(column.as_mut_ptr().add(at).cast(), meets, S::bits_of(x));
+        };
+        for k in 0..3 {
+            append(&mut starts.shifted[k], shifted[k]);
+            append(&mut starts.inverse[k], inverse[k]);
         }
+        append(&mut starts.t_enter, t_enter);
+        append(&mut starts.t_exit, t_exit);
+        let numbers = S::add_u(S::load_u(COUNTED.as_ptr()), S::splat_u(first as u32));
+        S::append(starts.ray.as_mut_ptr().add(at), meets, numbers);
+        starts.count += S::bits(meets).count_ones() as usize;
     }
 
     /// A distance on a ray as one on the ray in the world.
@@ -183,72 +283,5 @@ impl LaneRays {
     }
 }
 
-impl Columns {
-    /// Rays that end before they begin.
-    #[inline(always)]
-    fn new() -> Columns {
-        const ZERO: Numbers = [0.0; BATCH];
-        const ONE: Numbers = [1.0; BATCH];
-        Columns {
-            origin: [ZERO; 3],
-            direction: [ONE; 3],
-            inverse: [ONE; 3],
-            t_min: ZERO,
-            t_max: [-1.0; BATCH],
-            t_enter: ZERO,
-            t_exit: ZERO,
-            reach: ZERO,
-            axis: [0; BATCH],
-        }
-    }
-
-    #[inline(always)]
-    fn set(&mut self, lane: usize, ray: &FramedRay) {
-        for k in 0..3 {
-            self.origin[k][lane] = ray.origin[k];
-            self.direction[k][lane] = ray.direction[k];
-        }
-        self.t_min[lane] = ray.t_min;
-        self.t_max[lane] = ray.t_max;
-    }
-
-    /// What follows from that, without a branch, so that it is done for many lanes at once.
-    #[inline(always)]
-    fn derive(&mut self, root: &Root<'_>, lane: usize) {
-        const LEAST: f32 = 1e-20;
-        const EPSILON: f32 = f32::EPSILON;
-        let least = |a: f32, b: f32| if a < b { a } else { b };
-        let most = |a: f32, b: f32| if a > b { a } else { b };
-        let mut t_enter = self.t_min[lane] * (1.0 - 2.0 * EPSILON);
-        let mut t_exit = self.t_max[lane] * (1.0 + 2.0 * EPSILON);
-        for k in 0..3 {
-            let (origin, direction) = (self.origin[k][lane], self.direction[k][lane]);
-            let inverse = 1.0 / most(direction.abs(), LEAST).copysign(direction);
-            let a = (root.corners[0][k] - origin) * inverse;
-            let b = (root.corners[1][k] - origin) * inverse;
-            t_enter = most(least(a, b), t_enter);
-            t_exit = least(most(a, b), t_exit);
-            self.inverse[k][lane] = inverse;
-        }
-        self.t_enter[lane] = t_enter;
-        self.t_exit[lane] = t_exit;
-        let [x, y, z] = three(|k| self.direction[k][lane].abs());
-        let y_or_z = if y > z { 1 } else { 2 };
-        self.axis[lane] = if (x > y) & (x > z) { 0 } else { y_or_z };
-        let [x, y, z] = three(|k| self.origin[k][lane].abs());
-        self.reach[lane] = 0.5 + most(x, most(y, z));
-    }
-
-    #[inline(always)]
-    fn ray(&self, lane: usize) -> LaneRay {
-        LaneRay {
-            origin: three(|k| self.origin[k][lane]),
-            direction: three(|k| self.direction[k][lane]),
-            inverse: three(|k| self.inverse[k][lane]),
-            t_min: self.t_min[lane],
-            t_max: self.t_max[lane],
-            reach: self.reach[lane],
-            axis: self.axis[lane],
-        }
-    }
-}
+/// From 0 on.
+const COUNTED: [u32; WIDEST] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];

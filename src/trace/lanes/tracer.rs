@@ -1,6 +1,6 @@
 //! The kernel that a pass is timed with, and its choice.
 
-use super::{InstructionSet, LaneKernel, LaneTree};
+use super::{InstructionSet, LaneKernel, LaneTree, RayCompany};
 use crate::geometry::Ray;
 use crate::primitive::Shapes;
 use crate::progress::Progress;
@@ -18,17 +18,23 @@ pub enum KernelChoice {
     Plain,
     /// Batches of rays in the lanes of vectors, in the widest instructions that the processor has.
     Lanes,
-    /// Lanes, but for processors without a path of their own.
+    /// The same instructions for packets: rays that lie side by side in a batch walk together.
+    Packets,
+    /// Packets where rays keep together, else lanes; plain on processors without a path of their own.
     Auto,
 }
 
 impl KernelChoice {
-    pub const ALL: [KernelChoice; 3] =
-        [KernelChoice::Plain, KernelChoice::Lanes, KernelChoice::Auto];
+    pub const ALL: [KernelChoice; 4] = [
+        KernelChoice::Plain,
+        KernelChoice::Lanes,
+        KernelChoice::Packets,
+        KernelChoice::Auto,
+    ];
 
-    /// `plain`, `lanes` or `auto`.
+    /// `plain`, `lanes`, `packets` or `auto`.
     pub const fn name(self) -> &'static str {
-        ["plain", "lanes", "auto"][self as usize]
+        ["plain", "lanes", "packets", "auto"][self as usize]
     }
 
     /// The choice of this name.
@@ -36,21 +42,24 @@ impl KernelChoice {
         Self::ALL.into_iter().find(|choice| choice.name() == name)
     }
 
-    /// The instructions that lanes are used with on this processor; `None` for the plain kernel.
-    pub fn instructions(self) -> Option<InstructionSet> {
+    /// How rays go in vectors on this processor, and in which instructions; `None` for the plain kernel.
+    pub fn in_vectors(self) -> Option<(RayCompany, InstructionSet)> {
         let best = InstructionSet::best();
         match self {
             KernelChoice::Plain => None,
-            KernelChoice::Lanes => Some(best),
-            KernelChoice::Auto => Some(best).filter(|&set| set != InstructionSet::Portable),
+            KernelChoice::Lanes => Some((RayCompany::Lanes, best)),
+            KernelChoice::Packets => Some((RayCompany::Packets, best)),
+            KernelChoice::Auto => {
+                Some((RayCompany::Auto, best)).filter(|_| best != InstructionSet::Portable)
+            }
         }
     }
 
     /// The kernel that times are of, as reports have it.
     pub fn used(self) -> String {
-        match self.instructions() {
+        match self.in_vectors() {
             None => "plain".into(),
-            Some(set) => format!("lanes, {}", set.name()),
+            Some((company, set)) => format!("{}, {}", company.name(), set.name()),
         }
     }
 }
@@ -58,8 +67,8 @@ impl KernelChoice {
 /// Below this, lanes stand idle too long (`cargo bench --bench peers`): the plain kernel is as fast.
 const FEWEST_RAYS: usize = 64;
 
-/// Rays that are traced between two looks at whether the task was cancelled.
-const RAYS_PER_LOOK: usize = super::CHUNK;
+/// Rays that are traced between two looks at whether the task was cancelled: about a millisecond.
+const RAYS_PER_LOOK: usize = 4 * super::CHUNK;
 
 /// The kernel whose time counts.
 pub struct TimedKernel<'a> {
@@ -78,8 +87,9 @@ impl<'a> TimedKernel<'a> {
         shapes: &'a Shapes,
         progress: &'a Progress,
     ) -> Self {
-        let lanes = choice.instructions().map(|instructions| {
-            LaneKernel::new(tree, LaneTree::of(scene, tree), shapes, instructions)
+        let lanes = choice.in_vectors().map(|(company, instructions)| {
+            let lanes = LaneTree::of(scene, tree);
+            LaneKernel::new(tree, lanes, shapes, instructions, company)
         });
         TimedKernel {
             plain: Timed::new(tree, shapes, progress),

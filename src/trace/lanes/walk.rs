@@ -8,8 +8,11 @@
 
 use super::block::{BLOCK, Block};
 use super::prepare::{ABOVE_EMPTY, BELOW_EMPTY, PLACE, Prepared};
-use super::ray::{LaneRays, Start};
-use super::simd::{Simd, Waiting};
+use super::ray::{CHUNK, LaneRays};
+use super::simd::{Simd, WIDEST};
+use super::stacks::Stacks;
+use std::hint::select_unpredictable;
+use std::ops::Range;
 
 /// An object that the ray of a lane may hit.
 #[derive(Clone, Copy, Default)]
@@ -36,14 +39,8 @@ pub(super) trait Tests {
     fn test(&mut self, rays: &LaneRays, candidates: &[Candidate], limits: &mut [f32]);
 }
 
-/// Lanes of the widest vector.
-const WIDEST: usize = 16;
-
 /// The most groups there are room for.
 const MOST_GROUPS: usize = 6;
-
-/// Candidates that are tested at once, at most; a block adds up to [`BLOCK`].
-const MOST_CANDIDATES: usize = 256;
 
 /// What a group's lanes hold of their rays.
 #[derive(Clone, Copy)]
@@ -51,9 +48,6 @@ const MOST_CANDIDATES: usize = 256;
 struct Group {
     shifted: [[f32; WIDEST]; 3],
     inverse: [[f32; WIDEST]; 3],
-    /// Where new rays enter and leave the scene.
-    t_enter: [f32; WIDEST],
-    t_exit: [f32; WIDEST],
     /// The leaf that the lane has come to: its first block and the number of its blocks.
     first: [u32; WIDEST],
     blocks: [u32; WIDEST],
@@ -65,27 +59,22 @@ impl Group {
     const NEW: Group = Group {
         shifted: [[0.0; WIDEST]; 3],
         inverse: [[1.0; WIDEST]; 3],
-        t_enter: [0.0; WIDEST],
-        t_exit: [0.0; WIDEST],
         first: [0; WIDEST],
         blocks: [0; WIDEST],
         ray: [0; WIDEST],
     };
-
-    /// Gives a lane a new ray.
-    #[inline(always)]
-    unsafe fn begin(&mut self, lane: usize, rays: &LaneRays, start: &Start) {
-        let ray = rays.rays.get_unchecked(start.ray as usize);
-        for (k, shifted) in ray.shifted(rays.thick).into_iter().enumerate() {
-            *self.shifted[k].get_unchecked_mut(lane) = shifted;
-            *self.inverse[k].get_unchecked_mut(lane) = ray.inverse[k];
-        }
-        *self.t_enter.get_unchecked_mut(lane) = start.t_enter;
-        *self.t_exit.get_unchecked_mut(lane) = start.t_exit;
-        *self.blocks.get_unchecked_mut(lane) = 0;
-        *self.ray.get_unchecked_mut(lane) = start.ray;
-    }
 }
+
+/// The lanes of all groups.
+const NUMBERS: [[u32; WIDEST]; MOST_GROUPS] = {
+    let mut numbers = [[0; WIDEST]; MOST_GROUPS];
+    let mut k = 0;
+    while k < MOST_GROUPS * WIDEST {
+        numbers[k / WIDEST][k % WIDEST] = k as u32;
+        k += 1;
+    }
+    numbers
+};
 
 /// Where a group's lanes are.
 struct Place<S: Simd> {
@@ -141,7 +130,7 @@ unsafe fn by_axis<S: Simd>(values: &[[f32; WIDEST]; 3], is_1: S::M, is_2: S::M) 
     S::select(is_2, z, x_or_y)
 }
 
-/// Walks rays through a tree in `GROUPS` groups of lanes.
+/// Walks rays that meet the scene, `ahead` of them, through a tree in `GROUPS` groups of lanes.
 ///
 /// # Safety
 /// As [`Simd`].
@@ -149,18 +138,17 @@ unsafe fn by_axis<S: Simd>(values: &[[f32; WIDEST]; 3], is_1: S::M, is_2: S::M) 
 pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     tree: &Prepared<B>,
     rays: &LaneRays,
-    stack: &mut Vec<Waiting>,
+    mut ahead: Range<usize>,
+    stacks: &mut Stacks,
+    candidates: &mut Vec<Candidate>,
     tests: &mut dyn Tests,
 ) {
     const { assert!(GROUPS <= MOST_GROUPS && S::LANES <= WIDEST) };
-    let depth = tree.most_waiting + 1;
-    stack.resize(GROUPS * S::LANES * depth, Waiting::default());
-    let stack = stack.as_mut_ptr();
-    // Every lane's stack follows that of the lane before.
+    stacks.reserve(GROUPS * S::LANES, tree.most_waiting + 1);
     let mut bottoms = [[0_u32; WIDEST]; MOST_GROUPS];
     for (j, bottoms) in bottoms.iter_mut().enumerate() {
         for (lane, bottom) in bottoms.iter_mut().enumerate() {
-            *bottom = ((j * S::LANES + lane) * depth) as u32 * Waiting::PLACES;
+            *bottom = stacks.bottom(j * S::LANES + lane);
         }
     }
     let all = (1_u32 << S::LANES) - 1;
@@ -174,71 +162,83 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
         active: S::mask(0),
     });
     let mut limits = [[-1.0_f32; WIDEST]; GROUPS];
-    let mut candidates = [Candidate::default(); MOST_CANDIDATES];
+    candidates.resize(GROUPS * S::LANES * BLOCK + 1, Candidate::default());
+    // Lanes that wait at leaves: their numbers, the next block, and how many are left with it.
+    let mut leaves = [[0_u32; WIDEST * (MOST_GROUPS + 1)]; 3];
     let any_will_do = tests.any_will_do();
-    let mut waiting_rays = rays.starts();
     // A round of tests is worth its while once half the lanes wait.
     let enough = (GROUPS * S::LANES / 2) as u32;
 
     loop {
-        let mut found = 0;
-        let mut at_leaves = [0; GROUPS];
+        let mut at_leaves = 0;
         each_group!(GROUPS, J => {
-            let blocks = S::load_u(groups[J].blocks.as_ptr());
+            let group = &groups[J];
+            let blocks = S::load_u(group.blocks.as_ptr());
             let full = S::bits(S::test_u(blocks, S::splat_u(u32::MAX)));
-            at_leaves[J] = places[J].waiting() & full;
+            let here = places[J].waiting() & full;
+            let columns = [
+                S::load_u(NUMBERS[J].as_ptr()),
+                S::load_u(group.first.as_ptr()),
+                blocks,
+            ];
+            for (list, column) in leaves.iter_mut().zip(columns) {
+                S::append(list.as_mut_ptr().add(at_leaves), S::mask(here), column);
+            }
+            at_leaves += here.count_ones() as usize;
         });
-        for j in 0..GROUPS {
-            let group = &groups[j];
-            let mut waiting = at_leaves[j];
-            while waiting != 0 {
-                let lane = waiting.trailing_zeros() as usize;
-                waiting &= waiting - 1;
-                let first = *group.first.get_unchecked(lane) as usize;
-                let blocks = *group.blocks.get_unchecked(lane) as usize;
+        let [lanes, next, left] = &mut leaves;
+        for &block in next.get_unchecked(..at_leaves) {
+            prefetch(tree.blocks.as_ptr().add(block as usize));
+        }
+        // A block of every leaf, then the next of those that have more.
+        while at_leaves > 0 {
+            let (mut found, mut going_on) = (0, 0);
+            for k in 0..at_leaves {
+                let number = *lanes.get_unchecked(k);
+                let block_number = *next.get_unchecked(k);
+                let more = *left.get_unchecked(k) - 1;
+                let (j, lane) = (number as usize / WIDEST, number as usize % WIDEST);
+                let group = groups.get_unchecked(j);
                 let ray = *group.ray.get_unchecked(lane);
-                for number in first..first + blocks {
-                    let block = tree.blocks.get_unchecked(number);
-                    let limit = *limits.get_unchecked(j).get_unchecked(lane);
-                    let may_hit = block.candidates::<S>(rays, ray as usize, limit, any_will_do);
-                    let enough = may_hit.surely != 0;
-                    let mut maybe = if enough {
-                        may_hit.surely
-                    } else {
-                        may_hit.maybe
+                let block = tree.blocks.get_unchecked(block_number as usize);
+                let limit = *limits.get_unchecked(j).get_unchecked(lane);
+                let may_hit = block.candidates::<S>(rays, ray as usize, limit, any_will_do);
+                let surely = may_hit.surely != 0;
+                let mut maybe = select_unpredictable(surely, lowest(may_hit.surely), may_hit.maybe);
+                *lanes.get_unchecked_mut(going_on) = number;
+                *next.get_unchecked_mut(going_on) = block_number + 1;
+                *left.get_unchecked_mut(going_on) = more;
+                going_on += usize::from((more > 0) & !surely);
+                // One is written in any case: nothing predicts whether there is one.
+                loop {
+                    let place = maybe.trailing_zeros() % BLOCK as u32;
+                    *candidates.get_unchecked_mut(found) = Candidate {
+                        lane: number,
+                        ray,
+                        block: block_number,
+                        place,
+                        object: *block.objects().get_unchecked(place as usize),
+                        surely,
                     };
-                    while maybe != 0 {
-                        let place = maybe.trailing_zeros();
-                        *candidates.get_unchecked_mut(found) = Candidate {
-                            lane: (j * WIDEST + lane) as u32,
-                            ray,
-                            block: number as u32,
-                            place,
-                            object: *block.objects().get_unchecked(place as usize),
-                            surely: enough,
-                        };
-                        maybe &= if enough { 0 } else { maybe - 1 };
-                        found += 1;
-                    }
-                    if enough {
+                    found += usize::from(maybe != 0);
+                    maybe &= maybe.wrapping_sub(1);
+                    if maybe == 0 {
                         break;
-                    }
-                    if found > MOST_CANDIDATES - BLOCK {
-                        tests.test(rays, &candidates[..found], limits.as_flattened_mut());
-                        found = 0;
                     }
                 }
             }
+            if found > 0 {
+                tests.test(rays, &candidates[..found], limits.as_flattened_mut());
+            }
+            at_leaves = going_on;
         }
-        if found > 0 {
-            tests.test(rays, &candidates[..found], limits.as_flattened_mut());
-        }
+        stacks.settle();
         let mut living = 0;
         each_group!(GROUPS, J => {
             let (place, group) = (&mut places[J], &mut groups[J]);
             let bottom = S::load_u(bottoms[J].as_ptr());
             let limits = &mut limits[J];
-            go_on::<S>(place, group, limits, stack, bottom, rays, &mut waiting_rays);
+            go_on::<S>(place, group, limits, stacks, bottom, rays, &mut ahead);
             living |= place.alive;
         });
         if living == 0 {
@@ -250,7 +250,7 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
         each_group!(GROUPS, J => fetched[J] = S::nodes(nodes, places[J].node));
         loop {
             each_group!(GROUPS, J => {
-                step(&mut places[J], &mut groups[J], fetched[J], stack, tree);
+                step(&mut places[J], &mut groups[J], fetched[J], stacks, tree);
                 fetched[J] = S::nodes(nodes, places[J].node);
             });
             let (mut waiting, mut moving) = (0, 0);
@@ -272,16 +272,16 @@ unsafe fn go_on<S: Simd>(
     place: &mut Place<S>,
     group: &mut Group,
     limits: &mut [f32; WIDEST],
-    stack: *const Waiting,
+    stacks: &Stacks,
     bottom: S::U,
     rays: &LaneRays,
-    waiting_rays: &mut &[Start],
+    ahead: &mut Range<usize>,
 ) {
     let waiting = place.waiting();
     if waiting == 0 {
         return;
     }
-    let entry = S::splat_u(Waiting::PLACES);
+    let entry = S::splat_u(1);
     let thickness = S::splat(2.0 * rays.thick);
     let wx = S::mul(S::abs(S::load(group.inverse[0].as_ptr())), thickness);
     let wy = S::mul(S::abs(S::load(group.inverse[1].as_ptr())), thickness);
@@ -293,7 +293,7 @@ unsafe fn go_on<S: Simd>(
     let done = S::bits(S::or(S::eq_u(place.top, bottom), over)) & waiting;
     let pops = S::mask(waiting & !done);
     place.top = S::select_u(pops, S::sub_u(place.top, entry), place.top);
-    let (node, t_enter, t_exit) = S::pop(stack, place.top);
+    let (node, t_enter, t_exit) = stacks.at::<S>(place.top);
     place.enter = S::select(pops, t_enter, place.enter);
     place.exit = S::select(pops, t_exit, place.exit);
     place.node = S::select_u(pops, node, place.node);
@@ -306,24 +306,39 @@ unsafe fn go_on<S: Simd>(
     if done == 0 {
         return;
     }
-    let (mut ended, mut begun) = (done, 0);
-    while ended != 0
-        && let Some((start, others)) = waiting_rays.split_first()
-    {
-        let lane = ended.trailing_zeros() as usize;
-        ended &= ended - 1;
-        *waiting_rays = others;
-        group.begin(lane, rays, start);
-        *limits.get_unchecked_mut(lane) = start.t_exit;
-        begun |= 1 << lane;
+    let starts = &rays.starts;
+    let mut begins = done;
+    while begins.count_ones() as usize > ahead.len() {
+        begins &= begins - 1;
     }
-    place.alive &= !ended;
-    let begun = S::mask(begun);
-    place.active = S::or(place.active, begun);
-    place.enter = S::select(begun, S::load(group.t_enter.as_ptr()), place.enter);
-    place.exit = S::select(begun, S::load(group.t_exit.as_ptr()), place.exit);
-    place.node = S::select_u(begun, S::splat_u(0), place.node);
-    place.top = S::select_u(begun, bottom, place.top);
+    place.alive &= !(done ^ begins);
+    let first = ahead.start;
+    ahead.start += begins.count_ones() as usize;
+    let begins = S::mask(begins);
+    let expand = |column: &[f32; CHUNK + WIDEST], old: S::F| {
+        let from = column.as_ptr().add(first).cast();
+        S::from_bits(S::expand(begins, from, S::bits_of(old)))
+    };
+    let columns = [
+        (&starts.shifted, &mut group.shifted),
+        (&starts.inverse, &mut group.inverse),
+    ];
+    for (starts, lanes) in columns {
+        for k in 0..3 {
+            let lane = lanes[k].as_mut_ptr();
+            S::store_u(lane.cast(), S::bits_of(expand(&starts[k], S::load(lane))));
+        }
+    }
+    let limits = limits.as_mut_ptr().cast();
+    S::store_u(limits, S::bits_of(expand(&starts.t_exit, limit)));
+    let ray = group.ray.as_mut_ptr();
+    let from = starts.ray.as_ptr().add(first);
+    S::store_u(ray, S::expand(begins, from, S::load_u(ray)));
+    place.active = S::or(place.active, begins);
+    place.enter = expand(&starts.t_enter, place.enter);
+    place.exit = expand(&starts.t_exit, place.exit);
+    place.node = S::select_u(begins, S::splat_u(0), place.node);
+    place.top = S::select_u(begins, bottom, place.top);
 }
 
 /// Lets lanes at an inner node go to a child, and lanes at a leaf wait.
@@ -332,35 +347,18 @@ unsafe fn step<S: Simd, B: Block>(
     place: &mut Place<S>,
     group: &mut Group,
     (payload, word): (S::U, S::U),
-    stack: *mut Waiting,
+    stacks: &mut Stacks,
     tree: &Prepared<B>,
 ) {
-    #[repr(align(64))]
-    struct Firsts([u32; WIDEST]);
     let (one, two) = (S::splat_u(1), S::splat_u(2));
     let (is_1, is_2) = (S::test_u(word, one), S::test_u(word, two));
     let mask = S::and(S::and(is_1, is_2), place.active);
-    let leaves = S::bits(mask);
-    if leaves != 0 {
-        place.active = S::and_not(place.active, mask);
-        let first = S::select_u(mask, payload, S::load_u(group.first.as_ptr()));
-        S::store_u(group.first.as_mut_ptr(), first);
-        let blocks = S::shr_u::<2>(word);
-        let mut full = S::bits(S::test_u(blocks, S::splat_u(u32::MAX))) & leaves;
-        let blocks = S::select_u(mask, blocks, S::load_u(group.blocks.as_ptr()));
-        S::store_u(group.blocks.as_mut_ptr(), blocks);
-        let mut firsts = Firsts([0; WIDEST]);
-        S::store_u(firsts.0.as_mut_ptr(), payload);
-        while full != 0 {
-            let lane = full.trailing_zeros() as usize;
-            full &= full - 1;
-            prefetch(
-                tree.blocks
-                    .as_ptr()
-                    .add(*firsts.0.get_unchecked(lane) as usize),
-            );
-        }
-    }
+    place.active = S::and_not(place.active, mask);
+    let first = S::select_u(mask, payload, S::load_u(group.first.as_ptr()));
+    S::store_u(group.first.as_mut_ptr(), first);
+    let blocks = S::shr_u::<2>(word);
+    let blocks = S::select_u(mask, blocks, S::load_u(group.blocks.as_ptr()));
+    S::store_u(group.blocks.as_mut_ptr(), blocks);
     let act = place.active;
     let shifted = by_axis::<S>(&group.shifted, is_1, is_2);
     let inverse = by_axis::<S>(&group.inverse, is_1, is_2);
@@ -379,14 +377,19 @@ unsafe fn step<S: Simd, B: Block>(
     let take = S::and_not(both, near_empty);
     let push = S::and_not(take, far_empty);
     let after = S::max(place.enter, begins);
-    S::push(stack, place.top, far, after, place.exit);
-    let entry = S::splat_u(Waiting::PLACES);
-    place.top = S::select_u(push, S::add_u(place.top, entry), place.top);
+    stacks.push::<S>(push, place.top, far, after, place.exit);
+    place.top = S::select_u(push, S::add_u(place.top, one), place.top);
     place.enter = S::select(skip, after, place.enter);
     place.exit = S::select(take, S::min(place.exit, ends), place.exit);
     let to_far = S::or(only_far, skip);
     let next = S::select_u(to_far, far, near);
     place.node = S::select_u(act, next, place.node);
+}
+
+/// The lowest bit that is set.
+#[inline(always)]
+fn lowest(bits: u32) -> u32 {
+    bits & bits.wrapping_neg()
 }
 
 /// Asks for a block before it is needed.

@@ -2,7 +2,9 @@
 #![allow(unsafe_op_in_unsafe_fn)] // the trait's contract covers every line
 
 use super::super::prepare::Node;
-use super::{Simd, Waiting};
+use super::super::ray::HALF;
+use super::super::stacks::Waiting;
+use super::{STRIDE, Simd};
 use std::arch::x86_64::*;
 
 #[derive(Clone, Copy)]
@@ -49,23 +51,11 @@ unsafe fn two(from: *const f64, at: &[usize]) -> __m128 {
     _mm_castpd_ps(_mm_loadh_pd(low, from.add(at[1])))
 }
 
-/// Writes the entries of two lanes, four apart.
-#[inline(always)]
-unsafe fn write_two(to: *mut Waiting, at: &[usize], entries: __m256d) {
-    let entries = _mm256_castpd_ps(entries);
-    _mm_store_ps(
-        to.byte_add(8 * at[0]).cast(),
-        _mm256_castps256_ps128(entries),
-    );
-    let second = _mm256_extractf128_ps::<1>(entries);
-    _mm_store_ps(to.byte_add(8 * at[4]).cast(), second);
-}
-
 /// Reads the entries of two lanes, four apart.
 #[inline(always)]
 unsafe fn read_two(from: *const Waiting, at: &[usize]) -> __m256 {
-    let first = _mm_load_ps(from.byte_add(8 * at[0]).cast());
-    let second = _mm_load_ps(from.byte_add(8 * at[4]).cast());
+    let first = _mm_load_ps(from.add(at[0]).cast());
+    let second = _mm_load_ps(from.add(at[4]).cast());
     _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(first), second)
 }
 
@@ -98,6 +88,10 @@ impl Simd for Avx2 {
     #[inline(always)]
     unsafe fn div(a: __m256, b: __m256) -> __m256 {
         _mm256_div_ps(a, b)
+    }
+    #[inline(always)]
+    unsafe fn sqrt(a: __m256) -> __m256 {
+        _mm256_sqrt_ps(a)
     }
     #[inline(always)]
     unsafe fn mul_add(a: __m256, b: __m256, c: __m256) -> __m256 {
@@ -215,26 +209,6 @@ impl Simd for Avx2 {
     }
 
     #[inline(always)]
-    unsafe fn push(
-        stack: *mut Waiting,
-        at: __m256i,
-        node: __m256i,
-        t_enter: __m256,
-        t_exit: __m256,
-    ) {
-        let at = numbers(at);
-        let node = _mm256_castsi256_ps(node);
-        let low = _mm256_castps_pd(_mm256_unpacklo_ps(node, t_enter));
-        let high = _mm256_castps_pd(_mm256_unpackhi_ps(node, t_enter));
-        let exit_low = _mm256_castps_pd(_mm256_unpacklo_ps(t_exit, t_exit));
-        let exit_high = _mm256_castps_pd(_mm256_unpackhi_ps(t_exit, t_exit));
-        write_two(stack, &at, _mm256_unpacklo_pd(low, exit_low));
-        write_two(stack, &at[1..], _mm256_unpackhi_pd(low, exit_low));
-        write_two(stack, &at[2..], _mm256_unpacklo_pd(high, exit_high));
-        write_two(stack, &at[3..], _mm256_unpackhi_pd(high, exit_high));
-    }
-
-    #[inline(always)]
     unsafe fn pop(stack: *const Waiting, at: __m256i) -> (__m256i, __m256, __m256) {
         let at = numbers(at);
         let (a, b) = (read_two(stack, &at), read_two(stack, &at[1..]));
@@ -249,4 +223,111 @@ impl Simd for Avx2 {
             _mm256_castpd_ps(_mm256_unpacklo_pd(high, other_high)),
         )
     }
+
+    #[inline(always)]
+    unsafe fn append(to: *mut u32, mask: __m256i, x: __m256i) {
+        let order = _mm_loadl_epi64(ORDERS[Self::bits(mask) as usize].as_ptr().cast());
+        let packed = _mm256_permutevar8x32_epi32(x, _mm256_cvtepu8_epi32(order));
+        _mm256_storeu_si256(to.cast(), packed);
+    }
+
+    #[inline(always)]
+    unsafe fn expand(mask: __m256i, from: *const u32, x: __m256i) -> __m256i {
+        let ranks = _mm_loadl_epi64(RANKS[Self::bits(mask) as usize].as_ptr().cast());
+        let packed = _mm256_loadu_si256(from.cast());
+        let spread = _mm256_permutevar8x32_epi32(packed, _mm256_cvtepu8_epi32(ranks));
+        _mm256_blendv_epi8(x, spread, mask)
+    }
+
+    #[inline(always)]
+    unsafe fn columns(from: *const f32) -> [__m256; HALF] {
+        let mut rows = [_mm256_setzero_ps(); HALF];
+        for (k, row) in rows.iter_mut().enumerate() {
+            *row = _mm256_load_ps(from.add(k * STRIDE));
+        }
+        transposed(rows)
+    }
+
+    #[inline(always)]
+    unsafe fn write_columns(to: *mut f32, columns: [__m256; HALF]) {
+        for (k, half) in transposed(columns).into_iter().enumerate() {
+            _mm256_store_ps(to.add(k * STRIDE), half);
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn narrowed(
+        numbers: &[f64; HALF],
+        [scale, shift, least]: &[[f64; HALF]; 3],
+    ) -> [f32; HALF] {
+        let mut narrow = [0.0; HALF];
+        for at in [0, 4] {
+            let scale = _mm256_loadu_pd(scale.as_ptr().add(at));
+            let scaled = _mm256_mul_pd(_mm256_loadu_pd(numbers.as_ptr().add(at)), scale);
+            let moved = _mm256_sub_pd(scaled, _mm256_loadu_pd(shift.as_ptr().add(at)));
+            let moved = _mm256_max_pd(_mm256_loadu_pd(least.as_ptr().add(at)), moved);
+            _mm_storeu_ps(narrow.as_mut_ptr().add(at), _mm256_cvtpd_ps(moved));
+        }
+        narrow
+    }
 }
+
+/// Columns 0 and 4, 1 and 5, 2 and 6, 3 and 7 of four rows.
+#[inline(always)]
+unsafe fn four_rows(rows: &[__m256]) -> [__m256; 4] {
+    let a = _mm256_castps_pd(_mm256_unpacklo_ps(rows[0], rows[1]));
+    let b = _mm256_castps_pd(_mm256_unpackhi_ps(rows[0], rows[1]));
+    let c = _mm256_castps_pd(_mm256_unpacklo_ps(rows[2], rows[3]));
+    let d = _mm256_castps_pd(_mm256_unpackhi_ps(rows[2], rows[3]));
+    [
+        _mm256_castpd_ps(_mm256_unpacklo_pd(a, c)),
+        _mm256_castpd_ps(_mm256_unpackhi_pd(a, c)),
+        _mm256_castpd_ps(_mm256_unpacklo_pd(b, d)),
+        _mm256_castpd_ps(_mm256_unpackhi_pd(b, d)),
+    ]
+}
+
+/// Rows for columns, of eight times eight numbers.
+#[inline(always)]
+unsafe fn transposed(rows: [__m256; 8]) -> [__m256; 8] {
+    let (first, second) = (four_rows(&rows[..4]), four_rows(&rows[4..]));
+    let mut columns = rows;
+    for k in 0..4 {
+        columns[k] = _mm256_permute2f128_ps::<0x20>(first[k], second[k]);
+        columns[k + 4] = _mm256_permute2f128_ps::<0x31>(first[k], second[k]);
+    }
+    columns
+}
+
+/// For every mask, its lanes one after the other.
+static ORDERS: [[u8; 8]; 256] = {
+    let mut orders = [[0; 8]; 256];
+    let mut mask = 0;
+    while mask < 256 {
+        let (mut lane, mut count) = (0, 0);
+        while lane < 8 {
+            if mask >> lane & 1 == 1 {
+                orders[mask][count] = lane as u8;
+                count += 1;
+            }
+            lane += 1;
+        }
+        mask += 1;
+    }
+    orders
+};
+
+/// For every mask and lane, how many of the mask come before it.
+static RANKS: [[u8; 8]; 256] = {
+    let mut ranks = [[0; 8]; 256];
+    let mut mask = 0_usize;
+    while mask < 256 {
+        let mut lane = 0;
+        while lane < 8 {
+            ranks[mask][lane] = (mask & ((1 << lane) - 1)).count_ones() as u8;
+            lane += 1;
+        }
+        mask += 1;
+    }
+    ranks
+};

@@ -2,7 +2,9 @@
 #![allow(unsafe_op_in_unsafe_fn)] // the trait's contract covers every line
 
 use super::super::prepare::Node;
-use super::{Simd, Waiting};
+use super::super::ray::HALF;
+use super::super::stacks::Waiting;
+use super::{STRIDE, Simd};
 use std::arch::x86_64::*;
 
 #[derive(Clone, Copy)]
@@ -56,25 +58,43 @@ unsafe fn eight(from: *const f64, at: &[usize]) -> __m512i {
     _mm512_inserti64x4::<1>(low, four(from, &at[4..]))
 }
 
-/// Writes entries of every fourth lane.
-#[inline(always)]
-unsafe fn write_four(to: *mut Waiting, at: &[usize], entries: __m512d) {
-    let entries = _mm512_castpd_ps(entries);
-    let place = |k: usize| to.byte_add(8 * at[k]).cast::<f32>();
-    _mm_store_ps(place(0), _mm512_castps512_ps128(entries));
-    _mm_store_ps(place(4), _mm512_extractf32x4_ps::<1>(entries));
-    _mm_store_ps(place(8), _mm512_extractf32x4_ps::<2>(entries));
-    _mm_store_ps(place(12), _mm512_extractf32x4_ps::<3>(entries));
-}
-
 /// Reads entries of every fourth lane.
 #[inline(always)]
 unsafe fn read_four(from: *const Waiting, at: &[usize]) -> __m512 {
-    let place = |k: usize| from.byte_add(8 * at[k]).cast::<f32>();
+    let place = |k: usize| from.add(at[k]).cast::<f32>();
     let four = _mm512_castps128_ps512(_mm_load_ps(place(0)));
     let four = _mm512_insertf32x4::<1>(four, _mm_load_ps(place(4)));
     let four = _mm512_insertf32x4::<2>(four, _mm_load_ps(place(8)));
     _mm512_insertf32x4::<3>(four, _mm_load_ps(place(12)))
+}
+
+/// The first, and the second halves of pairs of four rows: columns 0 and 4, 1 and 5, 2 and 6, 3 and 7.
+#[inline(always)]
+unsafe fn four_rows(rows: &[__m512]) -> [__m512d; 4] {
+    let a = _mm512_castps_pd(_mm512_unpacklo_ps(rows[0], rows[1]));
+    let b = _mm512_castps_pd(_mm512_unpackhi_ps(rows[0], rows[1]));
+    let c = _mm512_castps_pd(_mm512_unpacklo_ps(rows[2], rows[3]));
+    let d = _mm512_castps_pd(_mm512_unpackhi_ps(rows[2], rows[3]));
+    [
+        _mm512_unpacklo_pd(a, c),
+        _mm512_unpackhi_pd(a, c),
+        _mm512_unpacklo_pd(b, d),
+        _mm512_unpackhi_pd(b, d),
+    ]
+}
+
+/// Rows for columns, of eight times eight numbers in each half of the vectors.
+#[inline(always)]
+unsafe fn transposed(rows: [__m512; 8]) -> [__m512; 8] {
+    let (first, second) = (four_rows(&rows[..4]), four_rows(&rows[4..]));
+    let low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
+    let high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    let mut columns = rows;
+    for k in 0..4 {
+        columns[k] = _mm512_castpd_ps(_mm512_permutex2var_pd(first[k], low, second[k]));
+        columns[k + 4] = _mm512_castpd_ps(_mm512_permutex2var_pd(first[k], high, second[k]));
+    }
+    columns
 }
 
 impl Simd for Avx512 {
@@ -106,6 +126,10 @@ impl Simd for Avx512 {
     #[inline(always)]
     unsafe fn div(a: __m512, b: __m512) -> __m512 {
         _mm512_div_ps(a, b)
+    }
+    #[inline(always)]
+    unsafe fn sqrt(a: __m512) -> __m512 {
+        _mm512_sqrt_ps(a)
     }
     #[inline(always)]
     unsafe fn mul_add(a: __m512, b: __m512, c: __m512) -> __m512 {
@@ -220,27 +244,6 @@ impl Simd for Avx512 {
         unzip(eight(nodes.cast(), &at), eight(nodes.cast(), &at[8..]))
     }
 
-    /// Stores one after the other are as fast as the scattering instruction.
-    #[inline(always)]
-    unsafe fn push(
-        stack: *mut Waiting,
-        at: __m512i,
-        node: __m512i,
-        t_enter: __m512,
-        t_exit: __m512,
-    ) {
-        let at = numbers(at);
-        let node = _mm512_castsi512_ps(node);
-        let low = _mm512_castps_pd(_mm512_unpacklo_ps(node, t_enter));
-        let high = _mm512_castps_pd(_mm512_unpackhi_ps(node, t_enter));
-        let exit_low = _mm512_castps_pd(_mm512_unpacklo_ps(t_exit, t_exit));
-        let exit_high = _mm512_castps_pd(_mm512_unpackhi_ps(t_exit, t_exit));
-        write_four(stack, &at, _mm512_unpacklo_pd(low, exit_low));
-        write_four(stack, &at[1..], _mm512_unpackhi_pd(low, exit_low));
-        write_four(stack, &at[2..], _mm512_unpacklo_pd(high, exit_high));
-        write_four(stack, &at[3..], _mm512_unpackhi_pd(high, exit_high));
-    }
-
     #[inline(always)]
     unsafe fn pop(stack: *const Waiting, at: __m512i) -> (__m512i, __m512, __m512) {
         let at = numbers(at);
@@ -255,5 +258,57 @@ impl Simd for Avx512 {
             _mm512_castpd_ps(_mm512_unpackhi_pd(low, other_low)),
             _mm512_castpd_ps(_mm512_unpacklo_pd(high, other_high)),
         )
+    }
+
+    #[inline(always)]
+    unsafe fn append(to: *mut u32, mask: __mmask16, x: __m512i) {
+        _mm512_storeu_si512(to.cast(), _mm512_maskz_compress_epi32(mask, x));
+    }
+
+    #[inline(always)]
+    unsafe fn expand(mask: __mmask16, from: *const u32, x: __m512i) -> __m512i {
+        _mm512_mask_expand_epi32(x, mask, _mm512_loadu_si512(from.cast()))
+    }
+
+    #[inline(always)]
+    unsafe fn columns(from: *const f32) -> [__m512; HALF] {
+        let mut rows = [_mm512_setzero_ps(); HALF];
+        for (k, row) in rows.iter_mut().enumerate() {
+            let first = _mm512_castps256_ps512(_mm256_load_ps(from.add(k * STRIDE)));
+            let second = _mm256_load_ps(from.add((k + 8) * STRIDE));
+            *row = _mm512_insertf32x8::<1>(first, second);
+        }
+        transposed(rows)
+    }
+
+    #[inline(always)]
+    unsafe fn write_columns(to: *mut f32, columns: [__m512; HALF]) {
+        for (k, two) in transposed(columns).into_iter().enumerate() {
+            _mm256_store_ps(to.add(k * STRIDE), _mm512_castps512_ps256(two));
+            let second = _mm512_extractf32x8_ps::<1>(two);
+            _mm256_store_ps(to.add((k + 8) * STRIDE), second);
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn narrowed(
+        numbers: &[f64; HALF],
+        [scale, shift, least]: &[[f64; HALF]; 3],
+    ) -> [f32; HALF] {
+        let scaled = _mm512_mul_pd(
+            _mm512_loadu_pd(numbers.as_ptr()),
+            _mm512_loadu_pd(scale.as_ptr()),
+        );
+        let moved = _mm512_sub_pd(scaled, _mm512_loadu_pd(shift.as_ptr()));
+        let moved = _mm512_max_pd(_mm512_loadu_pd(least.as_ptr()), moved);
+        let mut narrow = [0.0; HALF];
+        _mm256_storeu_ps(narrow.as_mut_ptr(), _mm512_cvtpd_ps(moved));
+        narrow
+    }
+
+    #[inline(always)]
+    unsafe fn max_abs(a: __m512, b: __m512) -> __m512 {
+        // Of the sizes, the larger; without a sign.
+        _mm512_range_ps::<0b10_11>(a, b)
     }
 }

@@ -7,21 +7,14 @@ pub(super) mod avx512;
 pub(super) mod portable;
 
 use super::prepare::Node;
+use super::ray::HALF;
+use super::stacks::Waiting;
 
-/// A node that waits for its turn, and where on the ray its cell lies.
-#[derive(Clone, Copy, Default)]
-#[repr(C, align(16))]
-pub(super) struct Waiting {
-    pub(super) node: u32,
-    pub(super) t_enter: f32,
-    pub(super) t_exit: f32,
-}
+/// Lanes of the widest vector.
+pub(super) const WIDEST: usize = 16;
 
-impl Waiting {
-    /// What an entry counts in places on the stack, which are of 8 bytes: processors find such
-    /// addresses without an instruction for the product.
-    pub(super) const PLACES: u32 = (size_of::<Waiting>() / 8) as u32;
-}
+/// Numbers from one half of a ray to the same half of the next.
+const STRIDE: usize = 2 * HALF;
 
 /// Lanes of numbers (`F`), words (`U`) and yes or no (`M`).
 ///
@@ -29,7 +22,7 @@ impl Waiting {
 /// All functions may run only where the processor has the instruction set, and only inlined into a
 /// function that is compiled for it. Pointers are to as many valid elements as there are lanes.
 pub(super) trait Simd: Copy {
-    /// Lanes, at most 16.
+    /// Lanes, at most [`WIDEST`].
     const LANES: usize;
     type F: Copy;
     type U: Copy;
@@ -41,6 +34,7 @@ pub(super) trait Simd: Copy {
     unsafe fn sub(a: Self::F, b: Self::F) -> Self::F;
     unsafe fn mul(a: Self::F, b: Self::F) -> Self::F;
     unsafe fn div(a: Self::F, b: Self::F) -> Self::F;
+    unsafe fn sqrt(a: Self::F) -> Self::F;
     /// `a · b + c`, rounded once or twice.
     unsafe fn mul_add(a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     /// `c − a · b`, rounded once or twice.
@@ -81,14 +75,24 @@ pub(super) trait Simd: Copy {
 
     /// Both words of the nodes at these places.
     unsafe fn nodes(nodes: *const Node, at: Self::U) -> (Self::U, Self::U);
-    /// Writes to the stack at these places of 8 bytes, in every lane.
-    unsafe fn push(
-        stack: *mut Waiting,
-        at: Self::U,
-        node: Self::U,
-        t_enter: Self::F,
-        t_exit: Self::F,
-    );
-    /// Reads from the stack likewise.
-    unsafe fn pop(stack: *const Waiting, at: Self::U) -> (Self::U, Self::F, Self::F);
+    /// Reads from the stacks at these places.
+    unsafe fn pop(stacks: *const Waiting, at: Self::U) -> (Self::U, Self::F, Self::F);
+    /// Writes the lanes of the mask one after the other. `to` has room for all lanes, and what follows
+    /// those written may be overwritten.
+    unsafe fn append(to: *mut u32, mask: Self::M, x: Self::U);
+    /// Gives the lanes of the mask what lies one after the other in `from`, and the others their own of
+    /// `x`.
+    unsafe fn expand(mask: Self::M, from: *const u32, x: Self::U) -> Self::U;
+    /// Half of a ray a lane, number by number; `from` is aligned to 32 bytes, and likewise below.
+    unsafe fn columns(from: *const f32) -> [Self::F; HALF];
+    /// Writes a half of every ray.
+    unsafe fn write_columns(to: *mut f32, columns: [Self::F; HALF]);
+    /// Numbers scaled, moved down, raised to the least, and rounded, in that order. NaN stays NaN.
+    unsafe fn narrowed(numbers: &[f64; HALF], scale_shift_least: &[[f64; HALF]; 3]) -> [f32; HALF];
+    /// The larger of both sizes, whatever the signs.
+    #[inline(always)]
+    unsafe fn max_abs(a: Self::F, b: Self::F) -> Self::F {
+        // SAFETY: the caller's.
+        unsafe { Self::max(Self::abs(a), Self::abs(b)) }
+    }
 }

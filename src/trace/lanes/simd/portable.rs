@@ -1,7 +1,9 @@
 //! Eight lanes in plain Rust, for processors without a path of their own.
 
 use super::super::prepare::Node;
-use super::{Simd, Waiting};
+use super::super::ray::HALF;
+use super::super::stacks::Waiting;
+use super::{STRIDE, Simd};
 
 #[derive(Clone, Copy)]
 pub(in super::super) struct Portable;
@@ -53,6 +55,10 @@ impl Simd for Portable {
     #[inline(always)]
     unsafe fn div(a: Self::F, b: Self::F) -> Self::F {
         map(a, b, |a, b| a / b)
+    }
+    #[inline(always)]
+    unsafe fn sqrt(a: Self::F) -> Self::F {
+        a.map(f32::sqrt)
     }
     #[inline(always)]
     unsafe fn mul_add(a: Self::F, b: Self::F, c: Self::F) -> Self::F {
@@ -171,32 +177,65 @@ impl Simd for Portable {
     }
 
     #[inline(always)]
-    unsafe fn push(
-        stack: *mut Waiting,
-        at: Self::U,
-        node: Self::U,
-        t_enter: Self::F,
-        t_exit: Self::F,
-    ) {
-        for k in 0..LANES {
-            let waiting = Waiting {
-                node: node[k],
-                t_enter: t_enter[k],
-                t_exit: t_exit[k],
-            };
-            // SAFETY: the places are within the lanes' stacks.
-            unsafe { *stack.byte_add(8 * at[k] as usize) = waiting };
-        }
-    }
-
-    #[inline(always)]
     unsafe fn pop(stack: *const Waiting, at: Self::U) -> (Self::U, Self::F, Self::F) {
         // SAFETY: as above.
-        let waiting = at.map(|at| unsafe { *stack.byte_add(8 * at as usize) });
+        let waiting = at.map(|at| unsafe { *stack.add(at as usize) });
         (
             waiting.map(|w| w.node),
             waiting.map(|w| w.t_enter),
             waiting.map(|w| w.t_exit),
         )
+    }
+
+    #[inline(always)]
+    unsafe fn append(to: *mut u32, mask: u32, x: Self::U) {
+        let mut count = 0;
+        for (k, x) in x.into_iter().enumerate() {
+            // SAFETY: there is room for all lanes.
+            unsafe { *to.add(count) = x };
+            count += (mask >> k & 1) as usize;
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn expand(mask: u32, from: *const u32, x: Self::U) -> Self::U {
+        let mut next = 0;
+        let mut expanded = x;
+        for (k, x) in expanded.iter_mut().enumerate() {
+            if mask >> k & 1 == 1 {
+                // SAFETY: there is as much as there are lanes in the mask.
+                *x = unsafe { *from.add(next) };
+                next += 1;
+            }
+        }
+        expanded
+    }
+
+    #[inline(always)]
+    unsafe fn columns(from: *const f32) -> [Self::F; HALF] {
+        // SAFETY: there is half a ray for every lane.
+        let number = |lane: usize, k: usize| unsafe { *from.add(lane * STRIDE + k) };
+        std::array::from_fn(|k| std::array::from_fn(|lane| number(lane, k)))
+    }
+
+    #[inline(always)]
+    unsafe fn write_columns(to: *mut f32, columns: [Self::F; HALF]) {
+        for (k, column) in columns.into_iter().enumerate() {
+            for (lane, x) in column.into_iter().enumerate() {
+                // SAFETY: as above.
+                unsafe { *to.add(lane * STRIDE + k) = x };
+            }
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn narrowed(
+        numbers: &[f64; HALF],
+        [scale, shift, least]: &[[f64; HALF]; 3],
+    ) -> [f32; HALF] {
+        std::array::from_fn(|k| {
+            let moved = numbers[k] * scale[k] - shift[k];
+            (if least[k] > moved { least[k] } else { moved }) as f32
+        })
     }
 }
