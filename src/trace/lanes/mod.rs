@@ -13,6 +13,7 @@
 mod block;
 mod crossings;
 mod exact;
+mod leaves;
 mod packet;
 mod prepare;
 mod ray;

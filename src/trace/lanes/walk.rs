@@ -7,7 +7,8 @@
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
 use super::block::{BLOCK, Block};
-use super::prepare::{ABOVE_EMPTY, BELOW_EMPTY, PLACE, Prepared};
+use super::leaves::{Leaf, Leaves};
+use super::prepare::{ABOVE_EMPTY, BELOW_EMPTY, LEAF, PLACE, Prepared};
 use super::ray::{CHUNK, LaneRays};
 use super::simd::{Simd, WIDEST};
 use super::stacks::Stacks;
@@ -42,15 +43,15 @@ pub(super) trait Tests {
 /// The most groups there are room for.
 const MOST_GROUPS: usize = 6;
 
+/// Room for a leaf of every lane, and a vector more.
+const LEAVES: usize = WIDEST * (MOST_GROUPS + 1);
+
 /// What a group's lanes hold of their rays.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
 struct Group {
     shifted: [[f32; WIDEST]; 3],
     inverse: [[f32; WIDEST]; 3],
-    /// The leaf that the lane has come to: its first block and the number of its blocks.
-    first: [u32; WIDEST],
-    blocks: [u32; WIDEST],
     /// The lane's ray.
     ray: [u32; WIDEST],
 }
@@ -59,8 +60,6 @@ impl Group {
     const NEW: Group = Group {
         shifted: [[0.0; WIDEST]; 3],
         inverse: [[1.0; WIDEST]; 3],
-        first: [0; WIDEST],
-        blocks: [0; WIDEST],
         ray: [0; WIDEST],
     };
 }
@@ -163,40 +162,19 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     });
     let mut limits = [[-1.0_f32; WIDEST]; GROUPS];
     candidates.resize(GROUPS * S::LANES * BLOCK + 1, Candidate::default());
-    // Lanes that wait at leaves: their numbers, the next block, and how many are left with it.
-    let mut leaves = [[0_u32; WIDEST * (MOST_GROUPS + 1)]; 3];
+    let mut leaves = Leaves::new();
     let any_will_do = tests.any_will_do();
     // A round of tests is worth its while once half the lanes wait.
     let enough = (GROUPS * S::LANES / 2) as u32;
 
     loop {
-        let mut at_leaves = 0;
-        each_group!(GROUPS, J => {
-            let group = &groups[J];
-            let blocks = S::load_u(group.blocks.as_ptr());
-            let full = S::bits(S::test_u(blocks, S::splat_u(u32::MAX)));
-            let here = places[J].waiting() & full;
-            let columns = [
-                S::load_u(NUMBERS[J].as_ptr()),
-                S::load_u(group.first.as_ptr()),
-                blocks,
-            ];
-            for (list, column) in leaves.iter_mut().zip(columns) {
-                S::append(list.as_mut_ptr().add(at_leaves), S::mask(here), column);
-            }
-            at_leaves += here.count_ones() as usize;
-        });
-        let [lanes, next, left] = &mut leaves;
-        for &block in next.get_unchecked(..at_leaves) {
-            prefetch(tree.blocks.as_ptr().add(block as usize));
-        }
+        leaves.ask_all(tree.blocks.as_ptr());
         // A block of every leaf, then the next of those that have more.
-        while at_leaves > 0 {
+        while leaves.len() > 0 {
             let (mut found, mut going_on) = (0, 0);
-            for k in 0..at_leaves {
-                let number = *lanes.get_unchecked(k);
-                let block_number = *next.get_unchecked(k);
-                let more = *left.get_unchecked(k) - 1;
+            for k in 0..leaves.len() {
+                let leaf = leaves.get(k);
+                let (number, block_number) = (leaf.lane, leaf.block);
                 let (j, lane) = (number as usize / WIDEST, number as usize % WIDEST);
                 let group = groups.get_unchecked(j);
                 let ray = *group.ray.get_unchecked(lane);
@@ -205,10 +183,13 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
                 let may_hit = block.candidates::<S>(rays, ray as usize, limit, any_will_do);
                 let surely = may_hit.surely != 0;
                 let mut maybe = select_unpredictable(surely, lowest(may_hit.surely), may_hit.maybe);
-                *lanes.get_unchecked_mut(going_on) = number;
-                *next.get_unchecked_mut(going_on) = block_number + 1;
-                *left.get_unchecked_mut(going_on) = more;
-                going_on += usize::from((more > 0) & !surely);
+                let rest = Leaf {
+                    block: block_number + 1,
+                    left: leaf.left - 1,
+                    ..leaf
+                };
+                leaves.set(going_on, rest);
+                going_on += usize::from((rest.left > 0) & !surely);
                 // One is written in any case: nothing predicts whether there is one.
                 loop {
                     let place = maybe.trailing_zeros() % BLOCK as u32;
@@ -230,7 +211,7 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
             if found > 0 {
                 tests.test(rays, &candidates[..found], limits.as_flattened_mut());
             }
-            at_leaves = going_on;
+            leaves.truncate(going_on);
         }
         stacks.settle();
         let mut living = 0;
@@ -250,7 +231,8 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
         each_group!(GROUPS, J => fetched[J] = S::nodes(nodes, places[J].node));
         loop {
             each_group!(GROUPS, J => {
-                step(&mut places[J], &mut groups[J], fetched[J], stacks, tree);
+                let lanes = S::load_u(NUMBERS[J].as_ptr());
+                step(&mut places[J], &groups[J], lanes, fetched[J], stacks, &mut leaves, tree);
                 fetched[J] = S::nodes(nodes, places[J].node);
             });
             let (mut waiting, mut moving) = (0, 0);
@@ -300,9 +282,6 @@ unsafe fn go_on<S: Simd>(
     // A node beyond the limit is dropped, and its lane waits on.
     let goes = S::and(S::le(place.enter, limit), pops);
     place.active = S::or(place.active, goes);
-    let blocks = S::load_u(group.blocks.as_ptr());
-    let none = S::select_u(S::mask(waiting), S::splat_u(0), blocks);
-    S::store_u(group.blocks.as_mut_ptr(), none);
     if done == 0 {
         return;
     }
@@ -345,20 +324,20 @@ unsafe fn go_on<S: Simd>(
 #[inline(always)]
 unsafe fn step<S: Simd, B: Block>(
     place: &mut Place<S>,
-    group: &mut Group,
+    group: &Group,
+    lanes: S::U,
     (payload, word): (S::U, S::U),
     stacks: &mut Stacks,
+    leaves: &mut Leaves<LEAVES>,
     tree: &Prepared<B>,
 ) {
     let (one, two) = (S::splat_u(1), S::splat_u(2));
     let (is_1, is_2) = (S::test_u(word, one), S::test_u(word, two));
     let mask = S::and(S::and(is_1, is_2), place.active);
     place.active = S::and_not(place.active, mask);
-    let first = S::select_u(mask, payload, S::load_u(group.first.as_ptr()));
-    S::store_u(group.first.as_mut_ptr(), first);
-    let blocks = S::shr_u::<2>(word);
-    let blocks = S::select_u(mask, blocks, S::load_u(group.blocks.as_ptr()));
-    S::store_u(group.blocks.as_mut_ptr(), blocks);
+    let full = S::and(mask, S::test_u(word, S::splat_u(!LEAF)));
+    leaves.push::<S>(full, lanes, payload, S::shr_u::<2>(word));
+    leaves.ask(tree.blocks.as_ptr());
     let act = place.active;
     let shifted = by_axis::<S>(&group.shifted, is_1, is_2);
     let inverse = by_axis::<S>(&group.inverse, is_1, is_2);
@@ -390,21 +369,4 @@ unsafe fn step<S: Simd, B: Block>(
 #[inline(always)]
 fn lowest(bits: u32) -> u32 {
     bits & bits.wrapping_neg()
-}
-
-/// Asks for a block before it is needed.
-#[inline(always)]
-unsafe fn prefetch<B>(block: *const B) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        let block = block.cast::<i8>();
-        let mut line = 0;
-        while line < size_of::<B>() {
-            _mm_prefetch::<_MM_HINT_T0>(block.add(line));
-            line += 64;
-        }
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = block;
 }
