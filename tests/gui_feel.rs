@@ -203,3 +203,35 @@ fn named(window: &Window<'_>, place: &str) -> usize {
     assert!(nameless.is_empty(), "{place}: {nameless:#?}");
     widgets.len()
 }
+
+#[test]
+fn what_is_typed_and_entered_within_a_frame_is_no_shortcut() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    let outlines = |window: &Window<'_>| {
+        let node = window.get_by_label("Selection");
+        node.accesskit_node().toggled()
+    };
+    let key = |key| egui::Event::Key {
+        key,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: egui::Modifiers::NONE,
+    };
+    let before = outlines(&window);
+    let picture = window.get_by_label("Traced picture").rect();
+    window.hover_at(picture.center());
+    window.run_steps(2);
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::L);
+    window.run_steps(2);
+    let text = egui::Event::Text("s".to_owned());
+    let events = [key(egui::Key::S), text, key(egui::Key::Enter)];
+    window.input_mut().events.extend(events);
+    window.run_steps(3);
+    assert_eq!(outlines(&window), before);
+    // Where nothing is typed, the same key does it.
+    window.key_press(egui::Key::S);
+    window.run_steps(2);
+    assert_ne!(outlines(&window), before);
+}

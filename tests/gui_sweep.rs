@@ -70,9 +70,14 @@ fn a_sweep_has_the_rows_of_the_command_line_as_curves_and_as_a_map() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rows.csv");
     let name = path.to_str().unwrap();
+    // The rows take the place of what was there once they are complete.
+    let before = folder.path().join("before.csv");
+    std::fs::write(&path, "before").unwrap();
+    std::fs::hard_link(&path, &before).unwrap();
     type_into(&mut window, "File for the rows", name);
     click(&mut window, "Save rows");
     wait(&mut window, "the file", |w| has(w, "76 rows in "));
+    assert_eq!(std::fs::read_to_string(&before).unwrap(), "before");
     let text = std::fs::read_to_string(&path).unwrap();
     let (rows, complete) = read_rows(&text, Form::Csv).unwrap();
     assert_eq!(complete, text.len());

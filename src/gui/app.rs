@@ -382,6 +382,7 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
+        shortcuts::note_focus(&ctx);
         if let Some(current) = &self.state.current {
             self.state.inspect.follow(current);
         }

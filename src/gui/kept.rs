@@ -2,9 +2,10 @@
 //! write one is no error.
 
 use super::StartOptions;
+use crate::files::write_whole;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A JSON file in the settings folder.
 #[derive(Default)]
@@ -29,12 +30,19 @@ impl KeptFile {
 
     pub fn write<T: Serialize>(&self, value: &T) {
         if let Some(path) = &self.path
-            && let Some(folder) = path.parent()
             && let Ok(text) = serde_json::to_vec_pretty(value)
         {
-            // A full or read-only disk is not worth a message.
-            let _ = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(path, text));
+            keep(path, &text);
         }
+    }
+}
+
+/// Writes a file whole, and the folders that it lies in; failing to is no error.
+pub fn keep(path: &Path, bytes: &[u8]) {
+    if let Some(folder) = path.parent() {
+        // A full or read-only disk is not worth a message.
+        let _ = std::fs::create_dir_all(folder)
+            .and_then(|()| write_whole(path, |out| out.write_all(bytes)));
     }
 }
 
@@ -66,6 +74,12 @@ mod tests {
         file.write(&vec![1, 2]);
         assert_eq!(file.read(), Some(vec![1, 2]));
         assert_eq!(file.read::<String>(), None);
+        // A new file takes the place of the old one, which is never seen half written.
+        let [path, old] = ["numbers.json", "old.json"].map(|name| place(&start, name).unwrap());
+        std::fs::hard_link(&path, &old).unwrap();
+        file.write(&vec![3]);
+        assert_eq!(std::fs::read(&old).unwrap(), b"[\n  1,\n  2\n]");
+        file.write(&vec![1, 2]);
         let forgetful = StartOptions {
             remember: false,
             ..start

@@ -417,12 +417,46 @@ pub fn pressed(ctx: &egui::Context, scope: Scope, here: bool) -> Vec<Action> {
     actions
 }
 
+/// Where keys go.
+#[derive(Clone, Copy, Default)]
+struct Focus {
+    /// To any widget.
+    widget: bool,
+    /// To one that text is typed into.
+    text: bool,
+}
+
+impl Focus {
+    fn of(ctx: &egui::Context) -> Self {
+        Focus {
+            widget: ctx.egui_wants_keyboard_input(),
+            text: ctx.text_edit_focused(),
+        }
+    }
+
+    /// Where it is noted.
+    fn id() -> egui::Id {
+        egui::Id::unique("focus as the frame began")
+    }
+}
+
+/// Notes where keys go as a frame begins. In a slow frame a text and the Enter that ends it come
+/// together: panes, which ask later, are not to take its letters for shortcuts.
+pub fn note_focus(ctx: &egui::Context) {
+    let focus = Focus::of(ctx);
+    ctx.data_mut(|data| data.insert_temp(Focus::id(), focus));
+}
+
 /// What the keys of this frame ask for. A shortcut without Shift takes a key with Shift too, so the
 /// one with Shift comes before it in the table. Plain keys belong to the focused widget or the open list, if
 /// there is one.
 fn keys(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
-    let focused = ctx.egui_wants_keyboard_input() || egui::Popup::is_any_open(ctx);
-    let typing = ctx.text_edit_focused();
+    let before: Focus = ctx
+        .data(|data| data.get_temp(Focus::id()))
+        .unwrap_or_default();
+    let now = Focus::of(ctx);
+    let focused = now.widget || before.widget || egui::Popup::is_any_open(ctx);
+    let typing = now.text || before.text;
     ctx.input_mut(|input| {
         SHORTCUTS
             .iter()

@@ -4,6 +4,7 @@
 use super::comparing::Which;
 use super::state::State;
 use super::turns::{Doing, Stop, Turns};
+use crate::files::write_whole;
 use crate::measure::sweep::{Form, Plan, Row, done, header, line};
 use crate::scene::Scene;
 use crate::tree::{BuildSettings, MaxDepth, Method};
@@ -200,7 +201,7 @@ impl Saving {
         std::thread::spawn(move || {
             let lines = rows.iter().map(|row| line(row, form));
             let text = header(form) + &lines.collect::<String>();
-            let said = match std::fs::write(&path, text) {
+            let said = match write_whole(&path, |out| out.write_all(text.as_bytes())) {
                 Ok(()) => format!("{} rows in {}", rows.len(), path.display()),
                 Err(error) => format!("{}: {error}", path.display()),
             };

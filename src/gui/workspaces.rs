@@ -213,10 +213,7 @@ impl Workspaces {
         *then = now;
         let text = workspace().to_text(None);
         if *kept != text {
-            if let Some(folder) = path.parent() {
-                // A full or read-only disk is not worth a message.
-                let _ = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(path, &text));
-            }
+            kept::keep(path, text.as_bytes());
             *kept = text;
         }
     }

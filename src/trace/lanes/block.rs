@@ -2,7 +2,7 @@
 //! the ray may hit, whatever `f32` has rounded; those few are then tested one by one.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::packet::Packet;
+use super::packet::{Bundle, Packet};
 use super::ray::{LaneRay, LaneRays};
 use super::simd::Simd;
 use super::three;
@@ -35,6 +35,12 @@ pub(super) trait Block: Default + Send + Sync {
         any: bool,
     ) -> MayHit;
 
+    /// Objects that may be in the way of some ray of a bundle, a bit for each place.
+    ///
+    /// # Safety
+    /// As [`Simd`].
+    unsafe fn near<S: Simd>(&self, bundle: &Bundle) -> u32;
+
     /// The same the other way about: which rays of a packet may hit, or surely hit, the object in a
     /// place, each up to its own limit. The rays have one axis of the largest component.
     ///
@@ -48,6 +54,63 @@ pub(super) trait Block: Default + Send + Sync {
         any: bool,
     ) -> MayHit;
 }
+
+/// Of what lies in boxes with these lower and upper corners, their axes turned as the bundle's, what is
+/// in the way of some ray of the bundle: from the ray's side, where its sheared bounds hold the origin.
+///
+/// # Safety
+/// As [`Simd`].
+#[inline(always)]
+unsafe fn in_the_way<S: Simd>(low: [S::F; 3], high: [S::F; 3], bundle: &Bundle) -> S::M {
+    let [x, y, z] = bundle.origin;
+    let z_low = S::sub(low[2], S::splat(z[1]));
+    let z_high = S::sub(high[2], S::splat(z[0]));
+    let x_meets = holds_zero::<S>(
+        [low[0], high[0]],
+        x,
+        [z_low, z_high],
+        bundle.shear[0],
+        bundle,
+    );
+    let y_meets = holds_zero::<S>(
+        [low[1], high[1]],
+        y,
+        [z_low, z_high],
+        bundle.shear[1],
+        bundle,
+    );
+    S::and(x_meets, y_meets)
+}
+
+/// Whether a coordinate less that of an origin, less a shear times the distance along the third axis,
+/// may be 0, each between two bounds.
+///
+/// # Safety
+/// As [`Simd`].
+#[inline(always)]
+unsafe fn holds_zero<S: Simd>(
+    [low, high]: [S::F; 2],
+    origin: [f32; 2],
+    [z_low, z_high]: [S::F; 2],
+    shear: [f32; 2],
+    bundle: &Bundle,
+) -> S::M {
+    let (least, most) = (S::splat(shear[0]), S::splat(shear[1]));
+    let (a, b) = (S::mul(least, z_low), S::mul(least, z_high));
+    let (c, d) = (S::mul(most, z_low), S::mul(most, z_high));
+    let moved_most = S::max(S::max(a, b), S::max(c, d));
+    let moved_least = S::min(S::min(a, b), S::min(c, d));
+    let low = S::sub(S::sub(low, S::splat(origin[1])), moved_most);
+    let high = S::sub(S::sub(high, S::splat(origin[0])), moved_least);
+    S::and(
+        S::le(low, S::splat(bundle.error)),
+        S::le(S::splat(-bundle.error), high),
+    )
+}
+
+/// Bound on the error of a sheared coordinate, as a multiple of `reach`: twice that of a point of a
+/// triangle, see [`EDGE_ERROR`].
+pub(super) const SHEARED_ERROR: f32 = 16.0 * f32::EPSILON;
 
 /// Objects of a block that a ray may hit, or rays of a packet that may hit an object, a bit for each.
 #[derive(Clone, Copy, Default)]
@@ -182,6 +245,24 @@ impl Block for Triangles {
     }
 
     #[inline(always)]
+    unsafe fn near<S: Simd>(&self, bundle: &Bundle) -> u32 {
+        let axes = bundle.axes;
+        let found = parts!(S, self.objects, at => {
+            let (mut low, mut high) = ([S::splat(0.0); 3], [S::splat(0.0); 3]);
+            for k in 0..3 {
+                let axis = axes[k];
+                let a = S::load(self.vertices[0].get_unchecked(axis).as_ptr().add(at));
+                let b = S::load(self.vertices[1].get_unchecked(axis).as_ptr().add(at));
+                let c = S::load(self.vertices[2].get_unchecked(axis).as_ptr().add(at));
+                low[k] = S::min(S::min(a, b), c);
+                high[k] = S::max(S::max(a, b), c);
+            }
+            MayHit { maybe: S::bits(in_the_way::<S>(low, high, bundle)), surely: 0 }
+        });
+        found.maybe
+    }
+
+    #[inline(always)]
     unsafe fn rays_that_may_hit<S: Simd>(
         &self,
         place: usize,
@@ -189,7 +270,7 @@ impl Block for Triangles {
         limits: S::F,
         any: bool,
     ) -> MayHit {
-        let axes = packet.turned_axes;
+        let axes = packet.bundle.axes;
         let load = |numbers: &[f32; BLOCK]| S::load(numbers.as_ptr());
         let along = load(packet.inverse.get_unchecked(axes[2]));
         let turned = Turned::<S> {
@@ -404,6 +485,22 @@ impl Block for Spheres {
     }
 
     #[inline(always)]
+    unsafe fn near<S: Simd>(&self, bundle: &Bundle) -> u32 {
+        let axes = bundle.axes;
+        let found = parts!(S, self.objects, at => {
+            let radius = S::load(self.radius.as_ptr().add(at));
+            let (mut low, mut high) = ([radius; 3], [radius; 3]);
+            for k in 0..3 {
+                let center = S::load(self.center.get_unchecked(axes[k]).as_ptr().add(at));
+                low[k] = S::sub(center, radius);
+                high[k] = S::add(center, radius);
+            }
+            MayHit { maybe: S::bits(in_the_way::<S>(low, high, bundle)), surely: 0 }
+        });
+        found.maybe
+    }
+
+    #[inline(always)]
     unsafe fn rays_that_may_hit<S: Simd>(
         &self,
         place: usize,
@@ -525,6 +622,20 @@ impl Block for Boxes {
             }
             MayHit { maybe: S::bits(S::le(enter, exit)), surely: 0 }
         })
+    }
+
+    #[inline(always)]
+    unsafe fn near<S: Simd>(&self, bundle: &Bundle) -> u32 {
+        let axes = bundle.axes;
+        let found = parts!(S, self.objects, at => {
+            let (mut low, mut high) = ([S::splat(0.0); 3], [S::splat(0.0); 3]);
+            for k in 0..3 {
+                low[k] = S::load(self.corners[0].get_unchecked(axes[k]).as_ptr().add(at));
+                high[k] = S::load(self.corners[1].get_unchecked(axes[k]).as_ptr().add(at));
+            }
+            MayHit { maybe: S::bits(in_the_way::<S>(low, high, bundle)), surely: 0 }
+        });
+        found.maybe
     }
 
     #[inline(always)]

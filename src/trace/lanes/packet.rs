@@ -6,7 +6,7 @@
 //! their own intervals of distances, and only come to some leaves later than they could.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::block::{BLOCK, Block, MayHit};
+use super::block::{BLOCK, Block, MayHit, SHEARED_ERROR};
 use super::prepare::{ABOVE_EMPTY, BELOW_EMPTY, LEAF, Node, PLACE, Prepared};
 use super::ray::{HALF, LaneRays};
 use super::simd::{Simd, WIDEST};
@@ -35,10 +35,10 @@ pub(super) struct Packet {
     t_exit: Numbers,
     /// Half the thickness of planes.
     pub(super) thick: f32,
-    /// The axes in cyclic order, that of the largest component of the first ray last.
-    pub(super) turned_axes: [usize; 3],
-    /// Whether it is that of all rays.
+    /// Whether the axis of the largest component is the same for all rays.
     is_one_axis: bool,
+    /// If it is.
+    pub(super) bundle: Bundle,
     /// The rays' places among those made ready.
     ray: [u32; WIDEST],
     /// Lanes that have a ray.
@@ -57,8 +57,13 @@ impl Packet {
         t_enter: [0.0; WIDEST],
         t_exit: [-1.0; WIDEST],
         thick: 0.0,
-        turned_axes: [0, 1, 2],
         is_one_axis: true,
+        bundle: Bundle {
+            axes: [0, 1, 2],
+            origin: [[0.0; 2]; 3],
+            shear: [[0.0; 2]; 2],
+            error: 0.0,
+        },
         ray: [0; WIDEST],
         lanes: 0,
     };
@@ -73,7 +78,6 @@ impl Packet {
         let starts = &rays.starts;
         let one = &rays.rays[starts.ray[first] as usize];
         self.thick = rays.thick;
-        self.turned_axes = one.turned_axes();
         self.lanes = ((1_u64 << count) - 1) as u32;
         // Lanes beyond the last ray get what no one asks about.
         S::store_u(
@@ -102,6 +106,9 @@ impl Packet {
             store::<S>(&mut self.reach, reach);
             let same = S::eq_u(S::bits_of(axis), S::splat_u(one.axis));
             self.is_one_axis = self.lanes & !S::bits(same) == 0;
+            if self.is_one_axis {
+                self.tie::<S>(one.turned_axes());
+            }
             return;
         }
         self.is_one_axis = true;
@@ -116,7 +123,58 @@ impl Packet {
             self.reach[lane] = ray.reach;
             self.is_one_axis &= ray.axis == one.axis;
         }
+        if self.is_one_axis {
+            self.tie::<S>(one.turned_axes());
+        }
     }
+
+    /// Finds the bounds of all rays.
+    ///
+    /// # Safety
+    /// As [`Simd`].
+    #[inline(always)]
+    unsafe fn tie<S: Simd>(&mut self, axes: [usize; 3]) {
+        let lanes = S::mask(self.lanes);
+        let along = S::load(self.inverse[axes[2]].as_ptr());
+        let dx = S::load(self.direction[axes[0]].as_ptr());
+        let dy = S::load(self.direction[axes[1]].as_ptr());
+        self.bundle = Bundle {
+            axes,
+            origin: [
+                bounds::<S>(S::load(self.origin[axes[0]].as_ptr()), lanes),
+                bounds::<S>(S::load(self.origin[axes[1]].as_ptr()), lanes),
+                bounds::<S>(S::load(self.origin[axes[2]].as_ptr()), lanes),
+            ],
+            shear: [
+                bounds::<S>(S::mul(dx, along), lanes),
+                bounds::<S>(S::mul(dy, along), lanes),
+            ],
+            error: SHEARED_ERROR * bounds::<S>(S::load(self.reach.as_ptr()), lanes)[1],
+        };
+    }
+}
+
+/// Bounds of all rays of a packet that have the axis of their largest component in common.
+pub(super) struct Bundle {
+    /// The axes in cyclic order, that of the largest component last.
+    pub(super) axes: [usize; 3],
+    /// Least and most, along these axes.
+    pub(super) origin: [[f32; 2]; 3],
+    /// Least and most of the first two components over the last.
+    pub(super) shear: [[f32; 2]; 2],
+    /// Of a coordinate less what it is sheared by.
+    pub(super) error: f32,
+}
+
+/// Least and most of some lanes.
+///
+/// # Safety
+/// As [`Simd`].
+#[inline(always)]
+unsafe fn bounds<S: Simd>(x: S::F, lanes: S::M) -> [f32; 2] {
+    let none = S::splat(f32::NEG_INFINITY);
+    let least = S::greatest(S::select(lanes, S::sub(S::splat(0.0), x), none));
+    [-least, S::greatest(S::select(lanes, x, none))]
 }
 
 /// # Safety
@@ -388,12 +446,17 @@ unsafe fn visit<S: Simd, B: Block>(
             object: objects[place as usize],
             surely,
         };
+        let mut near = u32::MAX;
+        if packet.is_one_axis {
+            near = block.near::<S>(&packet.bundle);
+        }
         // Every object against all rays, or every ray against all objects, whichever is less.
-        let count = (0..BLOCK).find(|&k| objects[k] == super::block::NONE);
-        if packet.is_one_axis && lanes.count_ones() as usize >= count.unwrap_or(BLOCK) {
-            for place in 0..count.unwrap_or(BLOCK) {
+        if packet.is_one_axis && lanes.count_ones() >= near.count_ones() {
+            while near != 0 {
+                let place = near.trailing_zeros();
+                near &= near - 1;
                 let may_hit = block.rays_that_may_hit::<S>(
-                    place,
+                    place as usize,
                     packet,
                     S::load(limits.as_ptr()),
                     any_will_do,
@@ -404,7 +467,7 @@ unsafe fn visit<S: Simd, B: Block>(
                 while maybe != 0 {
                     let lane = maybe.trailing_zeros();
                     maybe &= maybe - 1;
-                    found.add(candidate(lane, place as u32, surely >> lane & 1 != 0));
+                    found.add(candidate(lane, place, surely >> lane & 1 != 0));
                 }
                 found.make_room(limits);
             }

@@ -75,6 +75,9 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
     if logarithmic {
         axis = axis.formatter(|mark, _| log_axis::number(mark.value));
     }
+    // Depths have two digits at most: numbers need less room than is usual.
+    let depth_axis = AxisHints::new_x().label("D_MAX, greatest depth");
+    let depth_axis = depth_axis.label_spacing(16.0..=24.0);
     let ink = ui.visuals().text_color();
     let rule = shown.rows.first().and_then(rule_depth).map(f64::from);
     let mut plot = Plot::new(("sweep", parameter.symbol))
@@ -87,7 +90,7 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
         .set_margin_fraction(vec2(0.05, 0.1))
         .label_formatter(|_| None)
         .x_grid_spacer(depths)
-        .custom_x_axes(vec![AxisHints::new_x().label("D_MAX, greatest depth")])
+        .custom_x_axes(vec![depth_axis])
         .custom_y_axes(vec![axis]);
     if logarithmic {
         plot = plot.y_grid_spacer(log_axis::marks);
@@ -99,7 +102,7 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
             let at = PlotPoint::new(depth, up(most));
             plot.text(
                 Text::new("rule", at, text)
-                    .anchor(egui::Align2::LEFT_BOTTOM)
+                    .anchor(egui::Align2::LEFT_TOP)
                     .color(ink),
             );
         }

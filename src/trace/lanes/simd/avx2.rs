@@ -59,6 +59,14 @@ unsafe fn read_two(from: *const Waiting, at: &[usize]) -> __m256 {
     _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(first), second)
 }
 
+/// The greatest of eight numbers.
+#[inline(always)]
+pub(super) unsafe fn greatest(a: __m256) -> f32 {
+    let four = _mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps::<1>(a));
+    let two = _mm_max_ps(four, _mm_movehl_ps(four, four));
+    _mm_cvtss_f32(_mm_max_ss(two, _mm_movehdup_ps(two)))
+}
+
 impl Simd for Avx2 {
     const LANES: usize = 8;
     type F = __m256;
@@ -108,6 +116,10 @@ impl Simd for Avx2 {
     #[inline(always)]
     unsafe fn max(a: __m256, b: __m256) -> __m256 {
         _mm256_max_ps(a, b)
+    }
+    #[inline(always)]
+    unsafe fn greatest(a: __m256) -> f32 {
+        greatest(a)
     }
     #[inline(always)]
     unsafe fn abs(a: __m256) -> __m256 {

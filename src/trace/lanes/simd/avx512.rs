@@ -148,6 +148,11 @@ impl Simd for Avx512 {
         _mm512_max_ps(a, b)
     }
     #[inline(always)]
+    unsafe fn greatest(a: __m512) -> f32 {
+        let half = _mm256_max_ps(_mm512_castps512_ps256(a), _mm512_extractf32x8_ps::<1>(a));
+        super::avx2::greatest(half)
+    }
+    #[inline(always)]
     unsafe fn abs(a: __m512) -> __m512 {
         _mm512_abs_ps(a)
     }

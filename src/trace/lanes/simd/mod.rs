@@ -44,6 +44,8 @@ pub(super) trait Simd: Copy {
     /// The second where either is NaN.
     unsafe fn max(a: Self::F, b: Self::F) -> Self::F;
     unsafe fn abs(a: Self::F) -> Self::F;
+    /// The greatest of all lanes; none is NaN.
+    unsafe fn greatest(a: Self::F) -> f32;
     unsafe fn lt(a: Self::F, b: Self::F) -> Self::M;
     unsafe fn le(a: Self::F, b: Self::F) -> Self::M;
     /// `a` where the mask is set, else `b`.

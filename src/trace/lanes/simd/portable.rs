@@ -77,6 +77,10 @@ impl Simd for Portable {
         map(a, b, |a, b| if a > b { a } else { b })
     }
     #[inline(always)]
+    unsafe fn greatest(a: Self::F) -> f32 {
+        a.into_iter().fold(f32::NEG_INFINITY, f32::max)
+    }
+    #[inline(always)]
     unsafe fn abs(a: Self::F) -> Self::F {
         a.map(f32::abs)
     }
