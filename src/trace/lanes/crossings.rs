@@ -52,15 +52,14 @@ impl Crossings {
     /// Computes the first `count` of them.
     #[inline(always)]
     pub(super) fn compute(&mut self, instructions: InstructionSet, count: usize) {
-        // SAFETY: kernels are only made for instructions that the processor has.
-        unsafe {
-            match instructions {
-                #[cfg(target_arch = "x86_64")]
-                InstructionSet::Avx512 => self.compute_avx512(count),
-                #[cfg(target_arch = "x86_64")]
-                InstructionSet::Avx2 => self.compute_avx2(count),
-                _ => self.compute_here(count),
-            }
+        match instructions {
+            // SAFETY: kernels are only made for instructions that the processor has.
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx512 => unsafe { self.compute_avx512(count) },
+            // SAFETY: likewise.
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2 => unsafe { self.compute_avx2(count) },
+            _ => self.compute_here(count),
         }
     }
 
