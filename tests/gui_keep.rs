@@ -386,3 +386,13 @@ fn a_place_where_nothing_can_be_written_is_told_before_and_an_error_after() {
         has(w, "is not on the screen")
     });
 }
+
+#[test]
+fn escape_answers_the_question_where_to_save() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    press(&mut window, Modifiers::ALT, Key::Num1);
+    wait(&mut window, "the question where", |w| has(w, "Browse…"));
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    wait(&mut window, "the question to go", |w| !has(w, "Browse…"));
+}

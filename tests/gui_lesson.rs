@@ -264,3 +264,17 @@ fn the_hint_comes_once_and_never_again() {
     window.run_steps(3);
     assert!(!has(&window, HINT));
 }
+
+#[test]
+fn the_list_stands_in_the_place_of_the_settings() {
+    let mut window = open(small("tetra:2"));
+    finish(&mut window);
+    assert!(has(&window, "Root margin"));
+    click(&mut window, "Lessons");
+    wait(&mut window, "the list", |w| {
+        has(w, &LESSONS[0].read().title)
+    });
+    assert!(!has(&window, "Root margin"));
+    click(&mut window, "Close");
+    wait(&mut window, "the settings", |w| has(w, "Root margin"));
+}

@@ -409,7 +409,10 @@ impl eframe::App for App {
         build_bar::show(ui, &mut self.state);
         let (lessons, mut around) = self.lessons();
         lessons.show(ui, &mut around);
-        self.side_bar(ui, Side::Left);
+        // Both at once would leave too little room for the picture.
+        if !self.lessons.is_listed() {
+            self.side_bar(ui, Side::Left);
+        }
         self.side_bar(ui, Side::Right);
         egui::CentralPanel::default()
             .frame(egui::Frame::new().fill(ui.visuals().panel_fill))

@@ -448,14 +448,15 @@ pub fn note_focus(ctx: &egui::Context) {
 }
 
 /// What the keys of this frame ask for. A shortcut without Shift takes a key with Shift too, so the
-/// one with Shift comes before it in the table. Plain keys belong to the focused widget or the open list, if
-/// there is one.
+/// one with Shift comes before it in the table. Plain keys belong to the focused widget, the open list, or
+/// the question that stands before the window, if there is one.
 fn keys(ctx: &egui::Context, scope: Scope) -> Vec<Action> {
     let before: Focus = ctx
         .data(|data| data.get_temp(Focus::id()))
         .unwrap_or_default();
     let now = Focus::of(ctx);
-    let focused = now.widget || before.widget || egui::Popup::is_any_open(ctx);
+    let asked = !ctx.memory(|memory| memory.allows_interaction(egui::LayerId::background()));
+    let focused = now.widget || before.widget || asked || egui::Popup::is_any_open(ctx);
     let typing = now.text || before.text;
     ctx.input_mut(|input| {
         SHORTCUTS

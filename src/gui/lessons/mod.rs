@@ -48,6 +48,11 @@ impl Lessons {
         self.running.is_some() || self.next.is_some()
     }
 
+    /// Whether the list of lessons is open.
+    pub fn is_listed(&self) -> bool {
+        self.listed
+    }
+
     /// Whether figures are to be hidden: a prediction is asked for.
     pub fn hides_figures(&self) -> bool {
         self.running.as_ref().is_some_and(Running::asks)
