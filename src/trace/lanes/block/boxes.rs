@@ -1,0 +1,118 @@
+//! Objects of any kind, by their bounds.
+#![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
+
+use super::{BLOCK, Block, MayHit, NONE, Numbers, T_ERROR, Within, in_the_way, parts};
+use crate::primitive::{Primitive, Shape, UnitFrame};
+use crate::trace::lanes::packet::{Bundle, Packet};
+use crate::trace::lanes::ray::LaneRays;
+use crate::trace::lanes::simd::Simd;
+
+/// Objects of any kind by their bounds.
+#[repr(C, align(64))]
+pub(in super::super) struct Boxes {
+    /// Lower and upper corners by axis.
+    corners: [[Numbers; 3]; 2],
+    objects: [u32; BLOCK],
+}
+
+impl Default for Boxes {
+    fn default() -> Self {
+        Boxes {
+            corners: [[[f32::NAN; BLOCK]; 3]; 2],
+            objects: [NONE; BLOCK],
+        }
+    }
+}
+
+impl Block for Boxes {
+    fn set(&mut self, lane: usize, object: u32, primitive: &Primitive, frame: &UnitFrame) {
+        let bounds = primitive.bounds();
+        for (corner, place) in [bounds.lo, bounds.hi].into_iter().zip(&mut self.corners) {
+            let corner = frame.point(corner).as_vec3();
+            for k in 0..3 {
+                place[k][lane] = corner[k];
+            }
+        }
+        self.objects[lane] = object;
+    }
+
+    fn objects(&self) -> &[u32; BLOCK] {
+        &self.objects
+    }
+
+    /// Where the ray is within the box, faces as thick as the planes of the tree.
+    #[inline(always)]
+    unsafe fn candidates<S: Simd>(
+        &self,
+        rays: &LaneRays,
+        ray: usize,
+        limit: f32,
+        _: bool,
+    ) -> MayHit {
+        let ray = rays.rays.get_unchecked(ray);
+        let (reach, shifted) = (ray.reach, ray.shifted(rays.thick));
+        let nearest = S::splat(ray.t_min - T_ERROR * reach);
+        let farthest = S::splat(limit + T_ERROR * reach);
+        parts!(S, self.objects, at => {
+            let (mut enter, mut exit) = (nearest, farthest);
+            for k in 0..3 {
+                let inverse = ray.inverse[k];
+                let backward = usize::from(inverse.is_sign_negative());
+                let inverse = S::splat(inverse);
+                let shifted = S::splat(shifted[k]);
+                let width = S::mul(S::abs(inverse), S::splat(2.0 * rays.thick));
+                let near = self.corners[backward][k].as_ptr().add(at);
+                let far = self.corners[1 - backward][k].as_ptr().add(at);
+                let begin = S::mul(S::sub(S::load(near), shifted), inverse);
+                let end = S::mul(S::sub(S::load(far), shifted), inverse);
+                enter = S::max(enter, begin);
+                exit = S::min(exit, S::add(end, width));
+            }
+            MayHit { maybe: S::bits(S::le(enter, exit)), surely: 0 }
+        })
+    }
+
+    #[inline(always)]
+    unsafe fn near<S: Simd>(&self, bundle: &Bundle) -> u32 {
+        let axes = bundle.axes;
+        let found = parts!(S, self.objects, at => {
+            let (mut low, mut high) = ([S::splat(0.0); 3], [S::splat(0.0); 3]);
+            for k in 0..3 {
+                low[k] = S::load(self.corners[0].get_unchecked(axes[k]).as_ptr().add(at));
+                high[k] = S::load(self.corners[1].get_unchecked(axes[k]).as_ptr().add(at));
+            }
+            MayHit { maybe: S::bits(in_the_way::<S>(low, high, bundle)), surely: 0 }
+        });
+        found.maybe
+    }
+
+    #[inline(always)]
+    unsafe fn rays_that_may_hit<S: Simd>(
+        &self,
+        place: usize,
+        packet: &Packet,
+        limits: S::F,
+        _: bool,
+    ) -> MayHit {
+        let load = |numbers: &[f32; BLOCK]| S::load(numbers.as_ptr());
+        let Within {
+            nearest, farthest, ..
+        } = Within::<S>::of_each(packet, limits);
+        let (mut enter, mut exit) = (nearest, farthest);
+        for k in 0..3 {
+            let inverse = load(&packet.inverse[k]);
+            let shifted = load(&packet.shifted[k]);
+            let width = S::mul(S::abs(inverse), S::splat(2.0 * packet.thick));
+            let [low, high] = [0, 1].map(|end| {
+                let corner = S::splat(*self.corners[end][k].get_unchecked(place));
+                S::mul(S::sub(corner, shifted), inverse)
+            });
+            enter = S::max(enter, S::min(low, high));
+            exit = S::min(exit, S::add(S::max(low, high), width));
+        }
+        MayHit {
+            maybe: S::bits(S::le(enter, exit)),
+            surely: 0,
+        }
+    }
+}
