@@ -331,7 +331,7 @@ impl<'a> LaneKernel<'a> {
                 InstructionSet::Avx512 => fill_avx512(&mut self.rays, root, rays),
                 #[cfg(target_arch = "x86_64")]
                 InstructionSet::Avx2 => fill_avx2(&mut self.rays, root, rays),
-                _ => self.rays.fill::<simd::portable::Portable>(root, rays),
+                _ => self.rays.fill::<Portable>(root, rays),
             }
         }
     }

@@ -1,9 +1,9 @@
 //! Objects of any kind, by their bounds.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::{BLOCK, Block, MayHit, NONE, Numbers, T_ERROR, Within, in_the_way, parts};
+use super::{BLOCK, Block, MayHit, NONE, Numbers, T_ERROR, Within, parts};
 use crate::primitive::{Primitive, Shape, UnitFrame};
-use crate::trace::lanes::packet::{Bundle, Packet};
+use crate::trace::lanes::packet::Packet;
 use crate::trace::lanes::ray::LaneRays;
 use crate::trace::lanes::simd::Simd;
 
@@ -73,17 +73,13 @@ impl Block for Boxes {
     }
 
     #[inline(always)]
-    unsafe fn near<S: Simd>(&self, bundle: &Bundle) -> u32 {
-        let axes = bundle.axes;
-        let found = parts!(S, self.objects, at => {
-            let (mut low, mut high) = ([S::splat(0.0); 3], [S::splat(0.0); 3]);
-            for k in 0..3 {
-                low[k] = S::load(self.corners[0].get_unchecked(axes[k]).as_ptr().add(at));
-                high[k] = S::load(self.corners[1].get_unchecked(axes[k]).as_ptr().add(at));
-            }
-            MayHit { maybe: S::bits(in_the_way::<S>(low, high, bundle)), surely: 0 }
-        });
-        found.maybe
+    unsafe fn bounds<S: Simd>(&self, axes: [usize; 3], at: usize) -> [[S::F; 3]; 2] {
+        let (mut low, mut high) = ([S::splat(0.0); 3], [S::splat(0.0); 3]);
+        for k in 0..3 {
+            low[k] = S::load(self.corners[0].get_unchecked(axes[k]).as_ptr().add(at));
+            high[k] = S::load(self.corners[1].get_unchecked(axes[k]).as_ptr().add(at));
+        }
+        [low, high]
     }
 
     #[inline(always)]

@@ -22,6 +22,23 @@ type Numbers = [f32; BLOCK];
 /// No object.
 pub(super) const NONE: u32 = u32::MAX;
 
+/// Runs `$body` for every part of a block that fills the lanes and gathers its bits. The numbers of
+/// places without an object are NaN, which nothing hits.
+macro_rules! parts {
+    ($simd:ident, $objects:expr, $at:ident => $body:expr) => {{
+        let mut found = MayHit::default();
+        let mut $at = 0;
+        while $at < BLOCK && ($at == 0 || $objects[$at] != NONE) {
+            let part: MayHit = $body;
+            found.maybe |= part.maybe << $at;
+            found.surely |= part.surely << $at;
+            $at += $simd::LANES;
+        }
+        found
+    }};
+}
+use parts;
+
 pub(super) trait Block: Default + Send + Sync {
     /// Puts an object in its place; the frame's coordinates are those of the block.
     fn set(&mut self, lane: usize, object: u32, primitive: &Primitive, frame: &UnitFrame);
@@ -41,11 +58,24 @@ pub(super) trait Block: Default + Send + Sync {
         any: bool,
     ) -> MayHit;
 
+    /// Lower and upper corners, along these axes, of what bounds the objects from the place `at` on.
+    ///
+    /// # Safety
+    /// As [`Simd`].
+    unsafe fn bounds<S: Simd>(&self, axes: [usize; 3], at: usize) -> [[S::F; 3]; 2];
+
     /// Objects that may be in the way of some ray of a bundle, a bit for each place.
     ///
     /// # Safety
     /// As [`Simd`].
-    unsafe fn near<S: Simd>(&self, bundle: &Bundle) -> u32;
+    #[inline(always)]
+    unsafe fn near<S: Simd>(&self, bundle: &Bundle) -> u32 {
+        let found = parts!(S, self.objects(), at => {
+            let corners = self.bounds::<S>(bundle.axes, at);
+            MayHit { maybe: S::bits(in_the_way::<S>(corners, bundle)), surely: 0 }
+        });
+        found.maybe
+    }
 
     /// The same the other way about: which rays of a packet may hit, or surely hit, the object in a
     /// place, each up to its own limit. The rays have one axis of the largest component.
@@ -67,7 +97,7 @@ pub(super) trait Block: Default + Send + Sync {
 /// # Safety
 /// As [`Simd`].
 #[inline(always)]
-unsafe fn in_the_way<S: Simd>(low: [S::F; 3], high: [S::F; 3], bundle: &Bundle) -> S::M {
+unsafe fn in_the_way<S: Simd>([low, high]: [[S::F; 3]; 2], bundle: &Bundle) -> S::M {
     let [x, y, z] = bundle.origin;
     let z_low = S::sub(low[2], S::splat(z[1]));
     let z_high = S::sub(high[2], S::splat(z[0]));
@@ -128,23 +158,6 @@ pub(super) struct MayHit {
 
 /// Of a distance along the ray.
 const T_ERROR: f32 = 32.0 * f32::EPSILON;
-
-/// Runs `$body` for every part of a block that fills the lanes and gathers its bits. The numbers of
-/// places without an object are NaN, which nothing hits.
-macro_rules! parts {
-    ($simd:ident, $objects:expr, $at:ident => $body:expr) => {{
-        let mut found = MayHit::default();
-        let mut $at = 0;
-        while $at < BLOCK && ($at == 0 || $objects[$at] != NONE) {
-            let part: MayHit = $body;
-            found.maybe |= part.maybe << $at;
-            found.surely |= part.surely << $at;
-            $at += $simd::LANES;
-        }
-        found
-    }};
-}
-use parts;
 
 /// Where on a ray in `f32` a hit must lie to count, and where to count whatever was rounded.
 #[derive(Clone, Copy)]

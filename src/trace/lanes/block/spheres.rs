@@ -1,9 +1,9 @@
 //! Spheres, by centre and radius.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::{BLOCK, Block, MayHit, NONE, Numbers, Within, dot, in_the_way, parts, splat3};
+use super::{BLOCK, Block, MayHit, NONE, Numbers, Within, dot, parts, splat3};
 use crate::primitive::{PackedSphere, Primitive, UnitFrame};
-use crate::trace::lanes::packet::{Bundle, Packet};
+use crate::trace::lanes::packet::Packet;
 use crate::trace::lanes::ray::LaneRays;
 use crate::trace::lanes::simd::Simd;
 use crate::trace::lanes::three;
@@ -81,19 +81,15 @@ impl Block for Spheres {
     }
 
     #[inline(always)]
-    unsafe fn near<S: Simd>(&self, bundle: &Bundle) -> u32 {
-        let axes = bundle.axes;
-        let found = parts!(S, self.objects, at => {
-            let radius = S::load(self.radius.as_ptr().add(at));
-            let (mut low, mut high) = ([radius; 3], [radius; 3]);
-            for k in 0..3 {
-                let center = S::load(self.center.get_unchecked(axes[k]).as_ptr().add(at));
-                low[k] = S::sub(center, radius);
-                high[k] = S::add(center, radius);
-            }
-            MayHit { maybe: S::bits(in_the_way::<S>(low, high, bundle)), surely: 0 }
-        });
-        found.maybe
+    unsafe fn bounds<S: Simd>(&self, axes: [usize; 3], at: usize) -> [[S::F; 3]; 2] {
+        let radius = S::load(self.radius.as_ptr().add(at));
+        let (mut low, mut high) = ([radius; 3], [radius; 3]);
+        for k in 0..3 {
+            let center = S::load(self.center.get_unchecked(axes[k]).as_ptr().add(at));
+            low[k] = S::sub(center, radius);
+            high[k] = S::add(center, radius);
+        }
+        [low, high]
     }
 
     #[inline(always)]

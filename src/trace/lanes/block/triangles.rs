@@ -1,9 +1,9 @@
 //! Triangles, by their vertices.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::{BLOCK, Block, MayHit, NONE, Numbers, Within, in_the_way, parts, splat3};
+use super::{BLOCK, Block, MayHit, NONE, Numbers, Within, parts, splat3};
 use crate::primitive::{Primitive, UnitFrame};
-use crate::trace::lanes::packet::{Bundle, Packet};
+use crate::trace::lanes::packet::Packet;
 use crate::trace::lanes::ray::LaneRays;
 use crate::trace::lanes::simd::Simd;
 use crate::trace::lanes::three;
@@ -78,21 +78,17 @@ impl Block for Triangles {
     }
 
     #[inline(always)]
-    unsafe fn near<S: Simd>(&self, bundle: &Bundle) -> u32 {
-        let axes = bundle.axes;
-        let found = parts!(S, self.objects, at => {
-            let (mut low, mut high) = ([S::splat(0.0); 3], [S::splat(0.0); 3]);
-            for k in 0..3 {
-                let axis = axes[k];
-                let a = S::load(self.vertices[0].get_unchecked(axis).as_ptr().add(at));
-                let b = S::load(self.vertices[1].get_unchecked(axis).as_ptr().add(at));
-                let c = S::load(self.vertices[2].get_unchecked(axis).as_ptr().add(at));
-                low[k] = S::min(S::min(a, b), c);
-                high[k] = S::max(S::max(a, b), c);
-            }
-            MayHit { maybe: S::bits(in_the_way::<S>(low, high, bundle)), surely: 0 }
-        });
-        found.maybe
+    unsafe fn bounds<S: Simd>(&self, axes: [usize; 3], at: usize) -> [[S::F; 3]; 2] {
+        let (mut low, mut high) = ([S::splat(0.0); 3], [S::splat(0.0); 3]);
+        for k in 0..3 {
+            let axis = axes[k];
+            let a = S::load(self.vertices[0].get_unchecked(axis).as_ptr().add(at));
+            let b = S::load(self.vertices[1].get_unchecked(axis).as_ptr().add(at));
+            let c = S::load(self.vertices[2].get_unchecked(axis).as_ptr().add(at));
+            low[k] = S::min(S::min(a, b), c);
+            high[k] = S::max(S::max(a, b), c);
+        }
+        [low, high]
     }
 
     #[inline(always)]

@@ -14,8 +14,8 @@ use super::ray::LaneRays;
 use super::simd::{Simd, WIDEST};
 use super::three;
 use super::walk::{Candidate, Tests};
-use rays::Numbers;
 pub(super) use rays::{Bundle, Packet};
+use rays::{Numbers, store};
 use std::ops::Range;
 
 /// Candidates that are tested at once, at most; a block adds up to [`BLOCK`] a ray.
@@ -80,7 +80,7 @@ impl Found<'_> {
         self.count += 1;
     }
 
-    /// Tests what there is, if there is no room for another block.
+    /// Tests what there is, if there is no room for what a block or a packet adds.
     #[inline(always)]
     fn make_room(&mut self, limits: &mut Numbers) {
         if self.count > MOST_CANDIDATES - BLOCK {
@@ -211,8 +211,8 @@ unsafe fn walk_packet<S: Simd, B: Block>(
             if go_first {
                 if go_second {
                     let aside = &mut *stack.add(waiting);
-                    S::store_u(aside.enter.as_mut_ptr().cast(), S::bits_of(second.enter));
-                    S::store_u(aside.exit.as_mut_ptr().cast(), S::bits_of(second.exit));
+                    store::<S>(&mut aside.enter, second.enter);
+                    store::<S>(&mut aside.exit, second.exit);
                     aside.node = far;
                     aside.lanes = second.lanes;
                     waiting += 1;
@@ -276,10 +276,11 @@ unsafe fn visit<S: Simd, B: Block>(
             object: objects[place as usize],
             surely,
         };
-        let mut near = u32::MAX;
-        if packet.is_one_axis {
-            near = block.near::<S>(&packet.bundle);
-        }
+        let mut near = if packet.is_one_axis {
+            block.near::<S>(&packet.bundle)
+        } else {
+            u32::MAX
+        };
         // Every object against all rays, or every ray against all objects, whichever is less.
         if packet.is_one_axis && lanes.count_ones() >= near.count_ones() {
             while near != 0 {

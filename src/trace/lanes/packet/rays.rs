@@ -79,39 +79,38 @@ impl Packet {
             copy::<S>(&mut self.shifted[k], starts.shifted[k].as_ptr().add(first));
             copy::<S>(&mut self.inverse[k], starts.inverse[k].as_ptr().add(first));
         }
-        if count == S::LANES && self.ray[count - 1] - self.ray[0] == count as u32 - 1 {
-            // Neighbours in memory.
-            let from = rays.rays.as_ptr().add(self.ray[0] as usize).cast::<f32>();
-            let [ox, oy, oz, dx, dy, dz, t_min, t_max] = S::columns(from);
-            let [.., reach, axis, _, _, _] = S::columns(from.add(HALF));
-            for (to, from) in self.origin.iter_mut().zip([ox, oy, oz]) {
-                store::<S>(to, from);
-            }
-            for (to, from) in self.direction.iter_mut().zip([dx, dy, dz]) {
-                store::<S>(to, from);
-            }
-            store::<S>(&mut self.t_min, t_min);
-            store::<S>(&mut self.t_max, t_max);
-            store::<S>(&mut self.reach, reach);
-            let same = S::eq_u(S::bits_of(axis), S::splat_u(one.axis));
-            self.is_one_axis = self.lanes & !S::bits(same) == 0;
-            if self.is_one_axis {
-                self.tie::<S>(one.turned_axes());
-            }
-            return;
-        }
-        self.is_one_axis = true;
-        for lane in 0..count {
-            let ray = &rays.rays[self.ray[lane] as usize];
-            for k in 0..3 {
-                self.origin[k][lane] = ray.origin[k];
-                self.direction[k][lane] = ray.direction[k];
-            }
-            self.t_min[lane] = ray.t_min;
-            self.t_max[lane] = ray.t_max;
-            self.reach[lane] = ray.reach;
-            self.is_one_axis &= ray.axis == one.axis;
-        }
+        // Neighbours in memory are read in vectors.
+        self.is_one_axis =
+            if count == S::LANES && self.ray[count - 1] - self.ray[0] == count as u32 - 1 {
+                let from = rays.rays.as_ptr().add(self.ray[0] as usize).cast::<f32>();
+                let [ox, oy, oz, dx, dy, dz, t_min, t_max] = S::columns(from);
+                let [.., reach, axis, _, _, _] = S::columns(from.add(HALF));
+                for (to, from) in self.origin.iter_mut().zip([ox, oy, oz]) {
+                    store::<S>(to, from);
+                }
+                for (to, from) in self.direction.iter_mut().zip([dx, dy, dz]) {
+                    store::<S>(to, from);
+                }
+                store::<S>(&mut self.t_min, t_min);
+                store::<S>(&mut self.t_max, t_max);
+                store::<S>(&mut self.reach, reach);
+                let same = S::eq_u(S::bits_of(axis), S::splat_u(one.axis));
+                self.lanes & !S::bits(same) == 0
+            } else {
+                let mut same = true;
+                for lane in 0..count {
+                    let ray = &rays.rays[self.ray[lane] as usize];
+                    for k in 0..3 {
+                        self.origin[k][lane] = ray.origin[k];
+                        self.direction[k][lane] = ray.direction[k];
+                    }
+                    self.t_min[lane] = ray.t_min;
+                    self.t_max[lane] = ray.t_max;
+                    self.reach[lane] = ray.reach;
+                    same &= ray.axis == one.axis;
+                }
+                same
+            };
         if self.is_one_axis {
             self.tie::<S>(one.turned_axes());
         }
@@ -169,7 +168,7 @@ unsafe fn bounds<S: Simd>(x: S::F, lanes: S::M) -> [f32; 2] {
 /// # Safety
 /// As [`Simd`].
 #[inline(always)]
-unsafe fn store<S: Simd>(to: &mut Numbers, x: S::F) {
+pub(super) unsafe fn store<S: Simd>(to: &mut Numbers, x: S::F) {
     S::store_u(to.as_mut_ptr().cast(), S::bits_of(x));
 }
 
