@@ -314,6 +314,41 @@ fn any_number_of_rays_is_answered() {
     }
 }
 
+/// A leaf where every ray of a packet may hit every object of the first block, and all but the last
+/// surely hit those of the second: as many candidates as can wait at once.
+#[test]
+fn however_many_candidates_wait_there_is_room() {
+    let triangle = |corners: [[f64; 2]; 3], z: f64| {
+        let corners = corners.map(|[x, y]| Vec3::new(x, y, z));
+        Primitive::Triangle(Triangle::new(corners, None).unwrap())
+    };
+    let on_an_edge = (0..16).map(|k| triangle([[-1., 0.], [17., 0.], [8., 9.]], f64::from(k)));
+    let on_a_tip = (0..16).map(|k| triangle([[-9., -5.], [-9., 5.], [14., 0.]], f64::from(-k)));
+    let scene = scene("a leaf", on_an_edge.chain(on_a_tip).collect());
+    let settings = BuildSettings {
+        d_max: MaxDepth::Fixed(0),
+        ..BuildSettings::for_method(Method::named("midpoint").unwrap())
+    };
+    let tree = build(&scene, &settings, &Progress::new()).unwrap();
+    let down = -Vec3::Z;
+    let rays: Vec<Ray> = (0..15)
+        .map(|x| Ray::new(Vec3::new(f64::from(x), 0.0, 20.0), down))
+        .collect();
+    let lanes = LaneTree::of(&scene, &tree);
+    let shapes = scene.shapes(Precision::F32);
+    let mut scratch = Scratch::default();
+    let expected: Vec<bool> = rays
+        .iter()
+        .map(|ray| any_hit(&tree, shapes, ray, &mut scratch, &mut ()))
+        .collect();
+    for (instructions, company) in paths() {
+        let mut kernel = LaneKernel::new(&tree, lanes, shapes, instructions, company);
+        let mut blocked = vec![false; rays.len()];
+        kernel.any_hits(&rays, &mut blocked);
+        assert_eq!(blocked, expected, "{instructions:?}, {company:?}");
+    }
+}
+
 #[test]
 fn every_kernel_gives_the_same_picture() {
     for name in ["balls:2", "teaching"] {

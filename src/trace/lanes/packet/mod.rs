@@ -76,6 +76,7 @@ impl Found<'_> {
     /// There is room for it.
     #[inline(always)]
     unsafe fn add(&mut self, candidate: Candidate) {
+        debug_assert!(self.count < MOST_CANDIDATES);
         *self.candidates.get_unchecked_mut(self.count) = candidate;
         self.count += 1;
     }
@@ -286,6 +287,7 @@ unsafe fn visit<S: Simd, B: Block>(
             while near != 0 {
                 let place = near.trailing_zeros();
                 near &= near - 1;
+                found.make_room(limits);
                 let may_hit = block.rays_that_may_hit::<S>(
                     place as usize,
                     packet,
@@ -300,13 +302,13 @@ unsafe fn visit<S: Simd, B: Block>(
                     maybe &= maybe - 1;
                     found.add(candidate(lane, place, surely >> lane & 1 != 0));
                 }
-                found.make_room(limits);
             }
         } else {
             let mut ahead = lanes;
             while ahead != 0 {
                 let lane = ahead.trailing_zeros();
                 ahead &= ahead - 1;
+                found.make_room(limits);
                 let ray = packet.ray[lane as usize] as usize;
                 let limit = limits[lane as usize];
                 let MayHit { mut maybe, surely } =
@@ -320,7 +322,6 @@ unsafe fn visit<S: Simd, B: Block>(
                     found.add(candidate(lane, maybe.trailing_zeros(), false));
                     maybe &= maybe - 1;
                 }
-                found.make_room(limits);
             }
         }
     }
