@@ -183,13 +183,11 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
                 narrow: &narrow,
             };
             let mut times = vec![Vec::new(); entrants.len()];
-            let mut answers: Vec<Answers> = Vec::new();
+            let mut answers: Vec<Answers> = entrants.iter().map(|_| Answers::default()).collect();
             for _ in 0..options.rounds {
-                answers.clear();
-                for (entrant, times) in entrants.iter().zip(&mut times) {
-                    let (answer, time) = ask(entrant.kernel.as_ref(), set, rays, threads);
-                    answers.push(answer);
-                    times.push(time);
+                for (k, entrant) in entrants.iter().enumerate() {
+                    let time = ask(entrant.kernel.as_ref(), set, rays, threads, &mut answers[k]);
+                    times[k].push(time);
                 }
             }
             let reference = entrants.iter().position(|e| e.name == plain).expect("kept");
@@ -223,9 +221,15 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
 /// Rays that a thread takes at once.
 const CHUNK: usize = 1 << 14;
 
-/// A kernel's answers and the time it took, in seconds: the thread's own time on one thread, that of
-/// the clock on the wall on several.
-fn ask(kernel: &dyn Kernel, set: &RaySet, rays: Rays<'_>, threads: usize) -> (Answers, f64) {
+/// Puts a kernel's answers in place of those of the last round and gives the time it took, in seconds:
+/// the thread's own time on one thread, that of the clock on the wall on several.
+fn ask(
+    kernel: &dyn Kernel,
+    set: &RaySet,
+    rays: Rays<'_>,
+    threads: usize,
+    answers: &mut Answers,
+) -> f64 {
     let ask = |rays: Rays<'_>, answers: &mut Answers| {
         if set.any {
             kernel.any(rays, &mut answers.blocked);
@@ -233,15 +237,16 @@ fn ask(kernel: &dyn Kernel, set: &RaySet, rays: Rays<'_>, threads: usize) -> (An
             kernel.closest(rays, &mut answers.found);
         }
     };
-    let empty = |rays: usize| Answers {
-        found: Vec::with_capacity(rays),
-        blocked: Vec::with_capacity(rays),
-    };
+    // Written once before, so that no time is taken for the system to find the memory.
+    let room = rays.wide.len();
+    answers.found.resize(room, None);
+    answers.found.clear();
+    answers.blocked.resize(room, false);
+    answers.blocked.clear();
     if threads == 1 {
-        let mut answers = empty(rays.wide.len());
         let start = cpu_time::ThreadTime::now();
-        ask(rays, &mut answers);
-        return (answers, start.elapsed().as_secs_f64());
+        ask(rays, answers);
+        return start.elapsed().as_secs_f64();
     }
     let chunks: Vec<Rays<'_>> = rays
         .wide
@@ -258,7 +263,10 @@ fn ask(kernel: &dyn Kernel, set: &RaySet, rays: Rays<'_>, threads: usize) -> (An
                 loop {
                     let k = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
                     let Some(&rays) = chunks.get(k) else { return };
-                    let mut answers = empty(rays.wide.len());
+                    let mut answers = Answers {
+                        found: Vec::with_capacity(rays.wide.len()),
+                        blocked: Vec::with_capacity(rays.wide.len()),
+                    };
                     ask(rays, &mut answers);
                     parts.lock().expect("no thread panics").push((k, answers));
                 }
@@ -268,12 +276,11 @@ fn ask(kernel: &dyn Kernel, set: &RaySet, rays: Rays<'_>, threads: usize) -> (An
     let time = start.elapsed().as_secs_f64();
     let mut parts = parts.into_inner().expect("no thread panics");
     parts.sort_by_key(|(k, _)| *k);
-    let mut answers = Answers::default();
     for (_, part) in parts {
         answers.found.extend(part.found);
         answers.blocked.extend(part.blocked);
     }
-    (answers, time)
+    time
 }
 
 /// How many answers differ by more than the rounding of an `f32`.
