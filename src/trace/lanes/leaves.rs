@@ -101,9 +101,9 @@ impl<const N: usize> Leaves<N> {
     }
 }
 
-/// Asks for a block before it is needed.
+/// Asks for a block or node before it is needed.
 #[inline(always)]
-unsafe fn prefetch<B>(block: *const B) {
+pub(super) unsafe fn prefetch<B>(block: *const B) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};

@@ -15,6 +15,7 @@ mod crossings;
 mod exact;
 mod leaves;
 mod packet;
+mod pages;
 mod prepare;
 mod ray;
 mod simd;

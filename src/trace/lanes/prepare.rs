@@ -2,9 +2,10 @@
 //! traced, leaves in blocks.
 
 use super::block::{BLOCK, Block};
+use super::pages::Pages;
 use crate::geometry::{Axis, Vec3};
 use crate::primitive::{Primitive, PrimitiveKind, Shape, UnitFrame};
-use crate::tree::{OverlapRule, Tree, is_inside};
+use crate::tree::{self, OverlapRule, Tree, is_inside};
 
 /// A node in 8 bytes.
 ///
@@ -43,8 +44,8 @@ const MOST_NODES: usize = 1 << (32 - PLACE);
 
 /// A tree ready for lanes, with objects of one form.
 pub(super) struct Prepared<B> {
-    pub(super) nodes: Vec<Node>,
-    pub(super) blocks: Vec<B>,
+    pub(super) nodes: Pages<Node>,
+    pub(super) blocks: Pages<B>,
     /// The most nodes that can wait on a ray's stack.
     pub(super) most_waiting: usize,
     /// Half the thickness of every plane and face.
@@ -78,27 +79,31 @@ impl<B: Block> Prepared<B> {
         } else {
             [corner(bounds.lo, -thick), corner(bounds.hi, thick)]
         };
+        let blocks = |node: &tree::Node| match node.is_leaf() {
+            true => node.as_leaf().1.div_ceil(BLOCK),
+            false => 0,
+        };
         let mut maker = Maker {
             tree,
             objects,
             frame,
             held: Vec::new(),
             made: Prepared {
-                nodes: vec![Node::default(); 2],
-                blocks: Vec::new(),
+                nodes: Pages::with_room(tree.nodes().len() + 1),
+                blocks: Pages::with_room(tree.nodes().iter().map(blocks).sum()),
                 most_waiting: 0,
                 thick,
                 corners,
             },
         };
+        // The root, and none beside it.
+        maker.two_nodes();
         maker.node(0, 0, [[-1.0, 1.0]; 3], 0);
-        maker.made.nodes.shrink_to_fit();
-        maker.made.blocks.shrink_to_fit();
         maker.made
     }
 
     pub(super) fn bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice()) + size_of_val(self.blocks.as_slice())
+        size_of_val(&*self.nodes) + size_of_val(&*self.blocks)
     }
 }
 
@@ -122,8 +127,7 @@ impl<B: Block> Maker<'_, B> {
             return;
         }
         let (axis, plane, above) = node.as_inner();
-        let place = self.made.nodes.len();
-        self.made.nodes.resize(place + 2, Node::default());
+        let place = self.two_nodes();
         let (mut lower, mut upper) = (cell, cell);
         lower[axis][1] = plane;
         upper[axis][0] = plane;
@@ -139,6 +143,14 @@ impl<B: Block> Maker<'_, B> {
             payload: self.plane(axis, plane).to_bits(),
             word,
         };
+    }
+
+    /// Room for two nodes side by side; gives the place of the first.
+    fn two_nodes(&mut self) -> usize {
+        let nodes = &mut self.made.nodes;
+        nodes.push(Node::default());
+        nodes.push(Node::default());
+        nodes.len() - 2
     }
 
     /// A plane in the frame's coordinates. None of the scene is beyond ±½ there, so that planes

@@ -7,7 +7,7 @@
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
 use super::block::{BLOCK, Block};
-use super::leaves::{Leaf, Leaves};
+use super::leaves::{Leaf, Leaves, prefetch};
 use super::prepare::{ABOVE_EMPTY, BELOW_EMPTY, LEAF, PLACE, Prepared};
 use super::ray::{CHUNK, LaneRays};
 use super::simd::{Simd, WIDEST};
@@ -180,6 +180,9 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
                 let ray = *group.ray.get_unchecked(lane);
                 let block = tree.blocks.get_unchecked(block_number as usize);
                 let limit = *limits.get_unchecked(j).get_unchecked(lane);
+                // Or the same again: nothing predicts whether the leaf has more.
+                let next = block_number as usize + usize::from(leaf.left > 1);
+                prefetch(tree.blocks.as_ptr().add(next));
                 let may_hit = block.candidates::<S>(rays, ray as usize, limit, any_will_do);
                 let surely = may_hit.surely != 0;
                 let mut maybe = select_unpredictable(surely, lowest(may_hit.surely), may_hit.maybe);

@@ -8,6 +8,7 @@ use crate::trace::lanes::ray::LaneRays;
 use crate::trace::lanes::simd::Simd;
 
 /// Objects of any kind by their bounds.
+#[derive(Clone, Copy)]
 #[repr(C, align(64))]
 pub(in super::super) struct Boxes {
     /// Lower and upper corners by axis.

@@ -39,7 +39,7 @@ macro_rules! parts {
 }
 use parts;
 
-pub(super) trait Block: Default + Send + Sync {
+pub(super) trait Block: Copy + Default + Send + Sync {
     /// Puts an object in its place; the frame's coordinates are those of the block.
     fn set(&mut self, lane: usize, object: u32, primitive: &Primitive, frame: &UnitFrame);
 

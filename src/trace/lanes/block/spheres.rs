@@ -13,6 +13,7 @@ use crate::trace::lanes::three;
 const OFFSET_ERROR: f32 = 96.0 * f32::EPSILON;
 
 /// Spheres.
+#[derive(Clone, Copy)]
 #[repr(C, align(64))]
 pub(in super::super) struct Spheres {
     center: [Numbers; 3],

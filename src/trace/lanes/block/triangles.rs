@@ -15,6 +15,7 @@ use crate::trace::lanes::three;
 const EDGE_ERROR: f32 = 48.0 * f32::EPSILON;
 
 /// Triangles by their vertices.
+#[derive(Clone, Copy)]
 #[repr(C, align(64))]
 pub(in super::super) struct Triangles {
     /// By vertex, by axis.
@@ -162,10 +163,13 @@ impl<S: Simd> Turned<S> {
         let last = S::max(S::max(ta, tb), tc);
         let reached = S::and(S::le(first, farthest), S::le(nearest, last));
         let maybe = S::and_not(reached, missed);
+        // In half a block there is often none; whether there is in a whole one nothing predicts.
+        if S::LANES < BLOCK && S::bits(maybe) == 0 {
+            return MayHit::default();
+        }
         // The distance is a mean of those of the vertices, weighted by the edge functions. With D
         // their sum: if they are off by `error` each, it is by 3 `error` / |D| times the span of
-        // those distances, at most. Nothing predicts whether it is wanted: it is computed without
-        // asking.
+        // those distances, at most.
         let sum = S::add(S::add(u, v), w);
         let inverse = S::div(S::splat(1.0), sum);
         let t = S::mul(S::mul_add(u, ta, S::mul_add(v, tb, S::mul(w, tc))), inverse);

@@ -9,6 +9,7 @@
 mod rays;
 
 use super::block::{BLOCK, Block, MayHit};
+use super::leaves::prefetch;
 use super::prepare::{ABOVE_EMPTY, BELOW_EMPTY, LEAF, Node, PLACE, Prepared};
 use super::ray::LaneRays;
 use super::simd::{Simd, WIDEST};
@@ -266,7 +267,11 @@ unsafe fn visit<S: Simd, B: Block>(
     any_will_do: bool,
 ) {
     let (from, to) = (leaf.payload, leaf.payload + (leaf.word >> 2));
+    prefetch(tree.blocks.as_ptr().add(from as usize));
     for number in from..to {
+        if number + 1 < to {
+            prefetch(tree.blocks.as_ptr().add(number as usize + 1));
+        }
         let block = tree.blocks.get_unchecked(number as usize);
         let objects = block.objects();
         let candidate = |lane: u32, place: u32, surely| Candidate {
