@@ -180,7 +180,7 @@ pub enum RayCompany {
     Lanes,
     /// As many neighbours as there are lanes walk together, for rays that take much the same way.
     Packets,
-    /// Packets, if those at the beginning of a call keep together; else lanes.
+    /// Packets as long as those of a call keep together; then lanes.
     Auto,
 }
 
@@ -342,8 +342,7 @@ impl<'a> LaneKernel<'a> {
         let mut ahead = 0..self.rays.starts.count;
         if self.in_packets.is_none() {
             let first = ahead.end.min(SAMPLE);
-            let company = self.walk_packets(0..first, tests);
-            self.in_packets = Some(company.is_close(self.instructions.lanes()));
+            self.walk_packets(0..first, tests);
             ahead.start = first;
         }
         if self.in_packets == Some(true) {
@@ -370,9 +369,10 @@ impl<'a> LaneKernel<'a> {
         });
     }
 
-    fn walk_packets(&mut self, ahead: Range<usize>, tests: &mut dyn Tests) -> Company {
+    /// Walks rays in packets, and chooses how those after them go where that is to be chosen.
+    fn walk_packets(&mut self, ahead: Range<usize>, tests: &mut dyn Tests) {
         let (rays, stack) = (&*self.rays, &mut self.asides);
-        with_prepared!(self.lanes, tree => {
+        let together = with_prepared!(self.lanes, tree => {
             // SAFETY: as above.
             unsafe {
                 match self.instructions {
@@ -383,7 +383,10 @@ impl<'a> LaneKernel<'a> {
                     _ => walk_packets::<Portable, _>(tree, rays, ahead, stack, tests),
                 }
             }
-        })
+        });
+        if self.company == RayCompany::Auto {
+            self.in_packets = Some(together.is_close(self.instructions.lanes()));
+        }
     }
 }
 
