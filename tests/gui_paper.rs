@@ -3,7 +3,7 @@
 mod window_harness;
 
 use egui_kittest::kittest::Queryable as _;
-use window_harness::{Window, click, finish, has, open, small, wait};
+use window_harness::{Window, click, finish, has, open, open_sized, press, small, wait};
 
 /// A window with the panel unfolded and one scene chosen.
 fn with_panel<'a>(scene: &str) -> Window<'a> {
@@ -35,6 +35,18 @@ fn the_experiment_runs_beside_the_window_and_shows_printed_beside_computed() {
     assert!(window.query_by_label("96056 ").is_some());
     assert!(window.query_by_label("11540  ~").is_some());
     assert!(has(&window, "equal after rounding"));
+}
+
+#[test]
+fn begun_by_its_shortcut_it_is_brought_into_view() {
+    let mut window = open_sized(small("tetra:2"), [1280.0, 400.0], false);
+    finish(&mut window);
+    assert!(window.query_by_label("Cancel the experiment").is_none());
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::U);
+    wait(&mut window, "its panel", |w| {
+        let button = w.query_by_label("Cancel the experiment");
+        button.is_some_and(|b| egui::Rangef::new(0.0, 400.0).contains(b.rect().bottom()))
+    });
 }
 
 #[test]

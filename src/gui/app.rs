@@ -31,6 +31,8 @@ pub struct App {
     files: Files,
     panes: Panes,
     layout: Layout,
+    /// The title of a panel to be brought into view.
+    sought: Option<&'static str>,
     /// Whether no layout was kept: it is made when the width of the window is known.
     layout_is_new: bool,
     layout_file: KeptFile,
@@ -83,6 +85,7 @@ impl App {
             help_open: false,
             palette: Palette::default(),
             exports: Exports::default(),
+            sought: None,
             lessons: Lessons::new(start.lesson.take()),
             first_hint,
         };
@@ -190,6 +193,7 @@ impl App {
             Action::Paper => {
                 let threads = state.wanted.render.threads;
                 state.experiment.start_or_cancel(threads, ctx);
+                self.seek(&panels::paper::PANEL);
             }
             Action::Lessons | Action::LessonReveal | Action::LessonNext | Action::LessonBack => {
                 let (lessons, mut around) = self.lessons();
@@ -213,6 +217,17 @@ impl App {
                 None => build_bar::act(action, state, ctx.input(|i| i.time)),
             },
         }
+    }
+
+    /// Unfolds a panel and brings it into view.
+    fn seek(&mut self, panel: &panels::Panel) {
+        let bar = match panel.side {
+            Side::Left => &mut self.layout.left,
+            Side::Right => &mut self.layout.right,
+        };
+        bar.shown = true;
+        self.layout.unfolded.insert(panel.title.to_owned(), true);
+        self.sought = Some(panel.title);
     }
 
     /// The lessons, and what they set and bring back.
@@ -262,7 +277,7 @@ impl App {
             Side::Left => (egui::Panel::left("left"), left, 180.0..=480.0),
             Side::Right => (egui::Panel::right("right"), right, 220.0..=640.0),
         };
-        let state = &mut self.state;
+        let (state, sought) = (&mut self.state, &mut self.sought);
         let hidden = side == Side::Right && self.lessons.hides_figures();
         let shown = panel
             .default_size(bar.width)
@@ -273,7 +288,7 @@ impl App {
                     ui.set_width(ui.available_width());
                     ui.weak(HIDDEN);
                 } else {
-                    panels::show(ui, side, state, unfolded);
+                    panels::show(ui, side, state, unfolded, sought);
                 }
             });
         if let Some(shown) = shown {

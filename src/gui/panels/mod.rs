@@ -49,12 +49,14 @@ pub static PANELS: &[Panel] = &[
     paper::PANEL,
 ];
 
-/// Shows the panels of one side; `unfolded` says by title which were folded or unfolded.
+/// Shows the panels of one side; `unfolded` says by title which were folded or unfolded. The panel of
+/// the title in `sought` is brought to the top, once.
 pub fn show(
     ui: &mut egui::Ui,
     side: Side,
     state: &mut State,
     unfolded: &mut BTreeMap<String, bool>,
+    sought: &mut Option<&'static str>,
 ) {
     egui::ScrollArea::vertical()
         .auto_shrink(false)
@@ -64,6 +66,9 @@ pub fn show(
                 let shown = egui::CollapsingHeader::new(egui::RichText::new(panel.title).strong())
                     .open(Some(open))
                     .show_unindented(ui, |ui| (panel.show)(ui, state));
+                if sought.take_if(|title| *title == panel.title).is_some() {
+                    shown.header_response.scroll_to_me(Some(egui::Align::TOP));
+                }
                 if shown.header_response.clicked() {
                     unfolded.insert(panel.title.to_owned(), !open);
                 }

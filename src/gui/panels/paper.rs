@@ -9,7 +9,7 @@ use crate::measure::paper::{
 use crate::progress::Progress;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
-pub(super) const PANEL: Panel = Panel {
+pub const PANEL: Panel = Panel {
     title: "The paper's tables",
     side: Side::Right,
     open: false,
