@@ -7,7 +7,7 @@ use bspscope::scene::load;
 use bspscope::tree::{Moment, NodeKind, Tree, TreeIndex, build};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use window_harness::{Window, click, grouped, has, open_sized, press, small, wait};
+use window_harness::{Window, click, finish, grouped, has, open_sized, press, small, wait};
 
 /// The tree on view, and facts of its nodes.
 fn expected() -> (Tree, TreeIndex) {
@@ -21,9 +21,7 @@ fn expected() -> (Tree, TreeIndex) {
 
 fn open<'a>() -> Window<'a> {
     let mut window = open_sized(small("balls:1"), [1600.0, 1100.0], true);
-    wait(&mut window, "finished", |w| {
-        w.query_by_label("finished").is_some()
-    });
+    finish(&mut window);
     window
 }
 

@@ -8,7 +8,7 @@ use bspscope::trace::{PixelRecord, RayKind, RenderSettings, Step, record_pixel};
 use bspscope::tree::build;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use window_harness::{SIZE, Window, click, has, open_sized, press, wait};
+use window_harness::{SIZE, Window, click, finish, has, open_sized, press, wait};
 
 /// The pixel in the picture's middle, which a click on the picture picks.
 const MIDDLE: u32 = SIZE / 2;
@@ -36,9 +36,7 @@ fn expected() -> PixelRecord {
 fn picked<'a>(graphics: bool) -> Window<'a> {
     // High enough that the lists need not be scrolled to.
     let mut window = open_sized(start(), [1500.0, 1500.0], graphics);
-    wait(&mut window, "the picture", |w| {
-        w.query_by_label("finished").is_some()
-    });
+    finish(&mut window);
     assert!(has(&window, "step – of –"));
     window.get_by_label("Traced picture").click();
     let rays = expected().rays.len();
