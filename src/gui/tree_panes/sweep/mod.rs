@@ -52,9 +52,7 @@ impl SweepPane {
         };
         let best = answers(&found.rows, self.shown);
         for answer in &best {
-            let text = answer.sentence(self.shown);
-            ui.add(egui::Label::new(&text).truncate())
-                .on_hover_text(&text);
+            ui.add(egui::Label::new(answer.sentence(self.shown)).wrap());
         }
         let best: Vec<&Row> = best.iter().map(|answer| answer.best).collect();
         let size = crate::gui::rest_of(ui);
