@@ -4,9 +4,10 @@
 mod window_harness;
 
 use bspscope::gui::StartOptions;
+use bspscope::measure::model::Region;
 use bspscope::scene::SceneSource;
-use bspscope::tree::MaxDepth;
-use bspscope::workspace::{Arrangement, VERSION, Workspace};
+use bspscope::tree::{MaxDepth, Moment};
+use bspscope::workspace::{Arrangement, NODES_A_RAY, VERSION, Workspace};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::path::Path;
@@ -63,14 +64,19 @@ fn saved_changed_and_restored_it_is_the_same() {
     let path = folder.path().join("first.bspscope");
     let mut window = open(small("balls:1"));
     finish(&mut window);
-    // Two trees, settings of their own, a heatmap, a picked and pinned pixel, a step of its walk.
+    // Two trees, settings of their own, a moment of the build, a zoom, a heatmap, a picked and pinned
+    // pixel, a step of its walk.
     press(&mut window, Modifiers::COMMAND, Key::E);
     wait(&mut window, "both", |w| has(w, "May be compared"));
     press(&mut window, Modifiers::NONE, Key::J);
     press(&mut window, Modifiers::COMMAND, Key::M);
     finish(&mut window);
+    press(&mut window, Modifiers::COMMAND, Key::G);
+    press(&mut window, Modifiers::ALT, Key::ArrowRight);
+    press(&mut window, Modifiers::ALT, Key::ArrowRight);
     window.get_by_label("Traced picture").click();
     wait(&mut window, "the object", |w| has(w, "Hits sphere "));
+    press(&mut window, Modifiers::COMMAND, Key::Num0);
     press(&mut window, Modifiers::NONE, Key::P);
     press(&mut window, Modifiers::NONE, Key::H);
     press(&mut window, Modifiers::NONE, Key::Period);
@@ -91,7 +97,21 @@ fn saved_changed_and_restored_it_is_the_same() {
     let selected = saved.view.selected;
     assert_eq!(saved.view.pinned, [selected.pixel.unwrap()]);
     assert!(selected.step > 0 && selected.node.is_some() && selected.object.is_some());
+    assert_eq!(saved.view.build, Some(Moment::Node(2)));
+    assert_eq!(saved.view.picture.zoom, Some(1.0));
     assert!(saved.layout.is_some());
+    // What is dragged in panes, changed by hand in the file.
+    let mut saved = saved;
+    saved.view.picture.offset = [-12.0, 7.5];
+    saved.view.region = Some(Region {
+        x: 3,
+        y: 4,
+        width: 10,
+        height: 20,
+    });
+    let ranges = [("depth", [1.0, 5.0]), (NODES_A_RAY, [2.0, 9.0])];
+    saved.view.ranges = ranges.map(|(name, range)| (name.to_owned(), range)).into();
+    saved.write(&path).unwrap();
 
     // Everything else.
     press(&mut window, Modifiers::COMMAND, Key::E);
@@ -105,6 +125,7 @@ fn saved_changed_and_restored_it_is_the_same() {
     let other = save_as(&mut window, &folder.path().join("second.bspscope"));
     assert_ne!(other.a, saved.a);
     assert!(other.b.is_none() && other.layout != saved.layout);
+    assert!(other.view.build.is_none() && other.view.ranges.is_empty());
 
     open_path(&mut window, &path);
     wait(&mut window, "the workspace", |w| {

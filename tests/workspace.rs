@@ -2,13 +2,14 @@
 //! line; nothing is half-loaded.
 
 use bspscope::geometry::{Axis, Vec3};
+use bspscope::measure::model::Region;
 use bspscope::overlay::Visited;
 use bspscope::scene::{Camera, Cylinders, Sampling, SceneRequest, SceneSource};
 use bspscope::trace::{KernelChoice, PrecisionChoice, RenderSettings};
-use bspscope::tree::{BuildSettings, MaxDepth, Method, OverlapRule};
+use bspscope::tree::{BuildSettings, MaxDepth, Method, Moment, OverlapRule};
 use bspscope::workspace::{
-    Arrangement, CutSettings, Heat, PictureSettings, Selected, TreeSettings, VERSION, View,
-    View3dSettings, Which, Workspace, WorkspaceError,
+    Arrangement, CutSettings, Heat, NODES_A_RAY, PicturePlace, PictureSettings, Selected,
+    TreeSettings, VERSION, View, View3dSettings, Which, Workspace, WorkspaceError,
 };
 use std::path::Path;
 
@@ -66,6 +67,16 @@ fn changed() -> Workspace {
         arrangement: Arrangement::Beside,
         split: 0.7,
         pinned: vec![[1, 2], [300, 4]],
+        picture: PicturePlace {
+            zoom: Some(2.5),
+            offset: [-10.25, 3.0],
+        },
+        region: Some(Region {
+            x: 1,
+            y: 2,
+            width: 30,
+            height: 40,
+        }),
         selected: Selected {
             pixel: Some([7, 9]),
             ray: 2,
@@ -73,6 +84,10 @@ fn changed() -> Workspace {
             node: Some(11),
             object: Some(3),
         },
+        build: Some(Moment::Node(7)),
+        ranges: [("depth", [2.0, 5.0]), (NODES_A_RAY, [10.0, 20.5])]
+            .map(|(name, range)| (name.to_owned(), range))
+            .into(),
         heatmap: Heat {
             show: Some("N_NODES".into()),
             rays: "shadow".into(),
@@ -212,6 +227,14 @@ fn mistakes_are_told_with_file_line_and_reason() {
             "no build method is called 'best'",
         ),
         ("split = 0.7", "split = 7", "from 0 to 1"),
+        ("zoom = 2.5", "zoom = 0", "from 0.02 to 200"),
+        ("node = 7", "nod = 7", "unknown variant `nod`"),
+        (
+            "depth = [2.0, 5.0]",
+            "dpth = [2.0, 5.0]",
+            "no histogram is called 'dpth'",
+        ),
+        ("width = 30", "width = -30", "expected u32"),
         (
             "show = \"N_NODES\"",
             "show = \"N_X\"",

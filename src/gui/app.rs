@@ -99,6 +99,7 @@ impl App {
     /// All that is shown, as a workspace.
     fn workspace(&self) -> Workspace {
         let mut workspace = self.state.workspace();
+        workspace.view.picture = self.panes.picture.kept_place();
         workspace.view.heatmap = self.panes.picture.heat.kept();
         workspace.view.view3d = self.panes.view3d.kept();
         workspace.layout = serde_json::to_value(&self.layout).ok();
@@ -112,6 +113,7 @@ impl App {
         let view = &workspace.view;
         let differences = workspace.b.is_some() && view.arrangement == Arrangement::Difference;
         self.panes.picture.heat.restore(&view.heatmap, differences);
+        self.panes.picture.restore_place(&view.picture);
         self.panes.view3d.restore(&view.view3d);
         let layout = workspace.layout.clone();
         if let Some(layout) = layout.and_then(|value| serde_json::from_value(value).ok()) {

@@ -45,6 +45,19 @@ impl BuildView {
         })
     }
 
+    /// Shows a moment of a tree's build, at the latest the last; `None` is the finished tree.
+    pub fn show(&mut self, moment: Option<Moment>, tree: &Tree) {
+        (self.on, self.playing) = (moment.is_some(), None);
+        if let Some(moment) = moment {
+            self.by_node = matches!(moment, Moment::Node(_));
+            let last = self.last(tree);
+            match moment {
+                Moment::Node(node) => self.node = node.min(last),
+                Moment::Depth(depth) => self.depth = depth.min(last),
+            }
+        }
+    }
+
     /// The finished tree again, and for another tree the build from its beginning.
     pub fn reset(&mut self) {
         *self = BuildView {

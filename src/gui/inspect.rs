@@ -6,9 +6,11 @@ use super::build_view::BuildView;
 use super::state::Current;
 use super::visits::{PictureVisits, VisitsPass};
 use crate::geometry::Axis;
-use crate::overlay::{Leaf, Ranges, in_ranges, leaves};
+use crate::overlay::{HISTOGRAMS, Leaf, Ranges, in_ranges, leaves};
 use crate::scene::Scene;
 use crate::tree::{NodeCost, Tree, TreeIndex};
+use crate::workspace::NODES_A_RAY;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// What decides the facts of leaves: the tree and, where visits are known, the picture's number.
@@ -144,6 +146,24 @@ impl Inspect {
     pub fn clear_ranges(&mut self) {
         self.ranges = Ranges::default();
         self.nodes_a_ray = None;
+    }
+
+    /// The ranges that are chosen, by the names of the histograms.
+    pub fn named_ranges(&self) -> BTreeMap<String, [f64; 2]> {
+        let leaves = HISTOGRAMS.iter().map(|histogram| histogram.name);
+        let all = leaves
+            .zip(self.ranges)
+            .chain([(NODES_A_RAY, self.nodes_a_ray)]);
+        all.filter_map(|(name, range)| Some((name.to_owned(), range?)))
+            .collect()
+    }
+
+    /// Chooses these ranges and no others.
+    pub fn select_ranges(&mut self, named: &BTreeMap<String, [f64; 2]>) {
+        for (histogram, range) in HISTOGRAMS.iter().zip(&mut self.ranges) {
+            *range = named.get(histogram.name).copied();
+        }
+        self.nodes_a_ray = named.get(NODES_A_RAY).copied();
     }
 
     /// Takes the tried plane away; says whether there was one.

@@ -5,15 +5,24 @@ use super::selection::Selection;
 use super::state::{Current, State, Wanted};
 use super::walk::Wish;
 use crate::scene::SceneRequest;
+use crate::tree::Moment;
 use crate::worker::Request;
 use crate::workspace::{PictureSettings, Selected, TreeSettings, Workspace};
+use std::collections::BTreeMap;
 
 /// A selection to come back to once its picture is there.
-#[derive(Clone, Copy)]
 pub struct Restoring {
     selected: Selected,
-    /// Whether its pixel was asked for.
+    /// The moment of the build that is shown.
+    build: Option<Moment>,
+    ranges: BTreeMap<String, [f64; 2]>,
+    /// Whether the pixel was asked for.
     asked: bool,
+}
+
+/// To four digits: a place on the screen is no more exact.
+pub fn rounded(place: f32) -> f64 {
+    (f64::from(place) * 1e4).round() / 1e4
 }
 
 impl State {
@@ -27,14 +36,18 @@ impl State {
         let view = &mut workspace.view;
         view.front = self.which;
         view.arrangement = self.comparing.view;
-        // To four digits: a place on the screen is no more exact.
-        view.split = (f64::from(self.comparing.split) * 1e4).round() / 1e4;
+        view.split = rounded(self.comparing.split);
         view.pinned.clone_from(&self.pinned);
-        view.selected = match (&self.restoring, &self.current) {
-            (Some(restoring), _) => restoring.selected,
-            (None, Some(current)) => selected(current),
-            (None, None) => Selected::default(),
-        };
+        view.region = self.modelling.region;
+        if let Some(restoring) = &self.restoring {
+            view.selected = restoring.selected;
+            view.build = restoring.build;
+            view.ranges.clone_from(&restoring.ranges);
+        } else {
+            view.selected = self.current.as_ref().map(selected).unwrap_or_default();
+            view.build = self.inspect.build.moment();
+            view.ranges = self.inspect.named_ranges();
+        }
         workspace
     }
 
@@ -65,8 +78,11 @@ impl State {
         self.comparing.split = view.split as f32;
         self.notes.clone_from(&workspace.notes);
         self.pinned.clone_from(&view.pinned);
+        self.modelling.region = view.region;
         self.restoring = Some(Restoring {
             selected: view.selected,
+            build: view.build,
+            ranges: view.ranges.clone(),
             asked: false,
         });
         self.failure = None;
@@ -99,6 +115,10 @@ impl State {
         if current.wish.is_some() {
             return;
         }
+        self.inspect.select_ranges(&restoring.ranges);
+        self.inspect
+            .build
+            .show(restoring.build, &current.shown.tree);
         current.go_to_step(step);
         let (nodes, objects) = (
             current.shown.tree.nodes().len(),

@@ -4,12 +4,14 @@
 use super::compare_bar;
 use super::comparing::{View, Which};
 use super::heat::HeatView;
+use super::keep::rounded;
 use super::picture_marks::PictureMarks;
 use super::picture_region;
 use super::shortcuts::{Action, Scope, pressed};
 use super::state::{Current, Fresh, State};
 use crate::trace::{Picture, Tile};
 use crate::worker::Stage;
+use crate::workspace::PicturePlace;
 use egui::ecolor::gamma_u8_from_linear_f32;
 use egui::{Color32, ColorImage, Pos2, Rect, TextureHandle, TextureOptions, Vec2, pos2, vec2};
 
@@ -44,6 +46,21 @@ struct Part {
 const WHOLE: Rect = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
 
 impl PicturePane {
+    /// Where the picture lies, for a workspace.
+    pub fn kept_place(&self) -> PicturePlace {
+        PicturePlace {
+            zoom: self.zoom.map(rounded),
+            offset: [self.offset.x, self.offset.y].map(rounded),
+        }
+    }
+
+    /// Puts the picture where a workspace says.
+    pub fn restore_place(&mut self, place: &PicturePlace) {
+        self.zoom = place.zoom.map(|zoom| zoom as f32);
+        let [x, y] = place.offset.map(|by| by as f32);
+        self.offset = vec2(x, y);
+    }
+
     /// Shows what there is to see of the pixels, and its legend.
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
         header(ui, state, &mut self.marks);
@@ -315,7 +332,9 @@ impl PicturePane {
             let pane = under.map_or(response.rect, |part| part.pane);
             let before = self.place(pane, picture);
             let zoom = before.width() / picture[0] as f32;
-            let next = (zoom * (wheel * 0.004).exp()).clamp(0.02, 200.0);
+            let [least, most] =
+                [PicturePlace::ZOOMS.start(), PicturePlace::ZOOMS.end()].map(|&zoom| zoom as f32);
+            let next = (zoom * (wheel * 0.004).exp()).clamp(least, most);
             self.zoom = Some(next);
             // What is under the pointer stays there.
             let from_middle = before.center() - pointer;

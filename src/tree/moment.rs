@@ -2,9 +2,11 @@
 //! in the order of the array, depth first.
 
 use super::{CellOfNode, NodeKind, Tree};
+use serde::{Deserialize, Serialize};
 
 /// A moment of the build.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Moment {
     /// Every cell above this depth is decided, as if the tree had been built level by level; so are
     /// the leaves at this depth.

@@ -11,7 +11,10 @@ mod view;
 pub use command::measure_command;
 pub use scene::SceneRecord;
 pub use settings::{PictureSettings, TreeSettings};
-pub use view::{Arrangement, CutSettings, Heat, Selected, View, View3dSettings, Which};
+pub use view::{
+    Arrangement, CutSettings, Heat, NODES_A_RAY, PicturePlace, Selected, View, View3dSettings,
+    Which,
+};
 
 use crate::files;
 use crate::scene::{Camera, SceneSource};

@@ -1,6 +1,7 @@
 //! Forms in which single values stand in the file.
 
 use serde::{Deserialize, Deserializer, Serializer, de::Error};
+use std::ops::RangeInclusive;
 
 /// A name that must be one of those known.
 pub fn one_of<'de, D: Deserializer<'de>>(
@@ -21,12 +22,21 @@ pub fn one_of<'de, D: Deserializer<'de>>(
 
 /// A number that must lie from 0 to 1.
 pub fn share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    within(deserializer, 0.0..=1.0)
+}
+
+/// A number that must lie in a range.
+pub fn within<'de, D: Deserializer<'de>>(
+    deserializer: D,
+    range: RangeInclusive<f64>,
+) -> Result<f64, D::Error> {
     let found = f64::deserialize(deserializer)?;
-    if (0.0..=1.0).contains(&found) {
+    if range.contains(&found) {
         return Ok(found);
     }
+    let (least, most) = range.into_inner();
     Err(D::Error::custom(format!(
-        "expected a number from 0 to 1, found {found}"
+        "expected a number from {least} to {most}, found {found}"
     )))
 }
 

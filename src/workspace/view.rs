@@ -3,9 +3,13 @@
 use super::names;
 use crate::geometry::Axis;
 use crate::measure::heat::{HEATMAPS, RayFilter};
-use crate::overlay::{COLORINGS, COLORMAPS, Scale, Visited};
+use crate::measure::model::Region;
+use crate::overlay::{COLORINGS, COLORMAPS, HISTOGRAMS, Scale, Visited};
 use crate::scene::Camera;
+use crate::tree::Moment;
 use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 /// One of the two trees of a comparison. Without one there is only A.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -103,7 +107,15 @@ pub struct View {
     pub split: f64,
     /// Pixels marked to come back to: column and row.
     pub pinned: Vec<[u32; 2]>,
+    pub picture: PicturePlace,
+    /// The pixels whose time the pane *Time* can tell.
+    pub region: Option<Region>,
     pub selected: Selected,
+    /// The moment of the build that is shown; `None` for the finished tree.
+    pub build: Option<Moment>,
+    /// Of the histograms with these names, the values that are selected, both ends with them.
+    #[serde(deserialize_with = "known_ranges")]
+    pub ranges: BTreeMap<String, [f64; 2]>,
     pub heatmap: Heat,
     pub view3d: View3dSettings,
 }
@@ -115,12 +127,35 @@ impl Default for View {
             arrangement: Arrangement::default(),
             split: 0.5,
             pinned: Vec::new(),
+            picture: PicturePlace::default(),
+            region: None,
             selected: Selected::default(),
+            build: None,
+            ranges: BTreeMap::new(),
             heatmap: Heat::default(),
             view3d: View3dSettings::default(),
         }
     }
 }
+
+/// Where the picture lies in its pane.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PicturePlace {
+    /// Width of a pixel of the picture in points of the screen; `None` fits it into the pane.
+    #[serde(deserialize_with = "known_zoom")]
+    pub zoom: Option<f64>,
+    /// From the pane's middle to the picture's, in points to the right and down.
+    pub offset: [f64; 2],
+}
+
+impl PicturePlace {
+    /// The zooms there are.
+    pub const ZOOMS: RangeInclusive<f64> = 0.02..=200.0;
+}
+
+/// The name under which [`View::ranges`] has the histogram of rays.
+pub const NODES_A_RAY: &str = "nodes a ray";
 
 /// What is selected, of the tree in front.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -178,6 +213,29 @@ impl Default for Heat {
             opacity: 1.0,
         }
     }
+}
+
+fn known_zoom<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    names::within(from, PicturePlace::ZOOMS).map(Some)
+}
+
+fn known_ranges<'de, D: Deserializer<'de>>(
+    from: D,
+) -> Result<BTreeMap<String, [f64; 2]>, D::Error> {
+    /// Checked by itself, so that an error names its line.
+    #[derive(Deserialize, PartialEq, Eq, PartialOrd, Ord)]
+    #[serde(transparent)]
+    struct Name(#[serde(deserialize_with = "known_histogram")] String);
+    let found = BTreeMap::<Name, _>::deserialize(from)?;
+    Ok(found
+        .into_iter()
+        .map(|(Name(name), range)| (name, range))
+        .collect())
+}
+
+fn known_histogram<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+    let known = HISTOGRAMS.iter().map(|histogram| histogram.name);
+    names::one_of(from, "histogram", known.chain([NODES_A_RAY]))
 }
 
 fn known_heatmap<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {

@@ -7,6 +7,7 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::trace::{RenderError, RenderSettings};
 use crate::tree::Tree;
+use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
 
 const KINDS: usize = PrimitiveKind::ALL.len();
@@ -48,7 +49,8 @@ impl AddAssign<&RayTerms<u32>> for RayTerms {
 }
 
 /// A rectangle of pixels: its first column and row, its width and height, at least 1 each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Region {
     pub x: u32,
     pub y: u32,
@@ -107,9 +109,10 @@ impl PictureTerms {
             width: self.width,
             height: self.height,
         });
-        let columns = region.x.min(self.width)..(region.x + region.width).min(self.width);
+        let end = |start: u32, length, most| start.saturating_add(length).min(most);
+        let columns = region.x.min(self.width)..end(region.x, region.width, self.width);
         let mut sum = RayTerms::default();
-        for y in region.y..(region.y + region.height).min(self.height) {
+        for y in region.y..end(region.y, region.height, self.height) {
             let start = y as usize * self.width as usize;
             let row = start + columns.start as usize..start + columns.end as usize;
             self.pixels[row].iter().for_each(|pixel| sum += pixel);
