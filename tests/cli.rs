@@ -7,7 +7,8 @@ use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-/// The program in an empty folder of its own, without a display.
+/// The program in an empty folder of its own, without a display. Another build of it can be named by
+/// the variable `BSPSCOPE`.
 struct Program {
     folder: tempfile::TempDir,
 }
@@ -24,7 +25,8 @@ impl Program {
     }
 
     fn command(&self, arguments: &str) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_bspscope"));
+        let this = || env!("CARGO_BIN_EXE_bspscope").into();
+        let mut command = Command::new(std::env::var_os("BSPSCOPE").unwrap_or_else(this));
         command
             .args(arguments.split_whitespace())
             .current_dir(self.path())
