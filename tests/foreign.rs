@@ -147,7 +147,18 @@ fn stl_of_a_writer_crate_gives_the_hits_of_nff() {
     same_hits(parts.clone(), read("stl", &bytes).unwrap(), "stl_io");
     // Many programs begin the free text with the word that begins a text file.
     bytes[..5].copy_from_slice(b"solid");
-    same_hits(parts, read("stl", &bytes).unwrap(), "solid, but binary");
+    same_hits(
+        parts.clone(),
+        read("stl", &bytes).unwrap(),
+        "solid, but binary",
+    );
+    // Nor does it become one by more that a text would have, or by bytes behind the end.
+    bytes[..17].copy_from_slice(b"solid a\nfacet of\0");
+    bytes.extend(b"end");
+    let found = read("stl", &bytes).unwrap();
+    let skipped = texts(&found, NoteKind::Skipped).join("; ");
+    assert!(skipped.starts_with("3 bytes after the last"), "{skipped}");
+    same_hits(parts, found, "much like a text, but binary");
 }
 
 #[test]
@@ -197,6 +208,23 @@ fn ply_of_a_writer_crate_gives_the_hits_of_nff() {
         writer.write_ply(&mut bytes, &mut ply).unwrap();
         let what = format!("ply-rs-bw, {encoding:?}");
         same_hits(parts.clone(), read("ply", &bytes).unwrap(), &what);
+    }
+}
+
+#[test]
+fn every_vertex_of_ply_has_its_own_normal() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
+                property float z\nproperty float nx\nproperty float ny\nproperty float nz\n\
+                element face 1\nproperty list uchar int vertex_indices\nend_header\n\
+                9 9 9 1 0 0\n0 0 0 0 0 1\n1 0 0 0.6 0 0.8\n0 1 0 0 0.6 0.8\n3 1 2 3\n";
+    let parts = read("ply", text.as_bytes()).unwrap();
+    let Primitive::Triangle(triangle) = &parts.objects[0] else {
+        panic!("not a triangle")
+    };
+    let normals = triangle.normals.as_ref().expect("normals at the vertices");
+    let expected = [Vec3::Z, Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.6, 0.8)];
+    for (found, expected) in normals.iter().zip(expected) {
+        assert!(found.abs_diff_eq(expected, 1e-6), "{found}");
     }
 }
 
@@ -399,7 +427,7 @@ fn mtl_becomes_our_material() {
     let faces = "usemtl glass\nf 1 2 3\nusemtl dull one\nf 1 3 4\nusemtl none\nf 1 2 4\n";
     std::fs::write(&path, format!("mtllib the materials.mtl\n{SQUARE}{faces}")).unwrap();
     let mtl = "# made by hand\nnewmtl glass\nKd 0.1 0.2 0.3\nKs 0.3 0.6 0.9\nNs 50\nd 0.25\n\
-               Ni 1.5\nillum 7\nmap_Kd wood.png\nnewmtl dull one\nKd 0.5\nKs 1 1 1\nTr 0.5\nillum 2\n";
+               Ni 1.5\nillum 7\nmap_Kd wood.png\nnewmtl dull one\nKd 0.5\nKs 1 1 1\nTr 0.25\nillum 2\n";
     std::fs::write(folder.path().join("the materials.mtl"), mtl).unwrap();
     let parts = load(&path);
     let [glass, dull, white] = parts.materials.as_slice() else {
@@ -410,7 +438,7 @@ fn mtl_becomes_our_material() {
     assert_eq!((glass.diffuse, glass.transmittance), (0.25, 0.75));
     assert_eq!(glass.index_of_refraction, 1.5);
     assert_eq!((dull.color, dull.specular), (Vec3::splat(0.5), 0.0));
-    assert_eq!((dull.diffuse, dull.transmittance), (0.5, 0.5));
+    assert_eq!((dull.diffuse, dull.transmittance), (0.75, 0.25));
     assert_eq!(*white, bspscope::scene::Material::default());
     let skipped = texts(&parts, NoteKind::Skipped).join("; ");
     assert!(

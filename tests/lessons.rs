@@ -124,6 +124,27 @@ fn a_comparison_knows_more_from_less() {
 }
 
 #[test]
+fn what_differs_by_less_than_a_share_is_about_the_same() {
+    for (factor, right) in [
+        (1.04, "About the same"),
+        (0.96, "About the same"),
+        (1.06, "More"),
+        (0.94, "Less"),
+    ] {
+        let compare = format!("compare = [\"{factor} * a.N_LS\", \"a.N_LS\"]");
+        let settings = format!("{TREES}\nquestion = \"?\"\n{compare}\nsame-within = \"5 %\"");
+        let lesson = Lesson::parse(&lesson_with(&settings, "x\n\n---\n\ny"), "test.md").unwrap();
+        let step = &lesson.steps[0];
+        let figures = Measurer::default()
+            .measure(&lesson, step, &Progress::new())
+            .unwrap();
+        let answer = &step.question.as_ref().unwrap().answer;
+        let verdict = answer.judge(Prediction::Choice(0), &figures).unwrap();
+        assert_eq!(verdict.truth, right, "{factor}");
+    }
+}
+
+#[test]
 fn what_does_not_hold_is_told_with_its_line() {
     let question = "question = \"?\"\nnumber = \"a.N_LS\"\nwithin = \"1\"";
     let reveal = "x\n\n---\n\ny";

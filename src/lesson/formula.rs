@@ -64,11 +64,16 @@ impl Formula {
 
     /// Its value; `None` where a figure has none, or by zero is divided.
     pub fn value(&self, figures: &Figures) -> Option<f64> {
+        self.value_by(&|name| name.value(figures))
+    }
+
+    /// As [`Formula::value`], with what is known of figures.
+    fn value_by(&self, known: &dyn Fn(&Name) -> Option<f64>) -> Option<f64> {
         match self {
             Formula::Number(number) => Some(*number),
-            Formula::Figure(name) => name.value(figures),
+            Formula::Figure(name) => known(name),
             Formula::Of(left, operator, right) => {
-                let (left, right) = (left.value(figures)?, right.value(figures)?);
+                let (left, right) = (left.value_by(known)?, right.value_by(known)?);
                 match operator {
                     Operator::Plus => Some(left + right),
                     Operator::Minus => Some(left - right),
@@ -247,17 +252,7 @@ mod tests {
 
     /// Without figures: numbers alone.
     fn value(text: &str) -> Option<f64> {
-        fn of(formula: &Formula) -> Option<f64> {
-            match formula {
-                Formula::Number(number) => Some(*number),
-                Formula::Figure(_) => None,
-                Formula::Of(a, Operator::Plus, b) => Some(of(a)? + of(b)?),
-                Formula::Of(a, Operator::Minus, b) => Some(of(a)? - of(b)?),
-                Formula::Of(a, Operator::Times, b) => Some(of(a)? * of(b)?),
-                Formula::Of(a, Operator::Over, b) => Some(of(a)? / of(b)?),
-            }
-        }
-        of(&Formula::parse(text).unwrap())
+        Formula::parse(text).unwrap().value_by(&|_| None)
     }
 
     #[test]
@@ -266,6 +261,8 @@ mod tests {
         assert_eq!(value("(1+2)*3"), Some(9.0));
         assert_eq!(value("8 / 4 / 2 - 3 - 1"), Some(-3.0));
         assert_eq!(value("0.5"), Some(0.5));
+        assert_eq!(value("1 / (2 - 2)"), None);
+        assert_eq!(value("1 + a.N_LS"), None);
     }
 
     #[test]
