@@ -23,11 +23,6 @@ const COLUMNS: [(&str, f32, &str); 11] = [
         "Median of the rounds, as a ratio to the reference's",
     ),
     (
-        "spread",
-        98.0,
-        "Least and largest time of the rounds, as ratios to the reference's median",
-    ),
-    (
         "wrong hits",
         70.0,
         "Share of the pixels whose primary ray meets another object than it should",
@@ -56,6 +51,11 @@ const COLUMNS: [(&str, f32, &str); 11] = [
         "FLIP",
         54.0,
         "How different it looks when one flips between the pictures, 0 to 1 (Andersson et al. 2020)",
+    ),
+    (
+        "spread",
+        98.0,
+        "Least and largest time of the rounds, as ratios to the reference's median",
     ),
     (
         "objects",
@@ -146,7 +146,6 @@ fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 11] {
         outcome.choice.words(),
         if front { "front" } else { "" }.to_owned(),
         format!("{median:.3}"),
-        format!("{least:.3}–{most:.3}"),
         format!("{} %", significant(100.0 * outcome.wrong_hits)),
         significant(error.rmse),
         significant(error.max),
@@ -155,6 +154,7 @@ fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 11] {
             .map_or("∞".to_owned(), |psnr| format!("{psnr:.1} dB")),
         format!("{:.5}", error.ssim),
         significant(error.flip),
+        format!("{least:.3}–{most:.3}"),
         format!("{} KiB", outcome.object_bytes.div_ceil(1024)),
     ]
 }
