@@ -240,6 +240,7 @@ impl<'a> LaneKernel<'a> {
         hits.fill(Hit::MISS);
         self.in_packets = self.company.in_packets();
         for (rays, hits) in rays.chunks(CHUNK).zip(hits.chunks_mut(CHUNK)) {
+            self.rays.upcoming = rays.as_ptr_range().end;
             match (&self.lanes.prepared, self.shapes) {
                 (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
                     let objects = InTriangles::new(&p.blocks, self.instructions);
@@ -267,6 +268,7 @@ impl<'a> LaneKernel<'a> {
         blocked.fill(false);
         self.in_packets = self.company.in_packets();
         for (rays, blocked) in rays.chunks(CHUNK).zip(blocked.chunks_mut(CHUNK)) {
+            self.rays.upcoming = rays.as_ptr_range().end;
             match (&self.lanes.prepared, self.shapes) {
                 (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
                     let objects = InTriangles::new(&p.blocks, self.instructions);
@@ -340,6 +342,9 @@ impl<'a> LaneKernel<'a> {
     /// Walks the rays made ready.
     fn walk(&mut self, tests: &mut dyn Tests) {
         let mut ahead = 0..self.rays.starts.count;
+        if self.in_packets.is_none() && !self.are_alike() {
+            self.in_packets = Some(false);
+        }
         if self.in_packets.is_none() {
             let first = ahead.end.min(SAMPLE);
             self.walk_packets(0..first, tests);
@@ -350,6 +355,20 @@ impl<'a> LaneKernel<'a> {
         } else {
             self.walk_lanes(ahead, tests);
         }
+    }
+
+    /// Whether most neighbours among the first rays go much the same way, within 30°: packets of
+    /// others are not worth trying.
+    fn are_alike(&self) -> bool {
+        let meeting = self.rays.meeting();
+        let first = &meeting[..meeting.len().min(SAMPLE)];
+        let direction = |ray: u32| glam::Vec3::from(self.rays.rays[ray as usize].direction);
+        let alike = first.windows(2).filter(|pair| {
+            let (a, b) = (direction(pair[0]), direction(pair[1]));
+            let along = a.dot(b);
+            along > 0.0 && along * along > 0.75 * a.length_squared() * b.length_squared()
+        });
+        2 * alike.count() >= first.len()
     }
 
     fn walk_lanes(&mut self, ahead: Range<usize>, tests: &mut dyn Tests) {
@@ -455,5 +474,5 @@ compiled!(
     walk_avx2,
     packets_avx2,
     simd::avx2::Avx2,
-    6
+    4
 );

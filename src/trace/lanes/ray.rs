@@ -98,6 +98,9 @@ pub(super) struct LaneRays {
     /// Those that the unit frame cannot hold.
     pub(super) others: Vec<u32>,
     pub(super) starts: Starts,
+    /// Where the rays lie that are made ready after these, to be asked for meanwhile. There need not be
+    /// any: it is never read.
+    pub(super) upcoming: *const Ray,
 }
 
 /// What all rays through a tree have in common.
@@ -129,6 +132,7 @@ impl LaneRays {
                 ray: [0; CHUNK + WIDEST],
                 count: 0,
             },
+            upcoming: std::ptr::null(),
         })
     }
 

@@ -41,7 +41,7 @@ pub(super) trait Tests {
 }
 
 /// The most groups there are room for.
-const MOST_GROUPS: usize = 6;
+const MOST_GROUPS: usize = 4;
 
 /// Room for a leaf of every lane, and a vector more.
 const LEAVES: usize = WIDEST * (MOST_GROUPS + 1);
@@ -106,8 +106,6 @@ macro_rules! each_group {
         each_group!(@one $groups, $j, 1, $body);
         each_group!(@one $groups, $j, 2, $body);
         each_group!(@one $groups, $j, 3, $body);
-        each_group!(@one $groups, $j, 4, $body);
-        each_group!(@one $groups, $j, 5, $body);
     };
     (@one $groups:ident, $j:ident, $number:literal, $body:expr) => {
         if $number < $groups {
@@ -218,6 +216,7 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
         }
         stacks.settle();
         let mut living = 0;
+        let begun = ahead.start;
         each_group!(GROUPS, J => {
             let (place, group) = (&mut places[J], &mut groups[J]);
             let bottom = S::load_u(bottoms[J].as_ptr());
@@ -227,6 +226,9 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
         });
         if living == 0 {
             return;
+        }
+        for ray in begun..ahead.start {
+            prefetch(rays.upcoming.wrapping_add(ray));
         }
         // A group's next nodes are asked for while the others take their steps.
         let nodes = tree.nodes.as_ptr();
