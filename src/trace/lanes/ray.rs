@@ -235,7 +235,7 @@ impl LaneRays {
         let mut t_exit = S::mul(t_max, S::splat(1.0 + 2.0 * EPSILON));
         let (mut inverse, mut shifted) = (direction, origin);
         for k in 0..3 {
-            let backward = S::test_u(S::bits_of(direction[k]), S::splat_u(1 << 31));
+            let backward = S::bit_u::<31>(S::bits_of(direction[k]));
             let signed = |x: f32| S::select(backward, S::splat(-x), S::splat(x));
             // Below, its inverse may not be a number.
             let least = S::splat(1e-20);

@@ -299,10 +299,6 @@ unsafe fn go_on<S: Simd>(
     let first = ahead.start;
     ahead.start += begins.count_ones() as usize;
     let begins = S::mask(begins);
-    let expand = |column: &[f32; CHUNK + WIDEST], old: S::F| {
-        let from = column.as_ptr().add(first).cast();
-        S::from_bits(S::expand(begins, from, S::bits_of(old)))
-    };
     let columns = [
         (&starts.shifted, &mut group.shifted),
         (&starts.inverse, &mut group.inverse),
@@ -310,19 +306,37 @@ unsafe fn go_on<S: Simd>(
     for (starts, lanes) in columns {
         for k in 0..3 {
             let lane = lanes[k].as_mut_ptr();
-            S::store_u(lane.cast(), S::bits_of(expand(&starts[k], S::load(lane))));
+            S::store_u(
+                lane.cast(),
+                S::bits_of(expanded::<S>(begins, &starts[k], first, S::load(lane))),
+            );
         }
     }
     let limits = limits.as_mut_ptr().cast();
-    S::store_u(limits, S::bits_of(expand(&starts.t_exit, limit)));
+    S::store_u(
+        limits,
+        S::bits_of(expanded::<S>(begins, &starts.t_exit, first, limit)),
+    );
     let ray = group.ray.as_mut_ptr();
     let from = starts.ray.as_ptr().add(first);
     S::store_u(ray, S::expand(begins, from, S::load_u(ray)));
     place.active = S::or(place.active, begins);
-    place.enter = expand(&starts.t_enter, place.enter);
-    place.exit = expand(&starts.t_exit, place.exit);
+    place.enter = expanded::<S>(begins, &starts.t_enter, first, place.enter);
+    place.exit = expanded::<S>(begins, &starts.t_exit, first, place.exit);
     place.node = S::select_u(begins, S::splat_u(0), place.node);
     place.top = S::select_u(begins, bottom, place.top);
+}
+
+/// Gives the lanes of a mask the numbers of a column from `first` on, and the others their own.
+#[inline(always)]
+unsafe fn expanded<S: Simd>(
+    mask: S::M,
+    column: &[f32; CHUNK + WIDEST],
+    first: usize,
+    own: S::F,
+) -> S::F {
+    let from = column.as_ptr().add(first).cast();
+    S::from_bits(S::expand(mask, from, S::bits_of(own)))
 }
 
 /// Lets lanes at an inner node go to a child, and lanes at a leaf wait.
@@ -336,11 +350,11 @@ unsafe fn step<S: Simd, B: Block>(
     leaves: &mut Leaves<LEAVES>,
     tree: &Prepared<B>,
 ) {
-    let (one, two) = (S::splat_u(1), S::splat_u(2));
-    let (is_1, is_2) = (S::test_u(word, one), S::test_u(word, two));
+    let one = S::splat_u(1);
+    let (is_1, is_2) = (S::bit_u::<0>(word), S::bit_u::<1>(word));
     let mask = S::and(S::and(is_1, is_2), place.active);
     place.active = S::and_not(place.active, mask);
-    let full = S::and(mask, S::test_u(word, S::splat_u(!LEAF)));
+    let full = S::and_not(mask, S::eq_u(word, S::splat_u(LEAF)));
     leaves.push::<S>(full, lanes, payload, S::shr_u::<2>(word));
     leaves.ask(tree.blocks.as_ptr());
     let act = place.active;
@@ -351,10 +365,8 @@ unsafe fn step<S: Simd, B: Block>(
     let backward = S::shr_u::<31>(S::bits_of(inverse));
     let near = S::add_u(S::shr_u::<PLACE>(word), backward);
     let far = S::xor_u(near, one);
-    let near_flag = S::shl_by_u(S::splat_u(BELOW_EMPTY), backward);
-    let far_flag = S::xor_u(near_flag, S::splat_u(BELOW_EMPTY | ABOVE_EMPTY));
-    let near_empty = S::test_u(word, near_flag);
-    let far_empty = S::test_u(word, far_flag);
+    const { assert!(ABOVE_EMPTY == BELOW_EMPTY << 1) };
+    let (near_empty, far_empty) = S::bits_by_u::<{ BELOW_EMPTY.trailing_zeros() }>(word, backward);
     let only_far = S::lt(ends, place.enter);
     let both = S::and_not(S::and(S::le(begins, place.exit), act), only_far);
     let skip = S::and(both, near_empty);

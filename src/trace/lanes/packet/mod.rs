@@ -159,7 +159,7 @@ unsafe fn walk_packet<S: Simd, B: Block>(
     let stack = stack.as_mut_ptr();
     let backward = three(|k| {
         let inverse = S::bits_of(S::load(packet.inverse[k].as_ptr()));
-        S::bits(S::test_u(inverse, S::splat_u(1 << 31))) & packet.lanes
+        S::bits(S::bit_u::<31>(inverse)) & packet.lanes
     });
     // Lanes that meet the children of an axis in another order than the first.
     let others = three(|k| {

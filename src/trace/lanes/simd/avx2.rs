@@ -10,6 +10,9 @@ use std::arch::x86_64::*;
 #[derive(Clone, Copy)]
 pub(in super::super) struct Avx2;
 
+/// Of a mask only the highest bit of every lane counts.
+type Mask = __m256i;
+
 /// The lanes' numbers, two taken out of the vector at a time.
 #[inline(always)]
 unsafe fn numbers(at: __m256i) -> [usize; 8] {
@@ -71,7 +74,7 @@ impl Simd for Avx2 {
     const LANES: usize = 8;
     type F = __m256;
     type U = __m256i;
-    type M = __m256i;
+    type M = Mask;
 
     #[inline(always)]
     unsafe fn splat(x: f32) -> __m256 {
@@ -167,13 +170,14 @@ impl Simd for Avx2 {
         _mm256_srl_epi32(a, _mm_cvtsi32_si128(BITS as i32))
     }
     #[inline(always)]
-    unsafe fn shl_by_u(a: __m256i, by: __m256i) -> __m256i {
-        _mm256_sllv_epi32(a, by)
+    unsafe fn bit_u<const BIT: u32>(a: __m256i) -> __m256i {
+        _mm256_sll_epi32(a, _mm_cvtsi32_si128(31 - BIT as i32))
     }
     #[inline(always)]
-    unsafe fn test_u(a: __m256i, b: __m256i) -> __m256i {
-        let none = _mm256_cmpeq_epi32(_mm256_and_si256(a, b), _mm256_setzero_si256());
-        _mm256_xor_si256(none, _mm256_set1_epi32(-1))
+    unsafe fn bits_by_u<const BIT: u32>(a: __m256i, by: __m256i) -> (__m256i, __m256i) {
+        let to_sign = _mm256_sub_epi32(Self::splat_u(31 - BIT), by);
+        let other = _mm256_add_epi32(Self::splat_u(30 - BIT), by);
+        (_mm256_sllv_epi32(a, to_sign), _mm256_sllv_epi32(a, other))
     }
     #[inline(always)]
     unsafe fn eq_u(a: __m256i, b: __m256i) -> __m256i {
@@ -181,7 +185,7 @@ impl Simd for Avx2 {
     }
     #[inline(always)]
     unsafe fn select_u(mask: __m256i, a: __m256i, b: __m256i) -> __m256i {
-        _mm256_blendv_epi8(b, a, mask)
+        Self::bits_of(Self::select(mask, Self::from_bits(a), Self::from_bits(b)))
     }
     #[inline(always)]
     unsafe fn bits_of(a: __m256) -> __m256i {
@@ -248,7 +252,7 @@ impl Simd for Avx2 {
         let ranks = _mm_loadl_epi64(RANKS[Self::bits(mask) as usize].as_ptr().cast());
         let packed = _mm256_loadu_si256(from.cast());
         let spread = _mm256_permutevar8x32_epi32(packed, _mm256_cvtepu8_epi32(ranks));
-        _mm256_blendv_epi8(x, spread, mask)
+        Self::select_u(mask, spread, x)
     }
 
     #[inline(always)]

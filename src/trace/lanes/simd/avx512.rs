@@ -198,12 +198,17 @@ impl Simd for Avx512 {
         _mm512_srli_epi32::<BITS>(a)
     }
     #[inline(always)]
-    unsafe fn shl_by_u(a: __m512i, by: __m512i) -> __m512i {
-        _mm512_sllv_epi32(a, by)
+    unsafe fn bit_u<const BIT: u32>(a: __m512i) -> __mmask16 {
+        _mm512_test_epi32_mask(a, Self::splat_u(1 << BIT))
     }
     #[inline(always)]
-    unsafe fn test_u(a: __m512i, b: __m512i) -> __mmask16 {
-        _mm512_test_epi32_mask(a, b)
+    unsafe fn bits_by_u<const BIT: u32>(a: __m512i, by: __m512i) -> (__mmask16, __mmask16) {
+        let bit = _mm512_sllv_epi32(Self::splat_u(1 << BIT), by);
+        let other = _mm512_xor_si512(bit, Self::splat_u(3 << BIT));
+        (
+            _mm512_test_epi32_mask(a, bit),
+            _mm512_test_epi32_mask(a, other),
+        )
     }
     #[inline(always)]
     unsafe fn eq_u(a: __m512i, b: __m512i) -> __mmask16 {

@@ -58,10 +58,10 @@ pub(super) trait Simd: Copy {
     unsafe fn sub_u(a: Self::U, b: Self::U) -> Self::U;
     unsafe fn xor_u(a: Self::U, b: Self::U) -> Self::U;
     unsafe fn shr_u<const BITS: u32>(a: Self::U) -> Self::U;
-    /// `a` shifted up by as many bits as `by` says.
-    unsafe fn shl_by_u(a: Self::U, by: Self::U) -> Self::U;
-    /// Whether `a` and `b` have a bit in common.
-    unsafe fn test_u(a: Self::U, b: Self::U) -> Self::M;
+    /// Whether a bit is set.
+    unsafe fn bit_u<const BIT: u32>(a: Self::U) -> Self::M;
+    /// Whether the bit is set that lies `by` above this one, 0 or 1, and whether the other of both is.
+    unsafe fn bits_by_u<const BIT: u32>(a: Self::U, by: Self::U) -> (Self::M, Self::M);
     unsafe fn eq_u(a: Self::U, b: Self::U) -> Self::M;
     unsafe fn select_u(mask: Self::M, a: Self::U, b: Self::U) -> Self::U;
     unsafe fn bits_of(a: Self::F) -> Self::U;

@@ -128,12 +128,15 @@ impl Simd for Portable {
         a.map(|a| a >> BITS)
     }
     #[inline(always)]
-    unsafe fn shl_by_u(a: Self::U, by: Self::U) -> Self::U {
-        map(a, by, |a, by| a << by)
+    unsafe fn bit_u<const BIT: u32>(a: Self::U) -> u32 {
+        ask(a, a, |a, _| a >> BIT & 1 != 0)
     }
     #[inline(always)]
-    unsafe fn test_u(a: Self::U, b: Self::U) -> u32 {
-        ask(a, b, |a, b| a & b != 0)
+    unsafe fn bits_by_u<const BIT: u32>(a: Self::U, by: Self::U) -> (u32, u32) {
+        (
+            ask(a, by, |a, by| a >> (BIT + by) & 1 != 0),
+            ask(a, by, |a, by| a >> (BIT + 1 - by) & 1 != 0),
+        )
     }
     #[inline(always)]
     unsafe fn eq_u(a: Self::U, b: Self::U) -> u32 {
