@@ -45,11 +45,13 @@ fn corner() -> Vec<u8> {
 }
 
 fn triangles(parts: &SceneParts) -> Vec<&Triangle> {
-    let triangle = |object| match object {
-        &Primitive::Triangle(ref triangle) => triangle,
-        other => panic!("not a triangle: {other:?}"),
-    };
-    parts.objects.iter().map(triangle).collect()
+    let objects = parts.objects.iter();
+    objects
+        .map(|object| match object {
+            Primitive::Triangle(triangle) => triangle,
+            other => panic!("not a triangle: {other:?}"),
+        })
+        .collect()
 }
 
 fn near(found: &[Vec3], expected: &[[f64; 3]], by: f64) {

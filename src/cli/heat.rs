@@ -1,6 +1,7 @@
 //! `bspscope render --show`: a heatmap in a file.
 
-use super::args::{ByColormap, HeatArgs};
+use super::args::HeatArgs;
+use super::values::ByColormap;
 use super::{bar, render};
 use crate::export::HeatSheet;
 use crate::measure::heat::{Heatmap, PixelCounts, Source};

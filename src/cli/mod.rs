@@ -22,6 +22,7 @@ mod resolve;
 mod stability;
 mod sweep;
 mod trade;
+mod values;
 mod verify;
 mod window;
 
