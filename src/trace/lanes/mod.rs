@@ -30,7 +30,7 @@ use crate::scene::Scene;
 use crate::tree::Tree;
 use block::{Boxes, Spheres, Triangles};
 use exact::{Any, Closest, InArray, InSpheres, InTriangles, Narrow, Numbers, Objects, Wide};
-use packet::{Aside, Company, walk_packets};
+use packet::{Aside, walk_packets};
 use prepare::Prepared;
 use ray::{CHUNK, LaneRays, Root};
 use simd::portable::Portable;
@@ -452,7 +452,7 @@ macro_rules! compiled {
             ahead: Range<usize>,
             stack: &mut Vec<Aside>,
             tests: &mut dyn Tests,
-        ) -> Company {
+        ) -> packet::Company {
             // SAFETY: the caller's.
             unsafe { walk_packets::<$simd, B>(tree, rays, ahead, stack, tests) }
         }
