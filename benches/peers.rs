@@ -95,6 +95,7 @@ fn main() {
 fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) -> usize {
     let scene = &subject.scene;
     println!("\n{}: {} objects", subject.name, scene.objects().len());
+    let wanted = |name: &str| name.contains(&options.kernel);
     let timed = |name: &str, make: &dyn Fn() -> Option<Box<dyn Kernel>>| {
         let start = Instant::now();
         let kernel = make()?;
@@ -129,12 +130,16 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
             "Embree is not installed (Debian: libembree3-3); ratios are to the first kernel"
         ),
     }
-    entrants.extend(timed("obvhs", &|| {
-        Some(Box::new(crates::Obvhs::new(scene)?) as _)
-    }));
-    entrants.extend(timed("parry3d", &|| {
-        Some(Box::new(crates::Parry::new(scene)?) as _)
-    }));
+    if wanted("obvhs") {
+        entrants.extend(timed("obvhs", &|| {
+            Some(Box::new(crates::Obvhs::new(scene)?) as _)
+        }));
+    }
+    if wanted("parry3d") {
+        entrants.extend(timed("parry3d", &|| {
+            Some(Box::new(crates::Parry::new(scene)?) as _)
+        }));
+    }
     let reference = entrants.len();
     for (name, kernel) in ours::kernels(scene, &tree, lanes) {
         entrants.push(Entrant {
@@ -158,13 +163,11 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
     });
     let first = entrants[0].name.clone();
     let plain = entrants[reference].name.clone();
-    let ours: Vec<bool> = (0..entrants.len()).map(|i| i >= reference).collect();
-    let keep =
-        |e: &Entrant<'_>| e.name.contains(&options.kernel) || e.name == first || e.name == plain;
     let (entrants, ours): (Vec<Entrant<'_>>, Vec<bool>) = entrants
         .into_iter()
-        .zip(ours)
-        .filter(|(e, _)| keep(e))
+        .enumerate()
+        .map(|(i, entrant)| (entrant, i >= reference))
+        .filter(|(e, _)| wanted(&e.name) || e.name == first || e.name == plain)
         .unzip();
 
     let mut wrong = 0;
