@@ -41,7 +41,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
         },
         Constant {
             name: "traversal-cost",
-            default: 0.7,
+            default: 0.55,
             lowest: 0.01,
             highest: 100.0,
             step: 0.0,
