@@ -232,8 +232,8 @@ fn exactly(hit: &Hit) -> (u64, u32) {
     (hit.t.to_bits(), hit.object)
 }
 
-fn assert_same(scene: &Scene, tree: &Tree, what: &str) -> usize {
-    let rays = rays(scene, tree);
+/// Asserts that all kernels answer as the plain one does; gives the number of hits.
+fn assert_same(scene: &Scene, tree: &Tree, rays: &[Ray], what: &str) -> usize {
     let lanes = LaneTree::of(scene, tree);
     let mut hit_count = 0;
     for precision in Precision::ALL {
@@ -252,13 +252,14 @@ fn assert_same(scene: &Scene, tree: &Tree, what: &str) -> usize {
             let mut kernel = LaneKernel::new(tree, lanes, shapes, instructions, company);
             let [precision, company] = [precision.name(), company.name()];
             let name = format!("{what}, {precision}, {company}, {}", instructions.name());
-            let mut hits = vec![Hit::MISS; rays.len()];
-            kernel.closest_hits(&rays, &mut hits);
+            // What there was is overwritten.
+            let mut hits = vec![Hit { t: 0.0, object: 0 }; rays.len()];
+            kernel.closest_hits(rays, &mut hits);
             for ((ray, hit), expected) in rays.iter().zip(&hits).zip(&expected) {
                 assert_eq!(exactly(hit), exactly(expected), "{name}: {ray:?}");
             }
-            let mut found = vec![false; rays.len()];
-            kernel.any_hits(&rays, &mut found);
+            let mut found = vec![true; rays.len()];
+            kernel.any_hits(rays, &mut found);
             for ((ray, found), expected) in rays.iter().zip(&found).zip(&blocked) {
                 assert_eq!(found, expected, "{name}, any hit: {ray:?}");
             }
@@ -280,7 +281,7 @@ fn hits_are_those_of_the_plain_kernel_bit_for_bit() {
                 };
                 let tree = build(&scene, &settings, &Progress::new()).unwrap();
                 let what = format!("{}, {method:?}, {}", scene.name(), overlap.name());
-                hits += assert_same(&scene, &tree, &what);
+                hits += assert_same(&scene, &tree, &rays(&scene, &tree), &what);
             }
         }
         assert!(
@@ -288,6 +289,68 @@ fn hits_are_those_of_the_plain_kernel_bit_for_bit() {
             "{} {hits}",
             scene.name()
         );
+    }
+}
+
+/// Triangles in a plane, of any size, or each alone and very small.
+fn flat_or_small(numbers: &mut Numbers, small: bool) -> Vec<[Vec3; 3]> {
+    let [u, v] = [Vec3::new(0.6, 0.64, 0.48), Vec3::new(-0.8, 0.48, 0.36)];
+    let mut corners = Vec::new();
+    while corners.len() < 64 {
+        let mut triangle = [(); 3].map(|()| numbers.next() * u + numbers.next() * v);
+        if small {
+            let center = numbers.vector();
+            triangle = triangle.map(|corner| center + 1e-6 * corner);
+        }
+        if Triangle::new(triangle, None).is_ok() {
+            corners.push(triangle);
+        }
+    }
+    corners
+}
+
+/// Rays that meet triangles where `f32` can hardly tell, as the angle is flat or the triangle small, and
+/// that begin or end at the hit or next to it.
+#[test]
+fn hits_that_are_hard_to_decide_are_those_of_the_plain_kernel() {
+    for small in [false, true] {
+        let mut numbers = Numbers(7);
+        let corners = flat_or_small(&mut numbers, small);
+        let objects = corners
+            .iter()
+            .map(|&triangle| Primitive::Triangle(Triangle::new(triangle, None).unwrap()));
+        let scene = scene(if small { "small" } else { "flat" }, objects.collect());
+        let settings = BuildSettings::for_method(Method::named("sah").unwrap());
+        let tree = build(&scene, &settings, &Progress::new()).unwrap();
+        let shapes = scene.shapes(Precision::F32);
+        let mut scratch = Scratch::default();
+        let mut rays = Vec::new();
+        for _ in 0..10_000 {
+            let [a, b, c] = corners[numbers.below(corners.len())];
+            let (s, t) = (0.5 + 0.5 * numbers.next(), 0.5 + 0.5 * numbers.next());
+            let target = a + s * (b - a) + s * t * (c - b);
+            let slope = 10_f64.powf(-6.0 + 3.0 * numbers.next());
+            let along = numbers.next() * (b - a) + numbers.next() * (c - a);
+            let normal = (b - a).cross(c - a).normalize();
+            let direction = if small {
+                numbers.vector().normalize()
+            } else {
+                (along.normalize() + slope * normal).normalize()
+            };
+            let distance = 1.0 + 0.9 * numbers.next();
+            let ray = Ray::new(target - distance * direction, direction);
+            rays.push(ray);
+            let hit = closest_hit(&tree, shapes, &ray, &mut scratch, &mut ());
+            if hit.is_hit() {
+                let next_to = hit.t * (1.0 + 1e-7 * numbers.next());
+                for t in [hit.t, next_to] {
+                    rays.push(Ray { t_max: t, ..ray });
+                    rays.push(Ray { t_min: t, ..ray });
+                }
+            }
+        }
+        let hits = assert_same(&scene, &tree, &rays, scene.name());
+        assert!(hits > 10_000, "{hits}");
     }
 }
 
@@ -303,7 +366,9 @@ fn any_number_of_rays_is_answered() {
         let mut kernel = LaneKernel::new(&tree, lanes, shapes, instructions, company);
         let mut all = vec![Hit::MISS; rays.len()];
         kernel.closest_hits(&rays, &mut all);
-        for n in [0, 1, 15, 16, 17, 48, 49, 1023, 1024, 1025] {
+        for n in [
+            0, 1, 15, 16, 17, 79, 80, 81, 255, 256, 257, 1023, 1024, 1025,
+        ] {
             let mut hits = vec![Hit::MISS; n];
             kernel.closest_hits(&rays[..n], &mut hits);
             assert!(

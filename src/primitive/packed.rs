@@ -18,6 +18,7 @@ use super::{
 };
 use crate::geometry::{Ray, Vec3};
 use glam::Vec3 as Point;
+use std::hint::select_unpredictable;
 
 /// An object in the form that intersection wants it in: itself, or packed.
 pub trait Form: Sized + Send + Sync {
@@ -164,10 +165,13 @@ impl PackedTriangle {
         triangle::crossing_or_nan([a - origin, b - origin, c - origin], &shear, t_min)
     }
 
-    /// A distance of [`PackedTriangle::crossing_turned`] rounded, if it is at most `t_max` then.
+    /// A distance of [`PackedTriangle::crossing_turned`] rounded, if it is at most `t_max` then; NaN if
+    /// not. Without branches.
     #[inline(always)]
-    pub(crate) fn settled(crossing: f64, t_max: f64) -> Option<f64> {
-        rounded(crossing, t_max).filter(|_| crossing <= t_max * UP)
+    pub(crate) fn settled(crossing: f64, t_max: f64) -> f64 {
+        let t = f64::from(crossing as f32);
+        let within = (t <= t_max) & (crossing <= t_max * UP);
+        select_unpredictable(within, t, f64::NAN)
     }
 
     /// Whether the ray's line certainly misses it, decided in `f32`.

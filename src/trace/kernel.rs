@@ -25,6 +25,7 @@ impl Hit {
         object: u32::MAX,
     };
 
+    #[inline]
     pub fn is_hit(&self) -> bool {
         self.object != u32::MAX
     }

@@ -9,6 +9,7 @@ use super::walk::{Candidate, Tests};
 use crate::geometry::Ray;
 use crate::primitive::{Form, PackedTriangle};
 use crate::trace::Hit;
+use std::hint::select_unpredictable;
 use std::marker::PhantomData;
 
 /// A ray in `f64`.
@@ -27,17 +28,18 @@ pub(super) trait Numbers {
     /// Whether lanes hold all of a ray but what lies behind its origin.
     const FORWARD_ONLY: bool;
 
-    /// The ray that objects are tested with, and whose distances those of tests are.
-    fn tested(rays: &LaneRays, ray: usize, world: &[Ray]) -> Ray;
+    /// The ray that objects are tested with, and whose distances those of tests are, of the ray made
+    /// ready in `slot`.
+    fn tested(rays: &LaneRays, slot: usize, world: &[Ray]) -> Ray;
 
     /// That ray's end.
-    fn t_max(rays: &LaneRays, ray: usize, world: &[Ray]) -> f64;
+    fn t_max(rays: &LaneRays, slot: usize, world: &[Ray]) -> f64;
 
     /// A distance on that ray as one on the ray in the world.
-    fn to_world(rays: &LaneRays, ray: usize, t: f64) -> f64;
+    fn to_world(rays: &LaneRays, slot: usize, t: f64) -> f64;
 
     /// A distance in the unit frame that is not below `t` on that ray.
-    fn limit(rays: &LaneRays, ray: usize, t: f64) -> f32;
+    fn limit(rays: &LaneRays, slot: usize, t: f64) -> f32;
 }
 
 /// `f32`, in the unit frame.
@@ -48,18 +50,18 @@ impl Numbers for Narrow {
     const FORWARD_ONLY: bool = false;
 
     #[inline(always)]
-    fn tested(rays: &LaneRays, ray: usize, _: &[Ray]) -> Ray {
-        widened(&rays.rays[ray])
+    fn tested(rays: &LaneRays, slot: usize, _: &[Ray]) -> Ray {
+        widened(&rays.rays[slot])
     }
 
     #[inline(always)]
-    fn t_max(rays: &LaneRays, ray: usize, _: &[Ray]) -> f64 {
-        f64::from(rays.rays[ray].t_max)
+    fn t_max(rays: &LaneRays, slot: usize, _: &[Ray]) -> f64 {
+        f64::from(rays.rays[slot].t_max)
     }
 
     #[inline(always)]
-    fn to_world(rays: &LaneRays, ray: usize, t: f64) -> f64 {
-        rays.to_world(ray, t)
+    fn to_world(rays: &LaneRays, slot: usize, t: f64) -> f64 {
+        rays.to_world(slot, t)
     }
 
     #[inline(always)]
@@ -75,13 +77,13 @@ impl Numbers for Wide {
     const FORWARD_ONLY: bool = true;
 
     #[inline(always)]
-    fn tested(_: &LaneRays, ray: usize, world: &[Ray]) -> Ray {
-        world[ray]
+    fn tested(rays: &LaneRays, slot: usize, world: &[Ray]) -> Ray {
+        world[rays.number(slot)]
     }
 
     #[inline(always)]
-    fn t_max(_: &LaneRays, ray: usize, world: &[Ray]) -> f64 {
-        world[ray].t_max
+    fn t_max(rays: &LaneRays, slot: usize, world: &[Ray]) -> f64 {
+        world[rays.number(slot)].t_max
     }
 
     #[inline(always)]
@@ -90,8 +92,8 @@ impl Numbers for Wide {
     }
 
     #[inline(always)]
-    fn limit(rays: &LaneRays, ray: usize, t: f64) -> f32 {
-        (rays.in_frame(ray, t) as f32).next_up()
+    fn limit(rays: &LaneRays, slot: usize, t: f64) -> f32 {
+        (rays.in_frame(slot, t) as f32).next_up()
     }
 }
 
@@ -99,12 +101,15 @@ impl Numbers for Wide {
 pub(super) trait Objects {
     type Numbers: Numbers;
 
+    /// Whether tests are computed for several candidates at once; else each for itself.
+    const AT_ONCE: bool = false;
+
     /// What can be computed for several candidates at once, at most [`MANY`]; [`Objects::settle`] asks
     /// for them next.
     fn begin(&mut self, _: &[Candidate], _: &LaneRays) {}
 
     /// [`Form::settle`] of a candidate up to `t_max`, the one of this number among those that were
-    /// begun; `world` are the rays in the world.
+    /// begun, NaN for none; `world` are the rays in the world.
     fn settle(
         &self,
         number: usize,
@@ -112,7 +117,7 @@ pub(super) trait Objects {
         rays: &LaneRays,
         world: &[Ray],
         t_max: f64,
-    ) -> Option<f64>;
+    ) -> f64;
 }
 
 /// Triangles in the blocks themselves, which were just read.
@@ -135,6 +140,8 @@ impl<'a> InTriangles<'a> {
 impl Objects for InTriangles<'_> {
     type Numbers = Narrow;
 
+    const AT_ONCE: bool = true;
+
     #[inline(always)]
     fn begin(&mut self, candidates: &[Candidate], rays: &LaneRays) {
         for (k, candidate) in candidates.iter().enumerate() {
@@ -146,14 +153,7 @@ impl Objects for InTriangles<'_> {
     }
 
     #[inline(always)]
-    fn settle(
-        &self,
-        number: usize,
-        _: &Candidate,
-        _: &LaneRays,
-        _: &[Ray],
-        t_max: f64,
-    ) -> Option<f64> {
+    fn settle(&self, number: usize, _: &Candidate, _: &LaneRays, _: &[Ray], t_max: f64) -> f64 {
         PackedTriangle::settled(self.crossings.of(number), t_max)
     }
 }
@@ -172,10 +172,11 @@ impl Objects for InSpheres<'_> {
         rays: &LaneRays,
         _: &[Ray],
         t_max: f64,
-    ) -> Option<f64> {
+    ) -> f64 {
         let ray = widened(&rays.rays[candidate.ray as usize]);
         let block = &self.0[candidate.block as usize];
-        block.sphere(candidate.place as usize).settle(&ray, t_max)
+        let t = block.sphere(candidate.place as usize).settle(&ray, t_max);
+        t.unwrap_or(f64::NAN)
     }
 }
 
@@ -205,9 +206,10 @@ impl<N: Numbers, F: Form> Objects for InArray<'_, N, F> {
         rays: &LaneRays,
         world: &[Ray],
         t_max: f64,
-    ) -> Option<f64> {
+    ) -> f64 {
         let ray = N::tested(rays, candidate.ray as usize, world);
-        self.objects[candidate.object as usize].settle(&ray, t_max)
+        let t = self.objects[candidate.object as usize].settle(&ray, t_max);
+        t.unwrap_or(f64::NAN)
     }
 }
 
@@ -215,7 +217,8 @@ impl<N: Numbers, F: Form> Objects for InArray<'_, N, F> {
 pub(super) struct Closest<'a, O> {
     objects: O,
     rays: &'a [Ray],
-    /// By ray: the nearest so far, with a distance on the ray that objects are tested with.
+    /// By ray: its answer, if it is done; if it is on its way, the nearest so far, with a distance on the
+    /// ray that objects are tested with.
     hits: &'a mut [Hit],
 }
 
@@ -234,22 +237,40 @@ impl<O: Objects> Tests for Closest<'_, O> {
         false
     }
 
+    fn begin(&mut self, rays: &LaneRays, part: usize) {
+        for (slot, number) in rays.of_part(part) {
+            let t = O::Numbers::t_max(rays, slot, self.rays);
+            self.hits[number] = Hit { t, ..Hit::MISS };
+        }
+    }
+
+    fn end(&mut self, rays: &LaneRays, part: usize) {
+        for (slot, number) in rays.of_part(part) {
+            let hit = &mut self.hits[number];
+            let t = O::Numbers::to_world(rays, slot, hit.t);
+            hit.t = select_unpredictable(hit.is_hit(), t, Hit::MISS.t);
+        }
+    }
+
+    fn hit(&mut self, _: &LaneRays, _: &[u32]) {
+        unreachable!("it matters where");
+    }
+
     fn test(&mut self, rays: &LaneRays, candidates: &[Candidate], limits: &mut [f32]) {
         for candidates in candidates.chunks(MANY) {
             self.objects.begin(candidates, rays);
             for (k, candidate) in candidates.iter().enumerate() {
-                let (ray, object) = (candidate.ray as usize, candidate.object);
-                let best = &mut self.hits[ray];
+                let (slot, object) = (candidate.ray as usize, candidate.object);
+                let best = &mut self.hits[rays.number(slot)];
                 // Found in the leaf before.
-                if object == best.object {
+                if !O::AT_ONCE && object == best.object {
                     continue;
                 }
-                if let Some(t) = self.objects.settle(k, candidate, rays, self.rays, best.t)
-                    && (t < best.t || object < best.object)
-                {
-                    *best = Hit { t, object };
-                    limits[candidate.lane as usize] = O::Numbers::limit(rays, ray, t);
-                }
+                let t = self.objects.settle(k, candidate, rays, self.rays, best.t);
+                let nearer = (t < best.t) | (t == best.t) & (object < best.object);
+                *best = select_unpredictable(nearer, Hit { t, object }, *best);
+                let limit = &mut limits[candidate.lane as usize];
+                *limit = select_unpredictable(nearer, O::Numbers::limit(rays, slot, t), *limit);
             }
         }
     }
@@ -260,8 +281,6 @@ pub(super) struct Any<'a, O> {
     objects: O,
     rays: &'a [Ray],
     blocked: &'a mut [bool],
-    /// Those of the candidates that have to be tested.
-    unsure: Vec<Candidate>,
 }
 
 impl<'a, O> Any<'a, O> {
@@ -270,7 +289,6 @@ impl<'a, O> Any<'a, O> {
             objects,
             rays,
             blocked,
-            unsure: Vec::new(),
         }
     }
 }
@@ -280,26 +298,27 @@ impl<O: Objects> Tests for Any<'_, O> {
         true
     }
 
-    fn test(&mut self, rays: &LaneRays, candidates: &[Candidate], limits: &mut [f32]) {
-        let mut block = |candidate: &Candidate| {
-            self.blocked[candidate.ray as usize] = true;
-            limits[candidate.lane as usize] = -1.0;
-        };
-        self.unsure.clear();
-        for candidate in candidates {
-            if candidate.surely {
-                block(candidate);
-            } else {
-                self.unsure.push(*candidate);
-            }
+    fn begin(&mut self, rays: &LaneRays, part: usize) {
+        self.blocked[rays.parts[part].clone()].fill(false);
+    }
+
+    fn end(&mut self, _: &LaneRays, _: usize) {}
+
+    fn hit(&mut self, rays: &LaneRays, slots: &[u32]) {
+        for &slot in slots {
+            self.blocked[rays.number(slot as usize)] = true;
         }
-        for candidates in self.unsure.chunks(MANY) {
+    }
+
+    fn test(&mut self, rays: &LaneRays, candidates: &[Candidate], limits: &mut [f32]) {
+        for candidates in candidates.chunks(MANY) {
             self.objects.begin(candidates, rays);
             for (k, candidate) in candidates.iter().enumerate() {
                 let t_max = O::Numbers::t_max(rays, candidate.ray as usize, self.rays);
                 let t = self.objects.settle(k, candidate, rays, self.rays, t_max);
-                if t.is_some() {
-                    block(candidate);
+                if !t.is_nan() {
+                    self.hit(rays, &[candidate.ray]);
+                    limits[candidate.lane as usize] = -1.0;
                 }
             }
         }

@@ -43,9 +43,12 @@ impl<const N: usize> Leaves<N> {
     /// As [`Simd`]; a lane has one leaf at a time, and there is room for a vector beyond all lanes.
     #[inline(always)]
     pub(super) unsafe fn push<S: Simd>(&mut self, mask: S::M, lane: S::U, block: S::U, left: S::U) {
-        S::append(self.lanes.as_mut_ptr().add(self.count), mask, lane);
-        S::append(self.blocks.as_mut_ptr().add(self.count), mask, block);
-        S::append(self.left.as_mut_ptr().add(self.count), mask, left);
+        let to = [
+            self.lanes.as_mut_ptr().add(self.count),
+            self.blocks.as_mut_ptr().add(self.count),
+            self.left.as_mut_ptr().add(self.count),
+        ];
+        S::append_few(to, mask, [lane, block, left]);
         self.count += S::bits(mask).count_ones() as usize;
     }
 

@@ -8,7 +8,8 @@
 //! and objects ([`prepare`]), and blocks of 16 objects are held against a ray at once, or an object
 //! against a packet ([`block`]). What is left, one or two objects a ray, gets the exact test.
 //!
-//! Rays of one call keep each other company: fewer than about 500 leave lanes idle.
+//! Rays of one call keep each other company: of fewer than about 500 lanes stand idle, and thousands are
+//! better still.
 
 mod block;
 mod crossings;
@@ -20,6 +21,7 @@ mod prepare;
 mod ray;
 mod simd;
 mod stacks;
+mod supply;
 mod tracer;
 mod walk;
 
@@ -32,10 +34,11 @@ use block::{Boxes, Spheres, Triangles};
 use exact::{Any, Closest, InArray, InSpheres, InTriangles, Narrow, Numbers, Objects, Wide};
 use packet::{Aside, walk_packets};
 use prepare::Prepared;
-use ray::{CHUNK, LaneRays, Root};
+use ray::{LaneRays, PARTS, Root};
 use simd::portable::Portable;
 use stacks::Stacks;
 use std::ops::Range;
+use supply::{Supply, end_all};
 pub use tracer::{KernelChoice, TimedKernel};
 use walk::{Candidate, Tests, walk};
 
@@ -237,25 +240,20 @@ impl<'a> LaneKernel<'a> {
     /// If it has not.
     pub fn closest_hits(&mut self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len());
-        hits.fill(Hit::MISS);
-        self.in_packets = self.company.in_packets();
-        for (rays, hits) in rays.chunks(CHUNK).zip(hits.chunks_mut(CHUNK)) {
-            self.rays.upcoming = rays.as_ptr_range().end;
-            match (&self.lanes.prepared, self.shapes) {
-                (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
-                    let objects = InTriangles::new(&p.blocks, self.instructions);
-                    self.closest_of(objects, rays, hits);
-                }
-                (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
-                    self.closest_of(InSpheres(&p.blocks), rays, hits);
-                }
-                (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
-                    self.closest_of(InArray::<Narrow, _>::new(objects), rays, hits);
-                }),
-                (_, Shapes::F64(arrays)) => with_array!(arrays, objects => {
-                    self.closest_of(InArray::<Wide, _>::new(objects), rays, hits);
-                }),
+        match (&self.lanes.prepared, self.shapes) {
+            (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
+                let objects = InTriangles::new(&p.blocks, self.instructions);
+                self.closest_of(objects, rays, hits);
             }
+            (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
+                self.closest_of(InSpheres(&p.blocks), rays, hits);
+            }
+            (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
+                self.closest_of(InArray::<Narrow, _>::new(objects), rays, hits);
+            }),
+            (_, Shapes::F64(arrays)) => with_array!(arrays, objects => {
+                self.closest_of(InArray::<Wide, _>::new(objects), rays, hits);
+            }),
         }
     }
 
@@ -265,103 +263,100 @@ impl<'a> LaneKernel<'a> {
     /// Likewise.
     pub fn any_hits(&mut self, rays: &[Ray], blocked: &mut [bool]) {
         assert_eq!(rays.len(), blocked.len());
-        blocked.fill(false);
-        self.in_packets = self.company.in_packets();
-        for (rays, blocked) in rays.chunks(CHUNK).zip(blocked.chunks_mut(CHUNK)) {
-            self.rays.upcoming = rays.as_ptr_range().end;
-            match (&self.lanes.prepared, self.shapes) {
-                (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
-                    let objects = InTriangles::new(&p.blocks, self.instructions);
-                    self.any_of(objects, rays, blocked);
-                }
-                (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
-                    self.any_of(InSpheres(&p.blocks), rays, blocked);
-                }
-                (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
-                    self.any_of(InArray::<Narrow, _>::new(objects), rays, blocked);
-                }),
-                (_, Shapes::F64(arrays)) => with_array!(arrays, objects => {
-                    self.any_of(InArray::<Wide, _>::new(objects), rays, blocked);
-                }),
+        match (&self.lanes.prepared, self.shapes) {
+            (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
+                let objects = InTriangles::new(&p.blocks, self.instructions);
+                self.any_of(objects, rays, blocked);
             }
+            (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
+                self.any_of(InSpheres(&p.blocks), rays, blocked);
+            }
+            (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
+                self.any_of(InArray::<Narrow, _>::new(objects), rays, blocked);
+            }),
+            (_, Shapes::F64(arrays)) => with_array!(arrays, objects => {
+                self.any_of(InArray::<Wide, _>::new(objects), rays, blocked);
+            }),
         }
     }
 
     fn closest_of<O: Objects>(&mut self, objects: O, rays: &[Ray], hits: &mut [Hit]) {
-        self.fill::<O::Numbers>(rays);
+        self.walk::<O::Numbers>(rays, &mut Closest::new(objects, rays, hits));
         for &i in &self.rays.others {
             let (i, scratch) = (i as usize, &mut self.scratch);
             hits[i] = closest_hit(self.tree, self.shapes, &rays[i], scratch, &mut ());
         }
-        for &start in self.rays.meeting() {
-            let i = start as usize;
-            hits[i].t = O::Numbers::t_max(&self.rays, i, rays);
-        }
-        self.walk(&mut Closest::new(objects, rays, hits));
-        for &start in self.rays.meeting() {
-            let i = start as usize;
-            let hit = &mut hits[i];
-            *hit = if hit.is_hit() {
-                let t = O::Numbers::to_world(&self.rays, i, hit.t);
-                Hit { t, ..*hit }
-            } else {
-                Hit::MISS
-            };
-        }
     }
 
     fn any_of<O: Objects>(&mut self, objects: O, rays: &[Ray], blocked: &mut [bool]) {
-        self.fill::<O::Numbers>(rays);
+        self.walk::<O::Numbers>(rays, &mut Any::new(objects, rays, blocked));
         for &i in &self.rays.others {
             let (i, scratch) = (i as usize, &mut self.scratch);
             blocked[i] = any_hit(self.tree, self.shapes, &rays[i], scratch, &mut ());
         }
-        self.walk(&mut Any::new(objects, rays, blocked));
     }
 
-    fn fill<N: Numbers>(&mut self, rays: &[Ray]) {
-        let (thick, corners) = with_prepared!(self.lanes, tree => (tree.thick, &tree.corners));
+    /// Answers all rays but [`LaneRays::others`], in packets as long as those are chosen and then in lanes.
+    fn walk<N: Numbers>(&mut self, rays: &[Ray], tests: &mut dyn Tests) {
+        let lanes = self.lanes;
+        let (thick, corners) = with_prepared!(lanes, tree => (tree.thick, &tree.corners));
         let root = Root {
-            frame: &self.lanes.frame,
+            frame: &lanes.frame,
             thick,
             corners,
             forward_only: N::FORWARD_ONLY,
         };
+        let mut supply = Supply::new(root, rays);
+        self.rays.others.clear();
+        self.in_packets = self.company.in_packets();
+        while !supply.is_empty() {
+            let parts = if self.in_packets == Some(true) {
+                PARTS
+            } else {
+                1
+            };
+            self.rays.starts.count = 0;
+            for part in 0..parts {
+                self.refill(&mut supply, part, tests);
+            }
+            let mut ahead = 0..self.rays.starts.count;
+            if self.in_packets.is_none() && !self.are_alike() {
+                self.in_packets = Some(false);
+            }
+            if self.in_packets.is_none() {
+                let first = ahead.end.min(SAMPLE);
+                self.walk_packets(0..first, &mut supply, tests);
+                ahead.start = first;
+            }
+            if self.in_packets == Some(true) {
+                self.walk_packets(ahead, &mut supply, tests);
+            } else {
+                self.walk_lanes(ahead, &mut supply, tests);
+            }
+            end_all(&mut self.rays, tests);
+        }
+    }
+
+    /// Makes rays ready in a part.
+    fn refill(&mut self, supply: &mut Supply<'_>, part: usize, tests: &mut dyn Tests) {
+        let rays = &mut self.rays;
         // SAFETY: a kernel is only made for instructions that the processor has.
         unsafe {
             match self.instructions {
                 #[cfg(target_arch = "x86_64")]
-                InstructionSet::Avx512 => fill_avx512(&mut self.rays, root, rays),
+                InstructionSet::Avx512 => refill_avx512(supply, rays, part, tests),
                 #[cfg(target_arch = "x86_64")]
-                InstructionSet::Avx2 => fill_avx2(&mut self.rays, root, rays),
-                _ => self.rays.fill::<Portable>(root, rays),
+                InstructionSet::Avx2 => refill_avx2(supply, rays, part, tests),
+                _ => supply.refill::<Portable>(rays, part, tests),
             }
-        }
-    }
-
-    /// Walks the rays made ready.
-    fn walk(&mut self, tests: &mut dyn Tests) {
-        let mut ahead = 0..self.rays.starts.count;
-        if self.in_packets.is_none() && !self.are_alike() {
-            self.in_packets = Some(false);
-        }
-        if self.in_packets.is_none() {
-            let first = ahead.end.min(SAMPLE);
-            self.walk_packets(0..first, tests);
-            ahead.start = first;
-        }
-        if self.in_packets == Some(true) {
-            self.walk_packets(ahead, tests);
-        } else {
-            self.walk_lanes(ahead, tests);
         }
     }
 
     /// Whether most neighbours among the first rays go much the same way, within 30°: packets of
     /// others are not worth trying.
     fn are_alike(&self) -> bool {
-        let meeting = self.rays.meeting();
-        let first = &meeting[..meeting.len().min(SAMPLE)];
+        let starts = &self.rays.starts;
+        let first = &starts.ray[..starts.count.min(SAMPLE)];
         let direction = |ray: u32| glam::Vec3::from(self.rays.rays[ray as usize].direction);
         let alike = first.windows(2).filter(|pair| {
             let (a, b) = (direction(pair[0]), direction(pair[1]));
@@ -371,35 +366,41 @@ impl<'a> LaneKernel<'a> {
         2 * alike.count() >= first.len()
     }
 
-    fn walk_lanes(&mut self, ahead: Range<usize>, tests: &mut dyn Tests) {
-        let (rays, stacks) = (&*self.rays, &mut self.stacks);
+    /// Walks rays in lanes, first those made ready.
+    fn walk_lanes(&mut self, ahead: Range<usize>, supply: &mut Supply<'_>, tests: &mut dyn Tests) {
+        let (rays, stacks) = (&mut *self.rays, &mut self.stacks);
         let found = &mut self.candidates;
         with_prepared!(self.lanes, tree => {
             // SAFETY: a kernel is only made for instructions that the processor has.
             unsafe {
                 match self.instructions {
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx512 => walk_avx512(tree, rays, ahead, stacks, found, tests),
+                    InstructionSet::Avx512 => walk_avx512(tree, rays, ahead, supply, stacks, found, tests),
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx2 => walk_avx2(tree, rays, ahead, stacks, found, tests),
-                    _ => walk::<Portable, _, 2>(tree, rays, ahead, stacks, found, tests),
+                    InstructionSet::Avx2 => walk_avx2(tree, rays, ahead, supply, stacks, found, tests),
+                    _ => walk::<Portable, _, 2>(tree, rays, ahead, supply, stacks, found, tests),
                 }
             }
         });
     }
 
     /// Walks rays in packets, and chooses how those after them go where that is to be chosen.
-    fn walk_packets(&mut self, ahead: Range<usize>, tests: &mut dyn Tests) {
+    fn walk_packets(
+        &mut self,
+        ahead: Range<usize>,
+        supply: &mut Supply<'_>,
+        tests: &mut dyn Tests,
+    ) {
         let (rays, stack) = (&*self.rays, &mut self.asides);
         let together = with_prepared!(self.lanes, tree => {
             // SAFETY: as above.
             unsafe {
                 match self.instructions {
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx512 => packets_avx512(tree, rays, ahead, stack, tests),
+                    InstructionSet::Avx512 => packets_avx512(tree, rays, ahead, supply, stack, tests),
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx2 => packets_avx2(tree, rays, ahead, stack, tests),
-                    _ => walk_packets::<Portable, _>(tree, rays, ahead, stack, tests),
+                    InstructionSet::Avx2 => packets_avx2(tree, rays, ahead, supply, stack, tests),
+                    _ => walk_packets::<Portable, _>(tree, rays, ahead, supply, stack, tests),
                 }
             }
         });
@@ -419,13 +420,18 @@ impl LaneTree {
 /// The kernel compiled for an instruction set, all of it in functions of that set.
 #[cfg(target_arch = "x86_64")]
 macro_rules! compiled {
-    ($features:literal, $fill:ident, $walk:ident, $packets:ident, $simd:ty, $groups:literal) => {
+    ($features:literal, $refill:ident, $walk:ident, $packets:ident, $simd:ty, $groups:literal) => {
         /// # Safety
         /// The processor has these instructions.
         #[target_feature(enable = $features)]
-        unsafe fn $fill(lane_rays: &mut LaneRays, root: Root<'_>, rays: &[Ray]) {
+        unsafe fn $refill(
+            supply: &mut Supply<'_>,
+            rays: &mut LaneRays,
+            part: usize,
+            tests: &mut dyn Tests,
+        ) {
             // SAFETY: the caller's.
-            unsafe { lane_rays.fill::<$simd>(root, rays) }
+            unsafe { supply.refill::<$simd>(rays, part, tests) }
         }
 
         /// # Safety
@@ -433,14 +439,17 @@ macro_rules! compiled {
         #[target_feature(enable = $features)]
         unsafe fn $walk<B: block::Block>(
             tree: &Prepared<B>,
-            rays: &LaneRays,
+            rays: &mut LaneRays,
             ahead: Range<usize>,
+            supply: &mut Supply<'_>,
             stacks: &mut Stacks,
             candidates: &mut Vec<Candidate>,
             tests: &mut dyn Tests,
         ) {
             // SAFETY: the caller's.
-            unsafe { walk::<$simd, B, $groups>(tree, rays, ahead, stacks, candidates, tests) }
+            unsafe {
+                walk::<$simd, B, $groups>(tree, rays, ahead, supply, stacks, candidates, tests)
+            }
         }
 
         /// # Safety
@@ -450,27 +459,28 @@ macro_rules! compiled {
             tree: &Prepared<B>,
             rays: &LaneRays,
             ahead: Range<usize>,
+            supply: &mut Supply<'_>,
             stack: &mut Vec<Aside>,
             tests: &mut dyn Tests,
         ) -> packet::Company {
             // SAFETY: the caller's.
-            unsafe { walk_packets::<$simd, B>(tree, rays, ahead, stack, tests) }
+            unsafe { walk_packets::<$simd, B>(tree, rays, ahead, supply, stack, tests) }
         }
     };
 }
 #[cfg(target_arch = "x86_64")]
 compiled!(
     "avx512f,avx512dq,avx512vl,avx512bw,fma,bmi1,popcnt",
-    fill_avx512,
+    refill_avx512,
     walk_avx512,
     packets_avx512,
     simd::avx512::Avx512,
-    3
+    5
 );
 #[cfg(target_arch = "x86_64")]
 compiled!(
     "avx2,fma,bmi1,popcnt",
-    fill_avx2,
+    refill_avx2,
     walk_avx2,
     packets_avx2,
     simd::avx2::Avx2,

@@ -5,9 +5,17 @@ use super::simd::{Simd, WIDEST};
 use super::three;
 use crate::geometry::Ray;
 use crate::primitive::{FramedRay, UnitFrame};
+use std::ops::Range;
 
-/// Rays that are made ready at once: what is known of them stays in the cache.
-pub(super) const CHUNK: usize = 1024;
+/// Rays that are made ready at once.
+pub(super) const PART: usize = 256;
+
+/// Parts of rays that there is room for: a part is used again when the last of its rays is done, and
+/// others meanwhile.
+pub(super) const PARTS: usize = 4;
+
+/// Places for rays that are made ready: what is known of them stays in the cache.
+pub(super) const SLOTS: usize = PARTS * PART;
 
 /// What tests want of a ray, in one line of the cache; in the coordinates of the unit frame.
 #[derive(Clone, Copy)]
@@ -24,7 +32,9 @@ pub(super) struct LaneRay {
     pub(super) reach: f32,
     /// The axis of the direction's largest component.
     pub(super) axis: u32,
-    _room: [u32; 3],
+    /// The first two components over the last, axes turned.
+    pub(super) shear: [f32; 2],
+    _room: u32,
 }
 
 /// Numbers of half a [`LaneRay`].
@@ -40,7 +50,8 @@ impl LaneRay {
         inverse: [1.0; 3],
         reach: 0.0,
         axis: 0,
-        _room: [0; 3],
+        shear: [0.0; 2],
+        _room: 0,
     };
 
     fn set_uncommon(&mut self, ray: &FramedRay) {
@@ -72,7 +83,7 @@ impl LaneRay {
 }
 
 /// A number for every ray that meets the scene, with room for what vectors write beyond.
-type Column<T> = [T; CHUNK + WIDEST];
+pub(super) type Column<T> = [T; SLOTS + WIDEST];
 
 /// What lanes begin rays with that meet the scene, number by number.
 pub(super) struct Starts {
@@ -87,20 +98,32 @@ pub(super) struct Starts {
     pub(super) count: usize,
 }
 
-/// Rays made ready, up to [`CHUNK`].
+impl Starts {
+    /// Keeps those from `first` on.
+    pub(super) fn keep_from(&mut self, first: usize) {
+        let kept = first..self.count;
+        let columns = self.shifted.iter_mut().chain(&mut self.inverse);
+        for column in columns.chain([&mut self.t_enter, &mut self.t_exit]) {
+            column.copy_within(kept.clone(), 0);
+        }
+        self.ray.copy_within(kept.clone(), 0);
+        self.count = kept.len();
+    }
+}
+
+/// Rays made ready, in parts.
 pub(super) struct LaneRays {
     /// Half the thickness of planes.
     pub(super) thick: f32,
-    pub(super) rays: [LaneRay; CHUNK],
+    pub(super) rays: [LaneRay; SLOTS],
     /// Where on the ray in the world this one's origin lies, and distances here per distance there.
-    start: [f64; CHUNK],
-    scale: [f64; CHUNK],
-    /// Those that the unit frame cannot hold.
+    start: [f64; SLOTS],
+    scale: [f64; SLOTS],
+    /// By part: the numbers that its rays have in the call.
+    pub(super) parts: [Range<usize>; PARTS],
+    /// Those of the call so far that the unit frame cannot hold, by their numbers in it.
     pub(super) others: Vec<u32>,
     pub(super) starts: Starts,
-    /// Where the rays lie that are made ready after these, to be asked for meanwhile. There need not be
-    /// any: it is never read.
-    pub(super) upcoming: *const Ray,
 }
 
 /// What all rays through a tree have in common.
@@ -117,47 +140,60 @@ pub(super) struct Root<'a> {
 
 impl LaneRays {
     pub(super) fn new() -> Box<LaneRays> {
-        const ZERO: Column<f32> = [0.0; CHUNK + WIDEST];
+        const ZERO: Column<f32> = [0.0; SLOTS + WIDEST];
         Box::new(LaneRays {
             thick: 0.0,
-            rays: [LaneRay::NONE; CHUNK],
-            start: [0.0; CHUNK],
-            scale: [1.0; CHUNK],
+            rays: [LaneRay::NONE; SLOTS],
+            start: [0.0; SLOTS],
+            scale: [1.0; SLOTS],
+            parts: [const { 0..0 }; PARTS],
             others: Vec::new(),
             starts: Starts {
                 shifted: [ZERO; 3],
                 inverse: [ZERO; 3],
                 t_enter: ZERO,
                 t_exit: ZERO,
-                ray: [0; CHUNK + WIDEST],
+                ray: [0; SLOTS + WIDEST],
                 count: 0,
             },
-            upcoming: std::ptr::null(),
         })
     }
 
-    /// The rays that meet the scene.
-    pub(super) fn meeting(&self) -> &[u32] {
-        &self.starts.ray[..self.starts.count]
+    /// The number that the ray in a slot has in the call.
+    #[inline(always)]
+    pub(super) fn number(&self, slot: usize) -> usize {
+        self.parts[slot / PART].start + slot % PART
     }
 
-    /// Makes rays ready, at most [`CHUNK`].
+    /// The slots of a part's rays and their numbers in the call.
+    #[inline(always)]
+    pub(super) fn of_part(&self, part: usize) -> impl Iterator<Item = (usize, usize)> + use<> {
+        (part * PART..).zip(self.parts[part].clone())
+    }
+
+    /// Makes rays of a call ready in a part, those with these numbers in the call, at most [`PART`].
     ///
     /// # Safety
     /// As [`Simd`].
     #[inline(always)]
-    pub(super) unsafe fn fill<S: Simd>(&mut self, root: Root<'_>, rays: &[Ray]) {
-        const { assert!(CHUNK.is_multiple_of(S::LANES) && S::LANES <= WIDEST) };
-        assert!(rays.len() <= CHUNK);
+    pub(super) unsafe fn fill<S: Simd>(
+        &mut self,
+        root: &Root<'_>,
+        part: usize,
+        world: &[Ray],
+        numbers: Range<usize>,
+    ) {
+        const { assert!(PART.is_multiple_of(S::LANES) && S::LANES <= WIDEST) };
+        assert!(numbers.len() <= PART && self.starts.count + PART <= SLOTS);
+        let slots = part * PART..part * PART + numbers.len();
+        let rays = &world[numbers.clone()];
         self.thick = root.thick;
-        self.others.clear();
-        self.starts.count = 0;
-        self.start[..rays.len()].fill(0.0);
-        self.scale[..rays.len()].fill(root.frame.scale());
-        for (number, rays) in rays.chunks(S::LANES).enumerate() {
-            let first = number * S::LANES;
-            self.set::<S>(&root, first, rays);
-            self.derive::<S>(&root, first);
+        self.parts[part] = numbers;
+        self.start[slots.clone()].fill(0.0);
+        self.scale[slots.clone()].fill(root.frame.scale());
+        for (first, rays) in slots.step_by(S::LANES).zip(rays.chunks(S::LANES)) {
+            self.set::<S>(root, first, rays);
+            self.derive::<S>(root, first);
         }
     }
 
@@ -218,7 +254,7 @@ impl LaneRays {
             }
             _ => {
                 self.rays[i] = LaneRay::NONE;
-                self.others.push(i as u32);
+                self.others.push(self.number(i) as u32);
             }
         }
     }
@@ -253,8 +289,16 @@ impl LaneRays {
         let is_x = S::and(S::lt(size[1], size[0]), S::lt(size[2], size[0]));
         let axis = S::select_u(is_x, S::splat_u(0), y_or_z);
         let [x, y, z] = inverse;
+        let is_y = S::eq_u(axis, S::splat_u(1));
+        // Of three components, the one that many axes after the largest.
+        let turned = |of: [S::F; 3]| S::select(is_x, of[1], S::select(is_y, of[2], of[0]));
+        let along = S::select(is_x, x, S::select(is_y, y, z));
+        let shear = [
+            S::mul(turned(direction), along),
+            S::mul(turned([dy, dz, dx]), along),
+        ];
         let rest = S::splat(0.0);
-        let half = [x, y, z, reach, S::from_bits(axis), rest, rest, rest];
+        let half = [x, y, z, reach, S::from_bits(axis), shear[0], shear[1], rest];
         S::write_columns(rays.add(HALF), half);
 
         let starts = &mut self.starts;

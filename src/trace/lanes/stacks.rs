@@ -23,19 +23,34 @@ pub(super) struct Stacks {
     depth: usize,
     /// What is noted, number by number: the place on the stacks, the node, and where its cell begins
     /// and ends.
-    notes: [Vec<u32>; 4],
-    noted: usize,
+    notes: Vec<u32>,
+    /// Numbers of a column of them.
+    column: usize,
+}
+
+/// Notes of nodes that are to be brought to the stacks.
+pub(super) struct Notes {
+    columns: [*mut u32; 4],
+    count: usize,
 }
 
 impl Stacks {
     /// Room for so many lanes, with so many nodes waiting in each.
     pub(super) fn reserve(&mut self, lanes: usize, depth: usize) {
         self.depth = depth;
-        self.noted = 0;
         self.entries.resize(lanes * depth, Waiting::default());
         // Between two calls of `settle`, a lane only goes down. Vectors are written whole.
-        for column in &mut self.notes {
-            column.resize(lanes * (depth + 1), 0);
+        self.column = lanes * (depth + 1);
+        self.notes.resize(4 * self.column, 0);
+    }
+
+    /// No notes so far. They are of no use after the next [`Stacks::reserve`].
+    pub(super) fn notes(&mut self) -> Notes {
+        let first = self.notes.as_mut_ptr();
+        let column = self.column;
+        Notes {
+            columns: [0, 1, 2, 3].map(|k| first.wrapping_add(k * column)),
+            count: 0,
         }
     }
 
@@ -44,11 +59,40 @@ impl Stacks {
         (lane * self.depth) as u32
     }
 
+    /// Brings what was noted to the stacks.
+    ///
+    /// # Safety
+    /// As [`Notes::push`].
+    #[inline(always)]
+    pub(super) unsafe fn settle(&mut self, notes: &mut Notes) {
+        let [at, node, t_enter, t_exit] = notes.columns;
+        for k in 0..notes.count {
+            let place = *at.add(k) as usize;
+            *self.entries.get_unchecked_mut(place) = Waiting {
+                node: *node.add(k),
+                t_enter: f32::from_bits(*t_enter.add(k)),
+                t_exit: f32::from_bits(*t_exit.add(k)),
+            };
+        }
+        notes.count = 0;
+    }
+
+    /// The nodes at these places of the stacks.
+    ///
+    /// # Safety
+    /// As [`Notes::push`].
+    #[inline(always)]
+    pub(super) unsafe fn at<S: Simd>(&self, places: S::U) -> (S::U, S::F, S::F) {
+        S::pop(self.entries.as_ptr(), places)
+    }
+}
+
+impl Notes {
     /// Notes nodes of the lanes in `mask`, for these places on the stacks.
     ///
     /// # Safety
-    /// As [`Simd`]; [`Stacks::reserve`] was called for these lanes, and no more nodes are pushed than
-    /// it was told.
+    /// As [`Simd`]; these are the notes of stacks whose [`Stacks::reserve`] was called for these lanes, and
+    /// no more nodes are pushed than it was told.
     #[inline(always)]
     pub(super) unsafe fn push<S: Simd>(
         &mut self,
@@ -59,36 +103,14 @@ impl Stacks {
         t_exit: S::F,
     ) {
         let columns = [at, node, S::bits_of(t_enter), S::bits_of(t_exit)];
-        for (note, column) in self.notes.iter_mut().zip(columns) {
-            S::append(note.as_mut_ptr().add(self.noted), mask, column);
-        }
-        self.noted += S::bits(mask).count_ones() as usize;
-    }
-
-    /// Brings what was noted to the stacks.
-    ///
-    /// # Safety
-    /// As [`Stacks::push`].
-    #[inline(always)]
-    pub(super) unsafe fn settle(&mut self) {
-        let [at, node, t_enter, t_exit] = &self.notes;
-        for k in 0..self.noted {
-            let place = *at.get_unchecked(k) as usize;
-            *self.entries.get_unchecked_mut(place) = Waiting {
-                node: *node.get_unchecked(k),
-                t_enter: f32::from_bits(*t_enter.get_unchecked(k)),
-                t_exit: f32::from_bits(*t_exit.get_unchecked(k)),
-            };
-        }
-        self.noted = 0;
-    }
-
-    /// The nodes at these places of the stacks.
-    ///
-    /// # Safety
-    /// As [`Stacks::push`].
-    #[inline(always)]
-    pub(super) unsafe fn at<S: Simd>(&self, places: S::U) -> (S::U, S::F, S::F) {
-        S::pop(self.entries.as_ptr(), places)
+        let [a, b, c, d] = self.columns;
+        let to = [
+            a.add(self.count),
+            b.add(self.count),
+            c.add(self.count),
+            d.add(self.count),
+        ];
+        S::append_few(to, mask, columns);
+        self.count += S::bits(mask).count_ones() as usize;
     }
 }

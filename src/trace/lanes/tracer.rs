@@ -68,7 +68,7 @@ impl KernelChoice {
 const FEWEST_RAYS: usize = 64;
 
 /// Rays that are traced between two looks at whether the task was cancelled: about a millisecond.
-const RAYS_PER_LOOK: usize = 4 * super::CHUNK;
+const RAYS_PER_LOOK: usize = 4096;
 
 /// The kernel whose time counts.
 pub struct TimedKernel<'a> {

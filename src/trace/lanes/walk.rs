@@ -9,9 +9,10 @@
 use super::block::{BLOCK, Block};
 use super::leaves::{Leaf, Leaves, prefetch};
 use super::prepare::{ABOVE_EMPTY, BELOW_EMPTY, LEAF, PLACE, Prepared};
-use super::ray::{CHUNK, LaneRays};
+use super::ray::{Column, LaneRays, PART, PARTS};
 use super::simd::{Simd, WIDEST};
-use super::stacks::Stacks;
+use super::stacks::{Notes, Stacks};
+use super::supply::Supply;
 use std::hint::select_unpredictable;
 use std::ops::Range;
 
@@ -26,8 +27,16 @@ pub(super) struct Candidate {
     pub(super) block: u32,
     pub(super) place: u32,
     pub(super) object: u32,
-    /// That it is hit is certain, if not where.
-    pub(super) surely: bool,
+}
+
+/// Objects of a block that the ray of a lane may hit.
+#[derive(Clone, Copy, Default)]
+struct Match {
+    lane: u32,
+    ray: u32,
+    block: u32,
+    /// A bit for each.
+    maybe: u32,
 }
 
 /// The exact tests of the few objects that rays may hit.
@@ -35,13 +44,22 @@ pub(super) trait Tests {
     /// Whether one hit is enough, and it does not matter where.
     fn any_will_do(&self) -> bool;
 
+    /// The rays of a part begin.
+    fn begin(&mut self, rays: &LaneRays, part: usize);
+
+    /// They are all done: there is nothing more to test for them.
+    fn end(&mut self, rays: &LaneRays, part: usize);
+
+    /// That rays hit something is certain, if not where: those in these slots.
+    fn hit(&mut self, rays: &LaneRays, slots: &[u32]);
+
     /// Tests objects, and lowers the limits of rays that are hit: the distances in the unit frame
     /// beyond which nothing matters any more, −1 where nothing does at all.
     fn test(&mut self, rays: &LaneRays, candidates: &[Candidate], limits: &mut [f32]);
 }
 
 /// The most groups there are room for.
-const MOST_GROUPS: usize = 4;
+const MOST_GROUPS: usize = 5;
 
 /// Room for a leaf of every lane, and a vector more.
 const LEAVES: usize = WIDEST * (MOST_GROUPS + 1);
@@ -106,6 +124,7 @@ macro_rules! each_group {
         each_group!(@one $groups, $j, 1, $body);
         each_group!(@one $groups, $j, 2, $body);
         each_group!(@one $groups, $j, 3, $body);
+        each_group!(@one $groups, $j, 4, $body);
     };
     (@one $groups:ident, $j:ident, $number:literal, $body:expr) => {
         if $number < $groups {
@@ -127,21 +146,24 @@ unsafe fn by_axis<S: Simd>(values: &[[f32; WIDEST]; 3], is_1: S::M, is_2: S::M) 
     S::select(is_2, z, x_or_y)
 }
 
-/// Walks rays that meet the scene, `ahead` of them, through a tree in `GROUPS` groups of lanes.
+/// Walks rays through a tree in `GROUPS` groups of lanes: first those made ready, `ahead` of them, then
+/// others of the call as parts become free.
 ///
 /// # Safety
 /// As [`Simd`].
 #[inline(always)]
 pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     tree: &Prepared<B>,
-    rays: &LaneRays,
+    rays: &mut LaneRays,
     mut ahead: Range<usize>,
+    supply: &mut Supply<'_>,
     stacks: &mut Stacks,
     candidates: &mut Vec<Candidate>,
     tests: &mut dyn Tests,
 ) {
     const { assert!(GROUPS <= MOST_GROUPS && S::LANES <= WIDEST) };
     stacks.reserve(GROUPS * S::LANES, tree.most_waiting + 1);
+    let mut notes = stacks.notes();
     let mut bottoms = [[0_u32; WIDEST]; MOST_GROUPS];
     for (j, bottoms) in bottoms.iter_mut().enumerate() {
         for (lane, bottom) in bottoms.iter_mut().enumerate() {
@@ -155,21 +177,25 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
         top: S::load_u(bottoms[j].as_ptr()),
         enter: S::splat(0.0),
         exit: S::splat(-1.0),
-        alive: all,
+        alive: 0,
         active: S::mask(0),
     });
+    if !ahead.is_empty() {
+        each_group!(GROUPS, J => places[J].alive = all);
+    }
     let mut limits = [[-1.0_f32; WIDEST]; GROUPS];
-    candidates.resize(GROUPS * S::LANES * BLOCK + 1, Candidate::default());
+    candidates.resize(GROUPS * S::LANES * BLOCK, Candidate::default());
     let mut leaves = Leaves::new();
+    let mut matches = [Match::default(); LEAVES];
+    let mut certain = [0_u32; LEAVES];
     let any_will_do = tests.any_will_do();
-    // A round of tests is worth its while once half the lanes wait.
-    let enough = (GROUPS * S::LANES / 2) as u32;
+    let enough = (GROUPS * S::LANES * 5 / 8) as u32;
 
     loop {
         leaves.ask_all(tree.blocks.as_ptr());
         // A block of every leaf, then the next of those that have more.
         while leaves.len() > 0 {
-            let (mut found, mut going_on) = (0, 0);
+            let (mut matched, mut sure, mut going_on) = (0, 0, 0);
             for k in 0..leaves.len() {
                 let leaf = leaves.get(k);
                 let (number, block_number) = (leaf.lane, leaf.block);
@@ -177,13 +203,24 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
                 let group = groups.get_unchecked(j);
                 let ray = *group.ray.get_unchecked(lane);
                 let block = tree.blocks.get_unchecked(block_number as usize);
-                let limit = *limits.get_unchecked(j).get_unchecked(lane);
+                let limit = limits.get_unchecked_mut(j).get_unchecked_mut(lane);
                 // Or the same again: nothing predicts whether the leaf has more.
                 let next = block_number as usize + usize::from(leaf.left > 1);
                 prefetch(tree.blocks.as_ptr().add(next));
-                let may_hit = block.candidates::<S>(rays, ray as usize, limit, any_will_do);
+                let may_hit = block.candidates::<S>(rays, ray as usize, *limit, any_will_do);
                 let surely = may_hit.surely != 0;
-                let mut maybe = select_unpredictable(surely, lowest(may_hit.surely), may_hit.maybe);
+                // Written in any case, and counted where it holds: a branch that waits for the block to be
+                // decided, and is foretold wrong, would undo the work on all blocks after it.
+                *certain.get_unchecked_mut(sure) = ray;
+                *limit = select_unpredictable(surely, -1.0, *limit);
+                sure += usize::from(surely);
+                *matches.get_unchecked_mut(matched) = Match {
+                    lane: number,
+                    ray,
+                    block: block_number,
+                    maybe: may_hit.maybe,
+                };
+                matched += usize::from((may_hit.maybe != 0) & !surely);
                 let rest = Leaf {
                     block: block_number + 1,
                     left: leaf.left - 1,
@@ -191,30 +228,26 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
                 };
                 leaves.set(going_on, rest);
                 going_on += usize::from((rest.left > 0) & !surely);
-                // One is written in any case: nothing predicts whether there is one.
-                loop {
-                    let place = maybe.trailing_zeros() % BLOCK as u32;
-                    *candidates.get_unchecked_mut(found) = Candidate {
-                        lane: number,
-                        ray,
-                        block: block_number,
-                        place,
-                        object: *block.objects().get_unchecked(place as usize),
-                        surely,
-                    };
-                    found += usize::from(maybe != 0);
-                    maybe &= maybe.wrapping_sub(1);
-                    if maybe == 0 {
-                        break;
-                    }
-                }
             }
+            if sure > 0 {
+                tests.hit(rays, &certain[..sure]);
+            }
+            let found = list(&matches[..matched], &tree.blocks, candidates);
             if found > 0 {
                 tests.test(rays, &candidates[..found], limits.as_flattened_mut());
             }
             leaves.truncate(going_on);
         }
-        stacks.settle();
+        stacks.settle(&mut notes);
+        while ahead.len() < GROUPS * S::LANES && !supply.is_empty() {
+            let Some(part) = free_part(rays, ahead.clone(), &places, &groups) else {
+                break;
+            };
+            rays.starts.keep_from(ahead.start);
+            supply.refill::<S>(rays, part, tests);
+            ahead = 0..rays.starts.count;
+            each_group!(GROUPS, J => places[J].alive = all);
+        }
         let mut living = 0;
         let begun = ahead.start;
         each_group!(GROUPS, J => {
@@ -222,14 +255,14 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
             let bottom = S::load_u(bottoms[J].as_ptr());
             let limits = &mut limits[J];
             go_on::<S>(place, group, limits, stacks, bottom, rays, &mut ahead);
-            living |= place.alive;
+            living += place.alive.count_ones();
         });
         if living == 0 {
             return;
         }
-        for ray in begun..ahead.start {
-            prefetch(rays.upcoming.wrapping_add(ray));
-        }
+        supply.ask(ahead.start - begun);
+        // A round of tests is worth its while once half the lanes wait, or nothing else is left to do.
+        let fewest = living.saturating_sub(enough);
         // A group's next nodes are asked for while the others take their steps.
         let nodes = tree.nodes.as_ptr();
         let mut fetched = [(S::splat_u(0), S::splat_u(0)); GROUPS];
@@ -237,19 +270,71 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
         loop {
             each_group!(GROUPS, J => {
                 let lanes = S::load_u(NUMBERS[J].as_ptr());
-                step(&mut places[J], &groups[J], lanes, fetched[J], stacks, &mut leaves, tree);
+                step(&mut places[J], &groups[J], lanes, fetched[J], &mut notes, &mut leaves, tree);
                 fetched[J] = S::nodes(nodes, places[J].node);
             });
-            let (mut waiting, mut moving) = (0, 0);
+            let mut moving = 0;
             each_group!(GROUPS, J => {
-                waiting += places[J].waiting().count_ones();
-                moving |= S::bits(places[J].active);
+                moving += S::bits(places[J].active).count_ones();
             });
-            if waiting >= enough || moving == 0 {
+            if moving <= fewest {
                 break;
             }
         }
     }
+}
+
+/// Lists the objects of blocks that rays may hit one by one; gives how many there are.
+///
+/// # Safety
+/// There is room for them, and every block has one.
+#[inline(always)]
+unsafe fn list<B: Block>(matches: &[Match], blocks: &[B], candidates: &mut [Candidate]) -> usize {
+    let mut found = 0;
+    for &Match {
+        lane,
+        ray,
+        block,
+        mut maybe,
+    } in matches
+    {
+        let objects = blocks.get_unchecked(block as usize).objects();
+        loop {
+            let place = maybe.trailing_zeros() % BLOCK as u32;
+            *candidates.get_unchecked_mut(found) = Candidate {
+                lane,
+                ray,
+                block,
+                place,
+                object: *objects.get_unchecked(place as usize),
+            };
+            found += 1;
+            maybe &= maybe.wrapping_sub(1);
+            if maybe == 0 {
+                break;
+            }
+        }
+    }
+    found
+}
+
+/// A part of rays none of which is in a lane or ahead.
+fn free_part<S: Simd>(
+    rays: &LaneRays,
+    ahead: Range<usize>,
+    places: &[Place<S>],
+    groups: &[Group],
+) -> Option<usize> {
+    let mut used = [false; PARTS];
+    for &ray in &rays.starts.ray[ahead] {
+        used[ray as usize / PART] = true;
+    }
+    for (place, group) in places.iter().zip(groups) {
+        for (lane, &ray) in group.ray.iter().enumerate() {
+            used[ray as usize / PART] |= place.alive >> lane & 1 != 0;
+        }
+    }
+    used.iter().position(|used| !used)
 }
 
 /// Lets waiting lanes go on with the next node that waits; with a new ray where there is none, or
@@ -329,12 +414,7 @@ unsafe fn go_on<S: Simd>(
 
 /// Gives the lanes of a mask the numbers of a column from `first` on, and the others their own.
 #[inline(always)]
-unsafe fn expanded<S: Simd>(
-    mask: S::M,
-    column: &[f32; CHUNK + WIDEST],
-    first: usize,
-    own: S::F,
-) -> S::F {
+unsafe fn expanded<S: Simd>(mask: S::M, column: &Column<f32>, first: usize, own: S::F) -> S::F {
     let from = column.as_ptr().add(first).cast();
     S::from_bits(S::expand(mask, from, S::bits_of(own)))
 }
@@ -346,7 +426,7 @@ unsafe fn step<S: Simd, B: Block>(
     group: &Group,
     lanes: S::U,
     (payload, word): (S::U, S::U),
-    stacks: &mut Stacks,
+    notes: &mut Notes,
     leaves: &mut Leaves<LEAVES>,
     tree: &Prepared<B>,
 ) {
@@ -373,17 +453,11 @@ unsafe fn step<S: Simd, B: Block>(
     let take = S::and_not(both, near_empty);
     let push = S::and_not(take, far_empty);
     let after = S::max(place.enter, begins);
-    stacks.push::<S>(push, place.top, far, after, place.exit);
+    notes.push::<S>(push, place.top, far, after, place.exit);
     place.top = S::select_u(push, S::add_u(place.top, one), place.top);
     place.enter = S::select(skip, after, place.enter);
     place.exit = S::select(take, S::min(place.exit, ends), place.exit);
     let to_far = S::or(only_far, skip);
     let next = S::select_u(to_far, far, near);
     place.node = S::select_u(act, next, place.node);
-}
-
-/// The lowest bit that is set.
-#[inline(always)]
-fn lowest(bits: u32) -> u32 {
-    bits & bits.wrapping_neg()
 }

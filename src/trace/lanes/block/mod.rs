@@ -166,6 +166,8 @@ struct Within<S: Simd> {
     farthest: S::F,
     begin: S::F,
     end: S::F,
+    /// Bound on the error of a distance, which these have room for.
+    error: S::F,
 }
 
 impl<S: Simd> Within<S> {
@@ -178,6 +180,7 @@ impl<S: Simd> Within<S> {
             farthest: S::splat(limit + error),
             begin: S::splat(ray.t_min + error),
             end: S::splat(ray.t_max - error),
+            error: S::splat(error),
         }
     }
 
@@ -191,6 +194,7 @@ impl<S: Simd> Within<S> {
             farthest: S::add(limits, error),
             begin: S::add(t_min, error),
             end: S::sub(t_max, error),
+            error,
         }
     }
 }

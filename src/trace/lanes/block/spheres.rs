@@ -143,6 +143,7 @@ impl<S: Simd> Straight<S> {
             farthest,
             begin,
             end,
+            ..
         } = self.within;
         let to = three(|k| S::sub(center[k], self.origin[k]));
         let along = S::mul(dot::<S>(to, self.direction), self.per_square);

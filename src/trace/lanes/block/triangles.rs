@@ -61,10 +61,9 @@ impl Block for Triangles {
         let ray = rays.rays.get_unchecked(ray);
         let axes = ray.turned_axes();
         let along = *ray.inverse.get_unchecked(axes[2]);
-        let [dx, dy, _] = three(|k| *ray.direction.get_unchecked(axes[k]));
         let turned = Turned::<S> {
             origin: splat3::<S>(three(|k| *ray.origin.get_unchecked(axes[k]))),
-            shear: [S::splat(dx * along), S::splat(dy * along)],
+            shear: [S::splat(ray.shear[0]), S::splat(ray.shear[1])],
             along: S::splat(along),
             error: S::splat(EDGE_ERROR * ray.reach),
             within: Within::of_one(ray, limit),
@@ -131,8 +130,13 @@ struct Turned<S: Simd> {
 
 impl<S: Simd> Turned<S> {
     /// The edge functions of Woop, Benthin and Wald ("Watertight ray/triangle intersection", JCGT
-    /// 2(1), 2013), which decide where they are off 0 by more than rounding; and the distances of the
-    /// vertices, between which that of a hit lies.
+    /// 2(1), 2013), which decide where they are off 0 by more than rounding; and the distance of the
+    /// hit, their weighted mean of those of the vertices.
+    ///
+    /// With e and E the computed and the exact edge functions and z the distances of the vertices, that of
+    /// the hit, t, is where Σ E (z − t) = 0. So Σ e z and t Σ e differ by Σ (e − E) (z − t), which is at
+    /// most 3 `error` times the span of the z: limits are held against the mean times Σ e, without a
+    /// division. The span is made wider by what adding up rounds where Σ e is small beside `error`.
     #[inline(always)]
     unsafe fn may_hit(&self, [a, b, c]: [[S::F; 3]; 3], any: bool) -> MayHit {
         let zero = S::splat(0.0);
@@ -141,6 +145,7 @@ impl<S: Simd> Turned<S> {
             farthest,
             begin,
             end,
+            error: rounded,
         } = self.within;
         let a = sheared::<S>(a, self.origin, self.shear);
         let b = sheared::<S>(b, self.origin, self.shear);
@@ -153,40 +158,36 @@ impl<S: Simd> Turned<S> {
         let least = S::min(S::min(u, v), w);
         let most = S::max(S::max(u, v), w);
         let missed = S::and(S::lt(least, S::sub(zero, error)), S::lt(error, most));
-        let along = self.along;
-        let (ta, tb, tc) = (
-            S::mul(a[2], along),
-            S::mul(b[2], along),
-            S::mul(c[2], along),
-        );
-        let first = S::min(S::min(ta, tb), tc);
-        let last = S::max(S::max(ta, tb), tc);
-        let reached = S::and(S::le(first, farthest), S::le(nearest, last));
-        let maybe = S::and_not(reached, missed);
+        let sum = S::add(S::add(u, v), w);
+        let scale = S::abs(sum);
         // In half a block there is often none; whether there is in a whole one nothing predicts.
-        if S::LANES < BLOCK && S::bits(maybe) == 0 {
+        if S::LANES < BLOCK && S::bits(S::and_not(S::le(zero, scale), missed)) == 0 {
             return MayHit::default();
         }
-        // The distance is a mean of those of the vertices, weighted by the edge functions. With D
-        // their sum: if they are off by `error` each, it is by 3 `error` / |D| times the span of
-        // those distances, at most.
-        let sum = S::add(S::add(u, v), w);
-        let inverse = S::div(S::splat(1.0), sum);
-        let t = S::mul(S::mul_add(u, ta, S::mul_add(v, tb, S::mul(w, tc))), inverse);
-        let off = S::mul(S::mul(error, S::splat(4.0)), S::abs(inverse));
-        let clear = S::lt(off, S::splat(1.0));
-        let off = S::mul(off, S::sub(last, first));
-        let (early, late) = (S::sub(t, off), S::add(t, off));
-        let out = S::or(S::lt(late, nearest), S::lt(farthest, early));
-        let maybe = S::and_not(maybe, S::and(clear, out));
+        let first = S::min(S::min(a[2], b[2]), c[2]);
+        let last = S::max(S::max(a[2], b[2]), c[2]);
+        let mean = S::mul_add(u, a[2], S::mul_add(v, b[2], S::mul(w, c[2])));
+        let t = S::flip(S::mul(mean, self.along), sum);
+        let span = S::mul_add(S::sub(last, first), S::abs(self.along), rounded);
+        let off = S::mul(S::mul(error, S::splat(4.0)), span);
+        let early = S::sub(t, off);
+        let late = S::add(t, off);
+        let reached = S::and(
+            S::le(S::mul(nearest, scale), late),
+            S::le(early, S::mul(farthest, scale)),
+        );
+        let maybe = S::and_not(reached, missed);
         let mut found = MayHit {
             maybe: S::bits(maybe),
             surely: 0,
         };
         if any {
             let inside = S::or(S::lt(error, least), S::lt(most, S::sub(zero, error)));
-            let within = S::and(S::le(begin, early), S::le(late, end));
-            found.surely = S::bits(S::and(S::and(inside, within), S::and(clear, maybe)));
+            let within = S::and(
+                S::le(S::mul(begin, scale), early),
+                S::le(late, S::mul(end, scale)),
+            );
+            found.surely = S::bits(S::and(S::and(inside, within), maybe));
         }
         found
     }

@@ -13,6 +13,7 @@ use super::leaves::prefetch;
 use super::prepare::{ABOVE_EMPTY, BELOW_EMPTY, LEAF, Node, PLACE, Prepared};
 use super::ray::LaneRays;
 use super::simd::{Simd, WIDEST};
+use super::supply::Supply;
 use super::three;
 use super::walk::{Candidate, Tests};
 pub(super) use rays::{Bundle, Packet};
@@ -82,6 +83,14 @@ impl Found<'_> {
         self.count += 1;
     }
 
+    /// The ray in a lane surely hits something.
+    #[inline(always)]
+    fn hit(&mut self, packet: &Packet, lane: u32, limits: &mut Numbers) {
+        let lane = lane as usize;
+        self.tests.hit(self.rays, &[packet.ray[lane]]);
+        limits[lane] = -1.0;
+    }
+
     /// Tests what there is, if there is no room for what a block or a packet adds.
     #[inline(always)]
     fn make_room(&mut self, limits: &mut Numbers) {
@@ -126,6 +135,7 @@ pub(super) unsafe fn walk_packets<S: Simd, B: Block>(
     tree: &Prepared<B>,
     rays: &LaneRays,
     ahead: Range<usize>,
+    supply: &mut Supply<'_>,
     stack: &mut Vec<Aside>,
     tests: &mut dyn Tests,
 ) -> Company {
@@ -142,6 +152,7 @@ pub(super) unsafe fn walk_packets<S: Simd, B: Block>(
     for first in ahead.clone().step_by(S::LANES) {
         let count = S::LANES.min(ahead.end - first);
         packet.begin::<S>(rays, first, count);
+        supply.ask(count);
         walk_packet::<S, B>(tree, &packet, stack, &mut found, any_will_do);
     }
     found.company
@@ -274,13 +285,12 @@ unsafe fn visit<S: Simd, B: Block>(
         }
         let block = tree.blocks.get_unchecked(number as usize);
         let objects = block.objects();
-        let candidate = |lane: u32, place: u32, surely| Candidate {
+        let candidate = |lane: u32, place: u32| Candidate {
             lane,
             ray: packet.ray[lane as usize],
             block: number,
             place,
             object: objects[place as usize],
-            surely,
         };
         let mut near = if packet.is_one_axis {
             block.near::<S>(&packet.bundle)
@@ -299,13 +309,16 @@ unsafe fn visit<S: Simd, B: Block>(
                     S::load(limits.as_ptr()),
                     any_will_do,
                 );
-                let surely = may_hit.surely & lanes;
-                let mut maybe = may_hit.maybe & lanes;
+                let mut surely = may_hit.surely & lanes;
+                let mut maybe = may_hit.maybe & lanes & !surely;
                 lanes &= !surely;
+                while surely != 0 {
+                    found.hit(packet, surely.trailing_zeros(), limits);
+                    surely &= surely - 1;
+                }
                 while maybe != 0 {
-                    let lane = maybe.trailing_zeros();
+                    found.add(candidate(maybe.trailing_zeros(), place));
                     maybe &= maybe - 1;
-                    found.add(candidate(lane, place, surely >> lane & 1 != 0));
                 }
             }
         } else {
@@ -320,11 +333,11 @@ unsafe fn visit<S: Simd, B: Block>(
                     block.candidates::<S>(found.rays, ray, limit, any_will_do);
                 if surely != 0 {
                     lanes &= !(1 << lane);
-                    found.add(candidate(lane, surely.trailing_zeros(), true));
+                    found.hit(packet, lane, limits);
                     continue;
                 }
                 while maybe != 0 {
-                    found.add(candidate(lane, maybe.trailing_zeros(), false));
+                    found.add(candidate(lane, maybe.trailing_zeros()));
                     maybe &= maybe - 1;
                 }
             }

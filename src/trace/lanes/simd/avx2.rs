@@ -129,6 +129,11 @@ impl Simd for Avx2 {
         _mm256_andnot_ps(_mm256_set1_ps(-0.0), a)
     }
     #[inline(always)]
+    unsafe fn flip(a: __m256, by: __m256) -> __m256 {
+        let sign = _mm256_set1_ps(-0.0);
+        _mm256_xor_ps(a, _mm256_and_ps(by, sign))
+    }
+    #[inline(always)]
     unsafe fn lt(a: __m256, b: __m256) -> __m256i {
         _mm256_castps_si256(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b))
     }

@@ -157,6 +157,11 @@ impl Simd for Avx512 {
         _mm512_abs_ps(a)
     }
     #[inline(always)]
+    unsafe fn flip(a: __m512, by: __m512) -> __m512 {
+        let sign = _mm512_set1_ps(-0.0);
+        _mm512_xor_ps(a, _mm512_and_ps(by, sign))
+    }
+    #[inline(always)]
     unsafe fn lt(a: __m512, b: __m512) -> __mmask16 {
         _mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b)
     }
@@ -273,6 +278,19 @@ impl Simd for Avx512 {
     #[inline(always)]
     unsafe fn append(to: *mut u32, mask: __mmask16, x: __m512i) {
         _mm512_storeu_si512(to.cast(), _mm512_maskz_compress_epi32(mask, x));
+    }
+
+    #[inline(always)]
+    unsafe fn append_few<const N: usize>(to: [*mut u32; N], mask: __mmask16, x: [__m512i; N]) {
+        for k in 0..N {
+            let x = _mm512_maskz_compress_epi32(mask, x[k]);
+            _mm256_storeu_si256(to[k].cast(), _mm512_castsi512_si256(x));
+        }
+        if u32::from(mask).count_ones() > 8 {
+            for k in 0..N {
+                Self::append(to[k], mask, x[k]);
+            }
+        }
     }
 
     #[inline(always)]

@@ -44,6 +44,8 @@ pub(super) trait Simd: Copy {
     /// The second where either is NaN.
     unsafe fn max(a: Self::F, b: Self::F) -> Self::F;
     unsafe fn abs(a: Self::F) -> Self::F;
+    /// The other sign for lanes where `by` is negative.
+    unsafe fn flip(a: Self::F, by: Self::F) -> Self::F;
     /// The greatest of all lanes; none is NaN.
     unsafe fn greatest(a: Self::F) -> f32;
     unsafe fn lt(a: Self::F, b: Self::F) -> Self::M;
@@ -82,6 +84,15 @@ pub(super) trait Simd: Copy {
     /// Writes the lanes of the mask one after the other. `to` has room for all lanes, and what follows
     /// those written may be overwritten.
     unsafe fn append(to: *mut u32, mask: Self::M, x: Self::U);
+    /// The same for several columns, where few lanes are set mostly: half a vector is written then, which
+    /// is cheaper.
+    #[inline(always)]
+    unsafe fn append_few<const N: usize>(to: [*mut u32; N], mask: Self::M, x: [Self::U; N]) {
+        for k in 0..N {
+            // SAFETY: the caller's.
+            unsafe { Self::append(to[k], mask, x[k]) };
+        }
+    }
     /// Gives the lanes of the mask what lies one after the other in `from`, and the others their own of
     /// `x`.
     unsafe fn expand(mask: Self::M, from: *const u32, x: Self::U) -> Self::U;

@@ -85,6 +85,10 @@ impl Simd for Portable {
         a.map(f32::abs)
     }
     #[inline(always)]
+    unsafe fn flip(a: Self::F, by: Self::F) -> Self::F {
+        std::array::from_fn(|k| f32::from_bits(a[k].to_bits() ^ by[k].to_bits() & 0x8000_0000))
+    }
+    #[inline(always)]
     unsafe fn lt(a: Self::F, b: Self::F) -> u32 {
         ask(a, b, |a, b| a < b)
     }
