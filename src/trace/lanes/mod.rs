@@ -405,7 +405,9 @@ impl<'a> LaneKernel<'a> {
             }
         });
         if self.company == RayCompany::Auto {
-            self.in_packets = Some(together.is_close(self.instructions.lanes()));
+            // In plain Rust packets of rays that are alike are always the faster (`benches/README.md`).
+            let portable = self.instructions == InstructionSet::Portable;
+            self.in_packets = Some(portable || together.is_close(self.instructions.lanes()));
         }
     }
 }
