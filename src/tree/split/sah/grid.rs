@@ -41,12 +41,31 @@ impl Grid {
     }
 
     /// The bins whose limits, as rounded, hold planes between them: these lie at or above the lower
-    /// and below the upper one, but for the ends of the cell. Free of branches and of conversions, so
-    /// that it becomes vector instructions.
+    /// and below the upper one, but for the ends of the cell.
     pub(super) fn bins_of(&self, planes: &[f32], bins: &mut Vec<u8>) {
+        bins.resize(planes.len(), 0);
+        #[cfg(target_arch = "x86_64")]
+        if is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has these instructions.
+            return unsafe { self.bins_of_avx2(planes, bins) };
+        }
+        self.bins_of_here(planes, bins);
+    }
+
+    /// # Safety
+    /// The processor has these instructions.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    unsafe fn bins_of_avx2(&self, planes: &[f32], bins: &mut [u8]) {
+        self.bins_of_here(planes, bins);
+    }
+
+    /// Free of branches and of conversions, so that it becomes vector instructions; the same in all of
+    /// them, as each operation rounds by itself.
+    #[inline(always)]
+    fn bins_of_here(&self, planes: &[f32], bins: &mut [u8]) {
         /// Above it an `f32` has no fraction: to add it rounds, and leaves the integer in the bits.
         const INTEGERS: f32 = (1 << 23) as f32;
-        bins.resize(planes.len(), 0);
         for (bin, &at) in bins.iter_mut().zip(planes) {
             let guess = (at - self.lo) * self.scale - 0.5;
             let guess = if guess > 0.0 { guess } else { 0.0 };
