@@ -156,6 +156,31 @@ macro_rules! with_prepared {
     };
 }
 
+/// Runs `$body` with `$objects` bound to where exact tests find the objects, compiled once for every
+/// form and precision.
+macro_rules! with_objects {
+    ($kernel:expr, $objects:ident => $body:expr) => {
+        match (&$kernel.lanes.prepared, $kernel.shapes) {
+            (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
+                let $objects = InTriangles::new(&p.blocks, $kernel.instructions);
+                $body
+            }
+            (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
+                let $objects = InSpheres(&p.blocks);
+                $body
+            }
+            (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, all => {
+                let $objects = InArray::<Narrow, _>::new(all);
+                $body
+            }),
+            (_, Shapes::F64(arrays)) => with_array!(arrays, all => {
+                let $objects = InArray::<Wide, _>::new(all);
+                $body
+            }),
+        }
+    };
+}
+
 /// Answers batches of rays; one a thread.
 pub struct LaneKernel<'a> {
     tree: &'a Tree,
@@ -240,21 +265,7 @@ impl<'a> LaneKernel<'a> {
     /// If it has not.
     pub fn closest_hits(&mut self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len());
-        match (&self.lanes.prepared, self.shapes) {
-            (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
-                let objects = InTriangles::new(&p.blocks, self.instructions);
-                self.closest_of(objects, rays, hits);
-            }
-            (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
-                self.closest_of(InSpheres(&p.blocks), rays, hits);
-            }
-            (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
-                self.closest_of(InArray::<Narrow, _>::new(objects), rays, hits);
-            }),
-            (_, Shapes::F64(arrays)) => with_array!(arrays, objects => {
-                self.closest_of(InArray::<Wide, _>::new(objects), rays, hits);
-            }),
-        }
+        with_objects!(self, objects => self.closest_of(objects, rays, hits));
     }
 
     /// Whether anything lies on every ray before its end. `blocked` likewise.
@@ -263,21 +274,7 @@ impl<'a> LaneKernel<'a> {
     /// Likewise.
     pub fn any_hits(&mut self, rays: &[Ray], blocked: &mut [bool]) {
         assert_eq!(rays.len(), blocked.len());
-        match (&self.lanes.prepared, self.shapes) {
-            (AnyPrepared::Triangles(p), Shapes::F32 { .. }) => {
-                let objects = InTriangles::new(&p.blocks, self.instructions);
-                self.any_of(objects, rays, blocked);
-            }
-            (AnyPrepared::Spheres(p), Shapes::F32 { .. }) => {
-                self.any_of(InSpheres(&p.blocks), rays, blocked);
-            }
-            (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, objects => {
-                self.any_of(InArray::<Narrow, _>::new(objects), rays, blocked);
-            }),
-            (_, Shapes::F64(arrays)) => with_array!(arrays, objects => {
-                self.any_of(InArray::<Wide, _>::new(objects), rays, blocked);
-            }),
-        }
+        with_objects!(self, objects => self.any_of(objects, rays, blocked));
     }
 
     fn closest_of<O: Objects>(&mut self, objects: O, rays: &[Ray], hits: &mut [Hit]) {

@@ -189,6 +189,7 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
     let mut matches = [Match::default(); LEAVES];
     let mut certain = [0_u32; LEAVES];
     let any_will_do = tests.any_will_do();
+    // A round of tests is worth its while once so many lanes wait.
     let enough = (GROUPS * S::LANES * 5 / 8) as u32;
 
     loop {
@@ -261,7 +262,7 @@ pub(super) unsafe fn walk<S: Simd, B: Block, const GROUPS: usize>(
             return;
         }
         supply.ask(ahead.start - begun);
-        // A round of tests is worth its while once half the lanes wait, or nothing else is left to do.
+        // Or once nothing else is left to do.
         let fewest = living.saturating_sub(enough);
         // A group's next nodes are asked for while the others take their steps.
         let nodes = tree.nodes.as_ptr();
