@@ -3,6 +3,7 @@
 //! Large cells are split into tasks, each of which builds a subtree in arrays of its own; they are put
 //! together in depth-first order. The tree is the same for any number of threads.
 
+mod cell_objects;
 mod limits;
 mod overlap;
 mod part;
@@ -13,6 +14,7 @@ use crate::geometry::{Aabb, Axis};
 use crate::primitive::{Primitive, Shape};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
+use cell_objects::CellObjects;
 use limits::Limits;
 use overlap::{HalfCell, Overlap, Side};
 use part::Part;
@@ -115,7 +117,7 @@ fn in_pool(
         failed_splits: 0,
         waiting: objects.len(),
     };
-    let all: Vec<u32> = (0..objects.len() as u32).collect();
+    let all = CellObjects::of_root(&planes, &place.local);
     let mut part = Part::default();
     driver.cell(&mut part, &all, &place)?;
     part.finish(&driver.limits)?;
@@ -182,7 +184,13 @@ const LARGE: usize = 1 << 8;
 
 impl Driver<'_> {
     /// Builds the subtree of a cell with these objects.
-    fn cell(&self, part: &mut Part, objects: &[u32], place: &Place) -> Result<(), BuildError> {
+    fn cell(
+        &self,
+        part: &mut Part,
+        objects: &CellObjects,
+        place: &Place,
+    ) -> Result<(), BuildError> {
+        debug_assert!(objects.are_told_apart(self.planes, &place.local));
         if objects.len() > LARGE || part.nodes.len().is_multiple_of(64) {
             self.progress.check()?;
         }
@@ -202,10 +210,10 @@ impl Driver<'_> {
         }
     }
 
-    fn decide(&self, objects: &[u32], place: &Place) -> Decision {
+    fn decide(&self, objects: &CellObjects, place: &Place) -> Decision {
         let structure = self.settings.method.structure;
         if structure.ends_at(place.depth) {
-            if objects.is_empty() {
+            if objects.len() == 0 {
                 return Decision::Leaf(StopReason::Empty);
             }
             if objects.len() <= self.settings.n_oilf as usize {
@@ -222,7 +230,8 @@ impl Driver<'_> {
             depth: place.depth,
             depth_limit: self.depth_limit,
             failed_splits: place.failed_splits,
-            objects,
+            inside: &objects.inside,
+            touching: &objects.touching,
             primitives: self.objects,
             object_bounds: self.bounds,
             object_planes: self.planes,
@@ -246,7 +255,7 @@ impl Driver<'_> {
     fn leaf(
         &self,
         part: &mut Part,
-        objects: &[u32],
+        objects: &CellObjects,
         depth: u32,
         stop: StopReason,
     ) -> Result<(), BuildError> {
@@ -273,7 +282,7 @@ impl Driver<'_> {
     fn split(
         &self,
         part: &mut Part,
-        objects: &[u32],
+        objects: &CellObjects,
         place: &Place,
         axis: Axis,
         slab: [f32; 2],
@@ -296,7 +305,12 @@ impl Driver<'_> {
         part.close(outer, axis, slab[0]);
         if slab[0] < slab[1] {
             let inner = part.inner(&self.limits, place.depth)?;
-            self.leaf(part, &[], place.depth + 1, StopReason::CutOut)?;
+            self.leaf(
+                part,
+                &CellObjects::default(),
+                place.depth + 1,
+                StopReason::CutOut,
+            )?;
             part.close(inner, axis, slab[1]);
         }
         match built {
@@ -339,16 +353,18 @@ impl Driver<'_> {
     fn child(
         &self,
         part: &mut Part,
-        objects: &[u32],
+        objects: &CellObjects,
         (half, place): &(HalfCell, Place),
     ) -> Result<(), BuildError> {
         let mut own = part.spare.pop().unwrap_or_default();
         own.clear();
-        for chunk in objects.chunks(CHUNK) {
-            if objects.len() > CHUNK {
-                self.progress.check()?;
+        for (list, inside) in [(&objects.inside, true), (&objects.touching, false)] {
+            for chunk in list.chunks(CHUNK) {
+                if list.len() > CHUNK {
+                    self.progress.check()?;
+                }
+                self.overlap.select(half, chunk, inside, &mut own);
             }
-            self.overlap.select(half, chunk, &mut own);
         }
         self.cell(part, &own, place)?;
         part.spare.push(own);
@@ -356,7 +372,7 @@ impl Driver<'_> {
     }
 
     /// The same in arrays of its own.
-    fn apart(&self, objects: &[u32], child: &(HalfCell, Place)) -> Result<Part, BuildError> {
+    fn apart(&self, objects: &CellObjects, child: &(HalfCell, Place)) -> Result<Part, BuildError> {
         let mut part = Part::default();
         self.child(&mut part, objects, child)?;
         part.finish(&self.limits)?;

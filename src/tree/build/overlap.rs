@@ -1,5 +1,6 @@
 //! Which objects of a cell belong to its parts.
 
+use super::CellObjects;
 use crate::geometry::{Aabb, Axis};
 use crate::primitive::{Primitive, PrimitiveKind, Shape};
 use crate::tree::{BuildSettings, Frame, ObjectPlanes, OverlapRule};
@@ -75,48 +76,113 @@ impl<'a> Overlap<'a> {
         }
     }
 
-    /// Adds those of a cell's objects that belong to a part of it.
-    pub(super) fn select(&self, part: &HalfCell, objects: &[u32], selected: &mut Vec<u32>) {
-        let from = selected.len();
-        selected.resize(from + objects.len(), 0);
-        let mut end = from;
-        for &object in objects {
-            // Always put there and kept by a count: a branch would often be foretold wrong.
-            selected[end] = object;
-            end += usize::from(self.reaches(part, object));
+    /// Adds to the objects of a part of a cell those of these that belong to it. All of them are
+    /// `inside` the cell, or all only touch it.
+    pub(super) fn select(
+        &self,
+        part: &HalfCell,
+        objects: &[u32],
+        inside: bool,
+        to: &mut CellObjects,
+    ) {
+        let from = [to.inside.len(), to.touching.len()];
+        if inside {
+            self.select_inside(part, objects, to);
+        } else {
+            let reaches = |&object: &u32| match self.reach(part, object) {
+                Reach::Near => self.bounds_reach(part, object),
+                reach => reach == Reach::Certain,
+            };
+            to.touching.extend(objects.iter().copied().filter(reaches));
         }
-        selected.truncate(end);
         if self.exact.contains(&true) {
             let cell = part.bounds.enlarged(self.slack);
-            let mut kept = from;
-            for place in from..end {
-                let object = selected[place];
-                let primitive = &self.objects[object as usize];
-                if !self.exact[primitive.kind() as usize] || primitive.overlaps(&cell) {
-                    selected[kept] = object;
-                    kept += 1;
-                }
+            for (list, from) in [&mut to.inside, &mut to.touching].into_iter().zip(from) {
+                self.keep_overlapping(&cell, list, from);
             }
-            selected.truncate(kept);
         }
     }
 
-    /// Whether an object's bounds come within the slack of the part. The stored planes tell almost
-    /// always; only next to the plane do the bounds themselves.
+    fn select_inside(&self, part: &HalfCell, objects: &[u32], to: &mut CellObjects) {
+        let CellObjects { inside, touching } = to;
+        let [from, near] = [inside.len(), touching.len()];
+        inside.resize(from + objects.len(), 0);
+        touching.resize(near + objects.len(), 0);
+        let [mut end, mut near_end] = [0; 2];
+        let (certain, unsure) = (&mut inside[from..], &mut touching[near..]);
+        for &object in objects {
+            // Always put there and kept by a count: a branch would often be foretold wrong.
+            let reach = self.reach(part, object);
+            certain[end] = object;
+            unsure[near_end] = object;
+            end += usize::from(reach == Reach::Certain);
+            near_end += usize::from(reach == Reach::Near);
+        }
+        inside.truncate(from + end);
+        let mut kept = near;
+        for place in near..near + near_end {
+            let object = touching[place];
+            if self.bounds_reach(part, object) {
+                let k = part.axis.index();
+                let flat = self.planes[object as usize][k] == [part.plane; 2];
+                if flat {
+                    inside.push(object);
+                } else {
+                    touching[kept] = object;
+                    kept += 1;
+                }
+            }
+        }
+        touching.truncate(kept);
+    }
+
+    /// Removes from the objects of a list from a place on those that do not overlap a cell.
+    fn keep_overlapping(&self, cell: &Aabb, list: &mut Vec<u32>, from: usize) {
+        let mut kept = from;
+        for place in from..list.len() {
+            let object = list[place];
+            let primitive = &self.objects[object as usize];
+            if !self.exact[primitive.kind() as usize] || primitive.overlaps(cell) {
+                list[kept] = object;
+                kept += 1;
+            }
+        }
+        list.truncate(kept);
+    }
+
+    /// What the stored planes tell: almost always enough.
     #[inline]
-    fn reaches(&self, part: &HalfCell, object: u32) -> bool {
-        let k = part.axis.index();
-        let [lo, hi] = self.planes[object as usize][k];
-        let bounds = || &self.bounds[object as usize];
-        match part.side {
-            Side::Below if (lo >= part.plane) & (lo <= part.certain) => {
-                bounds().lo[k] <= part.bounds.hi[k] + self.slack
-            }
-            Side::Below => lo < part.plane,
-            Side::Above if (hi <= part.plane) & (hi >= part.certain) => {
-                bounds().hi[k] >= part.bounds.lo[k] - self.slack
-            }
-            Side::Above => hi > part.plane,
+    fn reach(&self, part: &HalfCell, object: u32) -> Reach {
+        let [lo, hi] = self.planes[object as usize][part.axis.index()];
+        let (certain, near) = match part.side {
+            Side::Below => (lo < part.plane, lo <= part.certain),
+            Side::Above => (hi > part.plane, hi >= part.certain),
+        };
+        if certain {
+            Reach::Certain
+        } else if near {
+            Reach::Near
+        } else {
+            Reach::None
         }
     }
+
+    /// Whether an object's bounds come within the slack of the part.
+    fn bounds_reach(&self, part: &HalfCell, object: u32) -> bool {
+        let (bounds, k) = (&self.bounds[object as usize], part.axis.index());
+        match part.side {
+            Side::Below => bounds.lo[k] <= part.bounds.hi[k] + self.slack,
+            Side::Above => bounds.hi[k] >= part.bounds.lo[k] - self.slack,
+        }
+    }
+}
+
+/// How an object lies to a plane that bounds a part of a cell.
+#[derive(Clone, Copy, PartialEq)]
+enum Reach {
+    /// It begins before the plane, seen from the part.
+    Certain,
+    /// It begins at the plane or so little behind it that its bounds must be asked.
+    Near,
+    None,
 }

@@ -1,6 +1,6 @@
 //! A subtree in arrays of its own.
 
-use super::{BuildError, Limits, Node};
+use super::{BuildError, CellObjects, Limits, Node};
 use crate::geometry::Axis;
 use crate::tree::StopReason;
 
@@ -15,7 +15,7 @@ pub(super) struct Part {
     /// Nodes and references that [`Limits`] knows of.
     counted: [usize; 2],
     /// Lists that cells no longer need, for other cells.
-    pub(super) spare: Vec<Vec<u32>>,
+    pub(super) spare: Vec<CellObjects>,
 }
 
 /// So much is built before it is counted.
@@ -25,7 +25,7 @@ impl Part {
     pub(super) fn leaf(
         &mut self,
         limits: &Limits,
-        objects: &[u32],
+        objects: &CellObjects,
         depth: u32,
         stop: StopReason,
     ) -> Result<(), BuildError> {
@@ -33,7 +33,9 @@ impl Part {
         let first = self.references.len() as u32;
         self.nodes
             .push(Node::leaf(first, objects.len() as u32, stop));
-        self.references.extend_from_slice(objects);
+        self.references.extend_from_slice(&objects.inside);
+        self.references.extend_from_slice(&objects.touching);
+        self.references[first as usize..].sort_unstable();
         self.depth_reached = self.depth_reached.max(depth);
         self.done += libm::exp2(-f64::from(depth));
         Ok(())

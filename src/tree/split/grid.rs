@@ -105,7 +105,7 @@ impl SplitRule for UniformGrid {
                 axis,
                 plane: self.plane(axis, from + (to - from) / 2),
             }
-        } else if cell.objects.is_empty() {
+        } else if cell.object_count() == 0 {
             Decision::Leaf(StopReason::Empty)
         } else {
             Decision::Leaf(StopReason::Voxel)

@@ -161,8 +161,10 @@ pub struct Cell<'a> {
     pub depth_limit: u32,
     /// How many of the splits between the root and the cell were [`Decision::FailedSplit`]s.
     pub failed_splits: u32,
-    /// Numbers of its objects, ascending.
-    pub objects: &'a [u32],
+    /// Numbers of its objects that do more than touch it from outside, in any order.
+    pub inside: &'a [u32],
+    /// Those that only touch it.
+    pub touching: &'a [u32],
     /// All objects of the scene, by number.
     pub primitives: &'a [Primitive],
     /// Their bounds.
@@ -174,6 +176,16 @@ pub struct Cell<'a> {
 }
 
 impl Cell<'_> {
+    /// Numbers of its objects, in any order.
+    pub fn objects(&self) -> impl Iterator<Item = u32> + '_ {
+        self.inside.iter().chain(self.touching).copied()
+    }
+
+    /// How many objects it has.
+    pub fn object_count(&self) -> usize {
+        self.inside.len() + self.touching.len()
+    }
+
     /// The plane through the middle of the cell.
     pub fn midpoint(&self, axis: Axis) -> f32 {
         let [lo, hi] = self.local[axis.index()];

@@ -48,9 +48,8 @@ impl SplitRule for ObjectMedian {
             Axis::from_index(self.first_axis.index() + cell.depth as usize)
         };
         let mut centers: Vec<f64> = cell
-            .objects
-            .iter()
-            .map(|&object| {
+            .objects()
+            .map(|object| {
                 let [lo, hi] = cell.clipped(object, axis);
                 lo * 0.5 + hi * 0.5
             })

@@ -118,7 +118,8 @@ struct Best {
 impl Best {
     /// Of planes that cost the same the first along the first axis stays.
     fn offer(&mut self, axis: Axis, at: f32, cost: f32) {
-        let earlier = self.plane.is_some_and(|(a, p)| a == axis && at < p);
+        let earlier = |(other, plane): (Axis, f32)| (axis.index(), at) < (other.index(), plane);
+        let earlier = self.plane.is_some_and(earlier);
         if cost < self.cost || cost == self.cost && earlier {
             *self = Best {
                 cost,
@@ -181,7 +182,10 @@ impl Sah {
                 cost: self.blocks(extents.objects()),
                 plane: None,
             };
-            for axis in Axis::ALL {
+            let size = cell.bounds.size();
+            let mut axes = Axis::ALL;
+            axes.sort_by(|a, b| size[b.index()].total_cmp(&size[a.index()]));
+            for axis in axes {
                 let areas = Areas::new(cell, axis);
                 let ends = cell.local[axis.index()];
                 Search::new(self, &areas, axis, ends, &mut best).run(extents.along(axis), room);
@@ -193,7 +197,7 @@ impl Sah {
 
 impl SplitRule for Sah {
     fn decide(&self, cell: &Cell<'_>) -> Decision {
-        let best = if cell.objects.len() > self.exact {
+        let best = if cell.object_count() > self.exact {
             self.among_bins(cell)
         } else {
             self.among_all(cell)

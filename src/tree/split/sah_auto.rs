@@ -117,9 +117,8 @@ impl SahAuto {
     /// The cheapest plane with its expected cost, in tests of an object; of equal ones the first.
     fn cheapest(&self, cell: &Cell<'_>) -> Option<(f64, Axis, f32)> {
         let parts: Vec<Aabb> = cell
-            .objects
-            .iter()
-            .filter_map(|&object| self.part(cell, object))
+            .objects()
+            .filter_map(|object| self.part(cell, object))
             .collect();
         let whole = cell.bounds.surface_area();
         let mut best: Option<(f64, Axis, f32)> = None;
@@ -165,7 +164,7 @@ impl SplitRule for SahAuto {
         let Some((cost, axis, plane)) = self.cheapest(cell) else {
             return Decision::Leaf(StopReason::NoCandidate);
         };
-        if cost < self.quality_ratio * cell.objects.len() as f64 {
+        if cost < self.quality_ratio * cell.object_count() as f64 {
             Decision::Split { axis, plane }
         } else if self.may_fail(cell) {
             Decision::FailedSplit { axis, plane }

@@ -120,9 +120,8 @@ impl SahCut {
         let (cell_lo, cell_hi) = (cell.bounds.lo[k], cell.bounds.hi[k]);
         let width = cell_hi - cell_lo;
         let mut extents: Vec<[f64; 2]> = cell
-            .objects
-            .iter()
-            .map(|&object| cell.clipped(object, axis))
+            .objects()
+            .map(|object| cell.clipped(object, axis))
             .collect();
         extents.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
         let sweep = Sweep::new(extents.iter().copied());
@@ -188,7 +187,7 @@ impl SplitRule for SahCut {
         let Some(best) = best else {
             return Decision::Leaf(StopReason::NoCandidate);
         };
-        let leaf_cost = cell.objects.len() as f64 * cell.bounds.surface_area();
+        let leaf_cost = cell.object_count() as f64 * cell.bounds.surface_area();
         if self.cost_stop && best.cost >= leaf_cost {
             return Decision::Leaf(StopReason::NoSplitPays);
         }

@@ -88,7 +88,7 @@ impl SahSampled {
             let plane = lo + (hi - lo) * (sample as f32 / parts as f32);
             // As the driver counts, but for rounding: what touches the plane is on both sides.
             let (mut below, mut above) = (0, 0);
-            for &object in cell.objects {
+            for object in cell.objects() {
                 let [begin, end] = cell.object_planes[object as usize][k];
                 below += usize::from(begin <= plane);
                 above += usize::from(end >= plane);
@@ -122,7 +122,7 @@ impl SplitRule for SahSampled {
         let Some(best) = best else {
             return Decision::Leaf(StopReason::NoCandidate);
         };
-        let leaf_cost = cell.objects.len() as f64 * cell.bounds.surface_area();
+        let leaf_cost = cell.object_count() as f64 * cell.bounds.surface_area();
         if self.cost_stop && best.cost >= leaf_cost {
             return Decision::Leaf(StopReason::NoSplitPays);
         }

@@ -1,7 +1,7 @@
 //! The limits of bins as planes, for cells with many objects.
 
 use super::extents::{Extents, Room, Source};
-use super::grid::{BINS, Grid};
+use super::grid::{BINS, Grid, count};
 use super::{Cell, Plane};
 use crate::geometry::Axis;
 use rayon::prelude::*;
@@ -42,7 +42,7 @@ impl Bins {
             counts
         };
         let counts = cell
-            .objects
+            .inside
             .par_chunks(CHUNK)
             .map(count)
             .reduce(Counts::default, Counts::plus);
@@ -87,18 +87,23 @@ impl Counts {
             let (k, along) = (axis.index(), extents.along(axis));
             grids[k].bins_of(along.begins, &mut room.begin_bins);
             grids[k].bins_of(along.ends, &mut room.end_bins);
-            for (&begin, &end) in room.begin_bins.iter().zip(&room.end_bins) {
-                self.begins[k][usize::from(begin) % BINS] += 1;
-                self.ends[k][usize::from(end) % BINS] += 1;
-            }
+            count(&room.begin_bins, &mut self.begins[k]);
+            count(&room.end_bins, &mut self.ends[k]);
         }
     }
 
     fn plus(mut self, other: Self) -> Self {
         self.objects += other.objects;
-        let mine = self.begins.iter_mut().chain(&mut self.ends).flatten();
-        let others = other.begins.iter().chain(&other.ends).flatten();
-        mine.zip(others).for_each(|(mine, other)| *mine += other);
+        for k in 0..3 {
+            add(&mut self.begins[k], &other.begins[k]);
+            add(&mut self.ends[k], &other.ends[k]);
+        }
         self
+    }
+}
+
+fn add(counts: &mut [u32; BINS], more: &[u32; BINS]) {
+    for (count, more) in counts.iter_mut().zip(more) {
+        *count += more;
     }
 }

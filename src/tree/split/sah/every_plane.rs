@@ -4,7 +4,7 @@
 //! of its planes might be the cheapest. What is found is what looking at every plane finds.
 
 use super::extents::{Along, Room};
-use super::grid::{BINS, Grid};
+use super::grid::{self, BINS, Grid};
 use super::{Areas, Best, Extent, Plane, Sah};
 use crate::geometry::Axis;
 
@@ -51,11 +51,12 @@ impl<'a> Search<'a> {
     pub(super) fn run(mut self, extents: Along<'_>, room: &mut Room) {
         let Along { begins, ends } = extents;
         let objects = begins.len();
-        let flat = || begins.iter().zip(ends).filter(|(b, e)| b == e);
+        let pairs = || begins.iter().zip(ends);
         room.flat.clear();
-        // To count them first is quick, and in most cells there is none.
-        if flat().count() > 0 {
-            room.flat.extend(flat().map(|(&begin, _)| begin));
+        // To look at all of them is quick, and in most cells there is none.
+        if pairs().fold(false, |any, (begin, end)| any | (begin == end)) {
+            let flat = pairs().filter(|(begin, end)| begin == end);
+            room.flat.extend(flat.map(|(&begin, _)| begin));
             room.flat.sort_unstable_by(f32::total_cmp);
         }
         self.outermost(extents, &room.flat);
@@ -67,7 +68,9 @@ impl<'a> Search<'a> {
         }
         grid.bins_of(begins, &mut room.begin_bins);
         grid.bins_of(ends, &mut room.end_bins);
-        let [begin_of, end_of] = starts([&room.begin_bins, &room.end_bins], bins);
+        let (mut begin_of, mut end_of) = ([0; BINS + 1], [0; BINS + 1]);
+        find_starts(&room.begin_bins, bins, &mut begin_of);
+        find_starts(&room.end_bins, bins, &mut end_of);
         let mut costs = [f32::INFINITY; BINS];
         for (bin, cost) in costs[..bins].iter_mut().enumerate() {
             if begin_of[bin] < begin_of[bin + 1] || end_of[bin] < end_of[bin + 1] {
@@ -80,7 +83,8 @@ impl<'a> Search<'a> {
                         grid.limit(bin + 1)
                     },
                 ];
-                *cost = self.least(limits, begin_of[bin], objects - end_of[bin + 1]);
+                let ended = end_of[bin + 1] as usize;
+                *cost = self.least(limits, begin_of[bin] as usize, objects - ended);
             }
         }
         // The most promising first, as what it gives rules out most of the others.
@@ -89,16 +93,17 @@ impl<'a> Search<'a> {
         if first.is_none_or(|first| costs[first] > self.best.cost) {
             return;
         }
-        deal(begins, &room.begin_bins, begin_of, &mut room.begins);
-        deal(ends, &room.end_bins, end_of, &mut room.ends);
+        deal(begins, &room.begin_bins, &begin_of, &mut room.begins);
+        deal(ends, &room.end_bins, &end_of, &mut room.ends);
+        let within = |starts: &Starts, bin| starts[bin] as usize..starts[bin + 1] as usize;
         let others = (0..bins).filter(|&bin| Some(bin) != first);
         for bin in first.into_iter().chain(others) {
             if costs[bin] <= self.best.cost {
                 let held = Bin {
-                    begins: &mut room.begins[begin_of[bin]..begin_of[bin + 1]],
-                    ends: &mut room.ends[end_of[bin]..end_of[bin + 1]],
-                    begun: begin_of[bin],
-                    ended: end_of[bin],
+                    begins: &mut room.begins[within(&begin_of, bin)],
+                    ends: &mut room.ends[within(&end_of, bin)],
+                    begun: begin_of[bin] as usize,
+                    ended: end_of[bin] as usize,
                 };
                 self.look_into(held, &room.flat, objects);
             }
@@ -183,28 +188,26 @@ fn count(sorted: &[f32], at: f32) -> usize {
     sorted[from..].partition_point(|&other| other == at)
 }
 
-/// Where each bin begins if planes lie in the order of their bins, and the end; of two lists of equal
-/// length, as increments of one place wait for each other.
-fn starts([first, second]: [&[u8]; 2], count: usize) -> [[usize; BINS + 1]; 2] {
-    let mut starts = [[0; BINS + 1]; 2];
-    for (&first, &second) in first.iter().zip(second) {
-        starts[0][usize::from(first) % BINS + 1] += 1;
-        starts[1][usize::from(second) % BINS + 1] += 1;
+/// Where each bin begins if planes lie in the order of their bins, and the end.
+type Starts = [u32; BINS + 1];
+
+#[inline]
+fn find_starts(planes: &[u8], bins: usize, starts: &mut Starts) {
+    let mut counts = [0; BINS];
+    grid::count(planes, &mut counts);
+    for bin in 0..bins {
+        starts[bin + 1] = starts[bin] + counts[bin];
     }
-    for starts in &mut starts {
-        for bin in 0..count {
-            starts[bin + 1] += starts[bin];
-        }
-    }
-    starts
 }
 
 /// Puts planes in the order of their bins.
-fn deal(planes: &[f32], bins: &[u8], mut next: [usize; BINS + 1], dealt: &mut Vec<f32>) {
+fn deal(planes: &[f32], bins: &[u8], starts: &Starts, dealt: &mut Vec<f32>) {
+    let mut next = *starts;
     dealt.resize(planes.len(), 0.0);
+    let dealt = &mut dealt[..];
     for (&at, &bin) in planes.iter().zip(bins) {
         let place = &mut next[usize::from(bin) % BINS];
-        dealt[*place] = at;
+        dealt[*place as usize] = at;
         *place += 1;
     }
 }

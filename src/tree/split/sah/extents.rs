@@ -4,7 +4,6 @@ use super::{Cell, Extent};
 use crate::geometry::Axis;
 use crate::primitive::Shape;
 use crate::tree::ObjectPlanes;
-use crate::tree::frame::is_inside;
 
 /// Gives the extents of a cell's objects.
 pub(super) struct Source<'a> {
@@ -19,23 +18,14 @@ impl<'a> Source<'a> {
         Source { cell, clip }
     }
 
-    /// An object's extent with whether it counts: not if it only touches the cell from outside.
-    #[inline]
-    fn extent(&self, object: u32) -> (bool, ObjectPlanes) {
+    /// The extent of the part of an object that is within the cell; none if there is no such part.
+    fn clipped(&self, object: u32) -> Option<ObjectPlanes> {
         let planes = &self.cell.object_planes[object as usize];
-        let inside = is_inside(planes, &self.cell.local);
-        let cut = self.cut_off(planes);
-        if self.clip && inside && cut != *planes {
-            let part = self.part(object, &cut);
-            return (part.is_some(), part.unwrap_or(cut));
+        let cut = cut_off(planes, &self.cell.local);
+        if cut == *planes {
+            return Some(cut);
         }
-        (inside, cut)
-    }
-
-    #[inline]
-    fn cut_off(&self, planes: &ObjectPlanes) -> ObjectPlanes {
-        let local = &self.cell.local;
-        std::array::from_fn(|k| [planes[k][0].max(local[k][0]), planes[k][1].min(local[k][1])])
+        self.part(object, &cut)
     }
 
     /// The extent of the part within the cell of an object whose bounds, cut off at the cell, are
@@ -89,7 +79,7 @@ impl Extents {
         task: impl FnOnce(&Extents, &mut Room) -> R,
     ) -> R {
         let (mut extents, mut room) = KEPT.take();
-        extents.fill(&Source::new(cell, clip), cell.objects);
+        extents.fill(&Source::new(cell, clip), cell.inside);
         let result = task(&extents, &mut room);
         KEPT.set((extents, room));
         result
@@ -104,14 +94,24 @@ impl Extents {
         let begins = self.begins.each_mut().map(|list| &mut list[..most]);
         let ends = self.ends.each_mut().map(|list| &mut list[..most]);
         let mut held = 0;
-        for &object in objects {
-            // Always put there and kept by a count: a branch would often be foretold wrong.
-            let (is_held, extent) = source.extent(object);
+        let mut put = |extent: ObjectPlanes| {
             for (k, [begin, end]) in extent.into_iter().enumerate() {
                 begins[k][held] = begin;
                 ends[k][held] = end;
             }
-            held += usize::from(is_held);
+            held += 1;
+        };
+        if source.clip {
+            objects
+                .iter()
+                .filter_map(|&object| source.clipped(object))
+                .for_each(put);
+        } else {
+            // At hand, as it is not known that the lists do not hold them.
+            let (planes, local) = (source.cell.object_planes, source.cell.local);
+            for &object in objects {
+                put(cut_off(&planes[object as usize], &local));
+            }
         }
         for list in self.begins.iter_mut().chain(&mut self.ends) {
             list.truncate(held);
@@ -141,6 +141,17 @@ impl Along<'_> {
             fold(self.ends, f32::NEG_INFINITY, higher),
         ]
     }
+}
+
+/// The extent of bounds, cut off at a cell.
+#[inline]
+fn cut_off(planes: &ObjectPlanes, cell: &ObjectPlanes) -> ObjectPlanes {
+    let higher = |a: f32, b: f32| if a > b { a } else { b };
+    let lower = |a: f32, b: f32| if a < b { a } else { b };
+    std::array::from_fn(|k| {
+        let ([lo, hi], [cell_lo, cell_hi]) = (planes[k], cell[k]);
+        [higher(lo, cell_lo), lower(hi, cell_hi)]
+    })
 }
 
 /// Folds in lanes, so that no step waits for the one before.

@@ -80,6 +80,24 @@ impl Grid {
     }
 }
 
+/// Counts how many of these bins there are of each.
+#[inline]
+pub(super) fn count(bins: &[u8], counts: &mut [u32; BINS]) {
+    // Neighbours are often the same, and an increment waits for the one before in its place.
+    let mut others = [0; BINS];
+    let (pairs, rest) = bins.as_chunks::<2>();
+    for &[one, other] in pairs {
+        counts[usize::from(one) % BINS] += 1;
+        others[usize::from(other) % BINS] += 1;
+    }
+    for &bin in rest {
+        counts[usize::from(bin) % BINS] += 1;
+    }
+    for (count, other) in counts.iter_mut().zip(others) {
+        *count += other;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
