@@ -62,14 +62,15 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
         },
         Constant {
             name: "exact",
-            default: 1024.0,
+            default: 16384.0,
             lowest: 0.0,
             highest: 1e9,
             step: 1.0,
             unit: "objects",
             about: "Cells with at most this many objects try every plane, larger ones the limits of \
                     64 bins.",
-            source: "measured: from 1024 on, more gains nothing",
+            source: "measured by cargo bench --bench peers and growth: as quick to build as with 1024, \
+                     and rays are up to a twentieth faster",
         },
         CLIP,
     ],
