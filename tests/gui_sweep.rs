@@ -35,6 +35,13 @@ fn type_into(window: &mut Window<'_>, name: &str, text: &str) {
     press(window, egui::Modifiers::NONE, egui::Key::Enter);
 }
 
+/// Waits until a sweep is taken to its end, with so many points.
+fn wait_for_sweep(window: &mut Window<'_>, points: usize) {
+    wait(window, "the sweep", |w| {
+        has(w, &format!("{points} of {points} points")) && w.query_by_label("Run sweep").is_some()
+    });
+}
+
 /// What the pane sweeps over by default, but for these leaf sizes.
 fn plan(scene: &Scene, size: u32, n_oilf: &[u32]) -> Plan {
     let start = small(SCENE);
@@ -62,7 +69,7 @@ fn a_sweep_has_the_rows_of_the_command_line_as_curves_and_as_a_map() {
     let mut window = on_sweep(SCENE, 24);
     type_into(&mut window, "Leaf sizes of the sweep", "1, 3");
     click(&mut window, "Run sweep");
-    wait(&mut window, "the sweep", |w| has(w, "76 of 76 points"));
+    wait_for_sweep(&mut window, 76);
     window.get_by_label("Plot of T_TR against D_MAX, 76 points");
     // There is not room for both.
     click(&mut window, "Map");
@@ -124,7 +131,7 @@ fn a_cell_or_a_point_loads_its_settings_and_another_parameter_is_shown() {
     let mut window = on_sweep(SCENE, 24);
     type_into(&mut window, "Leaf sizes of the sweep", "1, 3");
     click(&mut window, "Run sweep");
-    wait(&mut window, "the sweep", |w| has(w, "76 of 76 points"));
+    wait_for_sweep(&mut window, 76);
     click(&mut window, "Map");
     let on_view = |w: &Window<'_>, text: &str| has(w, &format!("balls:1 · {text} · D_AREC"));
     let cells = cells(&window);

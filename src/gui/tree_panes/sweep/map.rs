@@ -79,16 +79,26 @@ fn value(shown: &Shown<'_>, row: &Row) -> Option<f64> {
     Some(row.value(shown.parameter)? * factor)
 }
 
+fn depth_of(row: &Row) -> Option<u32> {
+    row.value(parameter("D_MAX")).map(|depth| depth as u32)
+}
+
 /// The colours with their numbers and what they are.
 fn legend(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale) {
     let p = shown.parameter;
-    let text = format!(
+    let mut text = format!(
         "{}{}, {} · diamond: least of the method · framed: loaded",
         p.symbol,
         p.unit.suffix(),
         p.name
     );
-    ui.add(egui::Label::new(egui::RichText::new(text).small()).truncate());
+    let rule = shown.rows.first().and_then(rule_depth);
+    if let Some(rule) =
+        rule.filter(|rule| shown.rows.iter().any(|row| depth_of(row) == Some(*rule)))
+    {
+        text += &format!(" · [{rule}]: the rule 1.2 log2 N + 2");
+    }
+    ui.add(egui::Label::new(egui::RichText::new(text).small()).wrap());
     let size = vec2(ui.available_width(), BAR + TICK + NUMBERS);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let name = format!("Legend from {} to {}", short(scale.lo), short(scale.hi));
@@ -102,7 +112,6 @@ fn legend(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale) {
 
 /// One method's map; gives the row whose cell is clicked.
 fn map(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale, method: &str) -> Option<usize> {
-    let depth_of = |row: &Row| row.value(parameter("D_MAX")).map(|depth| depth as u32);
     let mine = || {
         let rows = shown.rows.iter().enumerate();
         rows.filter(|(_, row)| row.key.method == method)
@@ -184,9 +193,6 @@ fn map(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale, method: &str) ->
             "{}\nClick to load these settings.",
             shown.words(row)
         ));
-    }
-    if let Some(depth) = rule.filter(|depth| depths.contains(depth)) {
-        ui.label(egui::RichText::new(format!("[{depth}]: the rule 1.2 log2 N + 2")).small());
     }
     clicked
 }

@@ -105,7 +105,8 @@ impl SweepPane {
     }
 
     fn toolbar(&mut self, ui: &mut egui::Ui, state: &mut State, found: Option<&Found>) {
-        if let Some((share, waits)) = state.sweeping.progress() {
+        let progress = state.sweeping.progress();
+        if progress.is_some() {
             let about = "End the sweep; its rows stay, and it can be gone on with.";
             if ui
                 .button("Cancel sweep")
@@ -114,8 +115,6 @@ impl SweepPane {
             {
                 state.sweeping.turns.cancel();
             }
-            ui.label(format!("{:.0} %", share * 100.0));
-            ui.weak(if waits { "waits" } else { "measuring …" });
             ui.ctx().request_repaint_after_secs(0.2);
         } else {
             let run = ui.add_enabled(state.may_sweep(), egui::Button::new("Run sweep"));
@@ -130,12 +129,14 @@ impl SweepPane {
             {
                 state.begin_sweep(ui.ctx());
             }
-            settings(ui, state);
         }
-        let said = match state.sweeping.turns.end() {
-            Some(End::Cancelled) => "cancelled: the rows stay".to_owned(),
-            Some(End::Failed(why)) => format!("ended: {why}"),
-            Some(End::Complete) | None => String::new(),
+        settings(ui, state, progress.is_none());
+        let said = match (progress, state.sweeping.turns.end()) {
+            (Some((share, false)), _) => format!("{:.0} %", share * 100.0),
+            (Some((share, true)), _) => format!("{:.0} %, waits", share * 100.0),
+            (None, Some(End::Cancelled)) => "cancelled: the rows stay".to_owned(),
+            (None, Some(End::Failed(why))) => format!("ended: {why}"),
+            (None, Some(End::Complete) | None) => String::new(),
         };
         if let Some(found) = found {
             let (done, of) = (found.rows.len(), found.plan.points.len());
@@ -170,8 +171,8 @@ impl SweepPane {
     }
 }
 
-/// What the next sweep is over.
-fn settings(ui: &mut egui::Ui, state: &mut State) {
+/// What the next sweep is over; stays in its place while one is taken, so that nothing jumps.
+fn settings(ui: &mut egui::Ui, state: &mut State, may_change: bool) {
     let sweeping = &mut state.sweeping;
     let [from, to] = &mut sweeping.depths;
     ui.label("D_MAX")
@@ -180,16 +181,18 @@ fn settings(ui: &mut egui::Ui, state: &mut State) {
         let edit = egui::DragValue::new(depth)
             .range(0..=MaxDepth::LIMIT)
             .speed(0.1);
-        ui.add(edit).accessible_name(name).on_hover_text(name);
+        ui.add_enabled(may_change, edit)
+            .accessible_name(name)
+            .on_hover_text(name);
     }
     ui.label("N_OILF")
         .on_hover_text("Leaf sizes, separated by commas");
     let field = egui::TextEdit::singleline(&mut sweeping.leaf_sizes).desired_width(80.0);
-    ui.add(field)
+    ui.add_enabled(may_change, field)
         .accessible_name("Leaf sizes of the sweep")
         .on_hover_text("Leaf sizes, separated by commas, such as 1, 2, 4");
     let text = format!("Methods: {}", sweeping.methods.len());
-    ui.menu_button(text, |ui| {
+    let methods = |ui: &mut egui::Ui| {
         for method in Method::all() {
             let mut chosen = sweeping.methods.contains(&method);
             if ui
@@ -203,9 +206,10 @@ fn settings(ui: &mut egui::Ui, state: &mut State) {
                 }
             }
         }
-    })
-    .response
-    .on_hover_text("Build methods, in the order in which they were chosen");
+    };
+    ui.add_enabled_ui(may_change, |ui| ui.menu_button(text, methods).response)
+        .inner
+        .on_hover_text("Build methods, in the order in which they were chosen");
 }
 
 /// Where the rows go.
