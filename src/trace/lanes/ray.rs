@@ -5,6 +5,7 @@ use super::simd::{Simd, WIDEST};
 use super::three;
 use crate::geometry::Ray;
 use crate::primitive::{FramedRay, UnitFrame};
+use std::hint::select_unpredictable;
 use std::ops::Range;
 
 /// Rays that are made ready at once.
@@ -70,7 +71,8 @@ impl LaneRay {
     #[inline(always)]
     pub(super) fn turned_axes(&self) -> [usize; 3] {
         let last = self.axis as usize;
-        let next = |k| if k == 2 { 0 } else { k + 1 };
+        // As a branch it would often be foretold wrong.
+        let next = |k| select_unpredictable(k == 2, 0, k + 1);
         [next(last), next(next(last)), last]
     }
 
