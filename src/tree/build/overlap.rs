@@ -89,9 +89,9 @@ impl<'a> Overlap<'a> {
         if inside {
             self.select_inside(part, objects, to);
         } else {
-            let reaches = |&object: &u32| match self.reach(part, object) {
-                Reach::Near => self.bounds_reach(part, object),
-                reach => reach == Reach::Certain,
+            let reaches = |&object: &u32| {
+                let [certain, near] = self.reach(part, object);
+                certain || near && self.bounds_reach(part, object)
             };
             to.touching.extend(objects.iter().copied().filter(reaches));
         }
@@ -112,11 +112,11 @@ impl<'a> Overlap<'a> {
         let (certain, unsure) = (&mut inside[from..], &mut touching[near..]);
         for &object in objects {
             // Always put there and kept by a count: a branch would often be foretold wrong.
-            let reach = self.reach(part, object);
+            let [is_certain, is_near] = self.reach(part, object);
             certain[end] = object;
             unsure[near_end] = object;
-            end += usize::from(reach == Reach::Certain);
-            near_end += usize::from(reach == Reach::Near);
+            end += usize::from(is_certain);
+            near_end += usize::from(is_near);
         }
         inside.truncate(from + end);
         let mut kept = near;
@@ -150,21 +150,16 @@ impl<'a> Overlap<'a> {
         list.truncate(kept);
     }
 
-    /// What the stored planes tell: almost always enough.
+    /// What the stored planes tell: whether an object certainly has a part beyond the plane of the
+    /// part, or else comes so near to it that its bounds must be asked.
     #[inline]
-    fn reach(&self, part: &HalfCell, object: u32) -> Reach {
+    fn reach(&self, part: &HalfCell, object: u32) -> [bool; 2] {
         let [lo, hi] = self.planes[object as usize][part.axis.index()];
         let (certain, near) = match part.side {
             Side::Below => (lo < part.plane, lo <= part.certain),
             Side::Above => (hi > part.plane, hi >= part.certain),
         };
-        if certain {
-            Reach::Certain
-        } else if near {
-            Reach::Near
-        } else {
-            Reach::None
-        }
+        [certain, near & !certain]
     }
 
     /// Whether an object's bounds come within the slack of the part.
@@ -175,14 +170,4 @@ impl<'a> Overlap<'a> {
             Side::Above => bounds.hi[k] >= part.bounds.lo[k] - self.slack,
         }
     }
-}
-
-/// How an object lies to a plane that bounds a part of a cell.
-#[derive(Clone, Copy, PartialEq)]
-enum Reach {
-    /// It begins before the plane, seen from the part.
-    Certain,
-    /// It begins at the plane or so little behind it that its bounds must be asked.
-    Near,
-    None,
 }
