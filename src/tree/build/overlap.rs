@@ -103,6 +103,7 @@ impl<'a> Overlap<'a> {
         }
     }
 
+    /// For objects inside the cell: each is inside the part, only touches it, or neither.
     fn select_inside(&self, part: &HalfCell, objects: &[u32], to: &mut CellObjects) {
         let CellObjects { inside, touching } = to;
         let [from, near] = [inside.len(), touching.len()];
