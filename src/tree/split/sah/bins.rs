@@ -1,7 +1,7 @@
 //! The limits of bins as planes, for cells with many objects.
 
 use super::extents::{Extents, Room, Source};
-use super::grid::{BINS, Grid, count};
+use super::grid::{BINS, Grid, count_bins};
 use super::{Cell, Plane};
 use crate::geometry::Axis;
 use rayon::prelude::*;
@@ -87,23 +87,16 @@ impl Counts {
             let (k, along) = (axis.index(), extents.along(axis));
             grids[k].bins_of(along.begins, &mut room.begin_bins);
             grids[k].bins_of(along.ends, &mut room.end_bins);
-            count(&room.begin_bins, &mut self.begins[k]);
-            count(&room.end_bins, &mut self.ends[k]);
+            count_bins(&room.begin_bins, &mut self.begins[k]);
+            count_bins(&room.end_bins, &mut self.ends[k]);
         }
     }
 
     fn plus(mut self, other: Self) -> Self {
         self.objects += other.objects;
-        for k in 0..3 {
-            add(&mut self.begins[k], &other.begins[k]);
-            add(&mut self.ends[k], &other.ends[k]);
-        }
+        let mine = self.begins.iter_mut().chain(&mut self.ends).flatten();
+        let others = other.begins.iter().chain(&other.ends).flatten();
+        mine.zip(others).for_each(|(mine, other)| *mine += other);
         self
-    }
-}
-
-fn add(counts: &mut [u32; BINS], more: &[u32; BINS]) {
-    for (count, more) in counts.iter_mut().zip(more) {
-        *count += more;
     }
 }

@@ -4,7 +4,7 @@
 //! of its planes might be the cheapest. What is found is what looking at every plane finds.
 
 use super::extents::{Along, Room};
-use super::grid::{self, BINS, Grid};
+use super::grid::{BINS, Grid, count_bins};
 use super::{Areas, Best, Extent, Plane, Sah};
 use crate::geometry::Axis;
 
@@ -194,7 +194,7 @@ type Starts = [u32; BINS + 1];
 #[inline]
 fn find_starts(planes: &[u8], bins: usize, starts: &mut Starts) {
     let mut counts = [0; BINS];
-    grid::count(planes, &mut counts);
+    count_bins(planes, &mut counts);
     for bin in 0..bins {
         starts[bin + 1] = starts[bin] + counts[bin];
     }

@@ -82,7 +82,7 @@ impl Grid {
 
 /// Counts how many of these bins there are of each.
 #[inline]
-pub(super) fn count(bins: &[u8], counts: &mut [u32; BINS]) {
+pub(super) fn count_bins(bins: &[u8], counts: &mut [u32; BINS]) {
     // Neighbours are often the same, and an increment waits for the one before in its place.
     let mut others = [0; BINS];
     let (pairs, rest) = bins.as_chunks::<2>();
