@@ -4,7 +4,7 @@ use super::Shown;
 use crate::gui::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::gui::tree_panes::short;
 use crate::measure::heat::HeatImage;
-use crate::measure::sweep::{Row, is_wide, rule_depth};
+use crate::measure::sweep::{Row, is_wide};
 use crate::measure::{Unit, parameter};
 use crate::overlay::{Colormap, HeatScale, Range, Scale, colormap};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, StrokeKind, pos2, vec2};
@@ -92,10 +92,8 @@ fn legend(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale) {
         p.unit.suffix(),
         p.name
     );
-    let rule = shown.rows.first().and_then(rule_depth);
-    if let Some(rule) =
-        rule.filter(|rule| shown.rows.iter().any(|row| depth_of(row) == Some(*rule)))
-    {
+    let is_swept = |depth: &u32| shown.rows.iter().any(|row| depth_of(row) == Some(*depth));
+    if let Some(rule) = shown.rule().filter(is_swept) {
         text += &format!(" · [{rule}]: the rule 1.2 log2 N + 2");
     }
     ui.add(egui::Label::new(egui::RichText::new(text).small()).wrap());
@@ -138,7 +136,7 @@ fn map(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale, method: &str) ->
         );
         Rect::from_min_size(at, vec2(width, CELL))
     };
-    let rule = shown.rows.first().and_then(rule_depth);
+    let rule = shown.rule();
     for (column, depth) in depths.iter().enumerate() {
         let at = cell(column, 0).center() - vec2(0.0, CELL);
         if Some(*depth) == rule {

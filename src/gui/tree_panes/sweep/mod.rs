@@ -9,7 +9,7 @@ use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::State;
 use crate::gui::sweeping::Found;
 use crate::gui::turns::End;
-use crate::measure::sweep::{Row, answers};
+use crate::measure::sweep::{Row, answers, rule_depth};
 use crate::measure::{Class, PARAMETERS, Parameter, parameter};
 use crate::tree::{MaxDepth, Method};
 use egui::vec2;
@@ -246,6 +246,11 @@ struct Shown<'a> {
 }
 
 impl Shown<'_> {
+    /// The depth that the rule 1.2 log2 N + 2 gives.
+    fn rule(&self) -> Option<u32> {
+        self.rows.first().and_then(rule_depth)
+    }
+
     fn is_best(&self, row: &Row) -> bool {
         self.best.iter().any(|best| best.point == row.point)
     }

@@ -2,7 +2,7 @@
 
 use super::Shown;
 use crate::gui::tree_panes::log_axis;
-use crate::measure::sweep::{Curve, curves, is_wide, rule_depth};
+use crate::measure::sweep::{Curve, curves, is_wide};
 use egui::{Color32, Rect, Sense, vec2};
 use egui_plot::{
     AxisHints, GridInput, GridMark, Line, LineStyle, MarkerShape, Plot, PlotPoint, Points, Text,
@@ -79,7 +79,7 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
     let depth_axis = AxisHints::new_x().label("D_MAX, greatest depth");
     let depth_axis = depth_axis.label_spacing(16.0..=24.0);
     let ink = ui.visuals().text_color();
-    let rule = shown.rows.first().and_then(rule_depth).map(f64::from);
+    let rule = shown.rule().map(f64::from);
     let mut plot = Plot::new(("sweep", parameter.symbol))
         .width(ui.available_width())
         .height(ui.available_height())
