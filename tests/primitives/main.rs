@@ -1,0 +1,217 @@
+//! What every primitive promises, on thousands of random and tough rays and cells.
+
+mod cones;
+mod meshes;
+mod polygons;
+mod spheres;
+mod triangles;
+
+use bspscope::geometry::{Aabb, Ray, Vec3};
+use bspscope::primitive::{Cone, Polygon, Shape, ShapeError, Sphere, Triangle};
+
+/// SplitMix64 (Steele, Lea and Flood, 2014): the same numbers in every run.
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn within(&mut self, lo: f64, hi: f64) -> f64 {
+        lo + (hi - lo) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.bits() % n as u64) as usize
+    }
+
+    fn point(&mut self, b: &Aabb) -> Vec3 {
+        Vec3::new(
+            self.within(b.lo.x, b.hi.x),
+            self.within(b.lo.y, b.hi.y),
+            self.within(b.lo.z, b.hi.z),
+        )
+    }
+
+    fn unit(&mut self) -> Vec3 {
+        loop {
+            let v = self.point(&Aabb::new(Vec3::NEG_ONE, Vec3::ONE));
+            if (1e-3..=1.0).contains(&v.length()) {
+                return v.normalize();
+            }
+        }
+    }
+}
+
+fn cube(center: Vec3, half: f64) -> Aabb {
+    Aabb::new(center - half, center + half)
+}
+
+/// A ray of one of the tough kinds at the box of an object.
+fn tough_ray(random: &mut Random, bounds: &Aabb, kind: usize) -> Ray {
+    let size = bounds.size().max_element();
+    let target = random.point(bounds);
+    let away = random.unit();
+    match kind % 6 {
+        0 => Ray::new(target - 3.0 * size * away, away),
+        1 => Ray::new(target, away),
+        2 => Ray::new(target - 1e8 * size * away, away),
+        3 => {
+            // Parallel to an axis, with either sign of zero.
+            let mut direction = Vec3::select(away.cmplt(Vec3::ZERO), Vec3::splat(-0.0), Vec3::ZERO);
+            direction[random.below(3)] = if random.below(2) == 0 { 1.0 } else { -1.0 };
+            Ray::new(target - 3.0 * size * direction, direction)
+        }
+        4 => {
+            let mut direction = away;
+            direction[random.below(3)] = 1e-310;
+            Ray::new(target - 3.0 * size * direction, direction)
+        }
+        _ => {
+            let length = [1e-250, 1e-6, 1e7, 1e250][random.below(4)];
+            Ray::new(target - 3.0 * size * away, length * away)
+        }
+    }
+}
+
+/// Checks thousands of hits; `off` is the distance of a point from the true surface.
+fn check_hits(shape: &impl Shape, off: impl Fn(Vec3) -> f64, seed: u64) {
+    let bounds = shape.bounds();
+    let scale = bounds.magnitude();
+    let mut random = Random(seed);
+    let mut hits = [0; 6];
+    for i in 0..30_000 {
+        let ray = tough_ray(&mut random, &bounds, i);
+        let Some(t) = shape.intersect(&ray, f64::INFINITY) else {
+            continue;
+        };
+        hits[i % 6] += 1;
+        assert!(t >= 0.0 && t.is_finite(), "{ray:?} {t}");
+        let surface = shape.surface(&ray, t);
+        let reach = scale + ray.origin.length();
+        let met = ray.at(t);
+        assert!(off(met) <= 1e-12 * reach, "{ray:?} off by {}", off(met));
+        assert!(bounds.contains(surface.point), "{ray:?} {surface:?}");
+        // The checker's own rounding is a few units of precision itself.
+        let allowed = surface.error + 8.0 * f64::EPSILON * scale;
+        assert!(off(surface.point) <= allowed, "{ray:?} {surface:?}");
+        assert!(surface.error <= 1e-14 * scale);
+        assert!((surface.normal.length() - 1.0).abs() < 1e-14);
+        assert!((surface.shading_normal.length() - 1.0).abs() < 1e-14);
+
+        // The interval is closed at both ends, and the hit is the first.
+        assert_eq!(shape.intersect(&ray, t), Some(t));
+        assert_eq!(shape.intersect(&Ray { t_min: t, ..ray }, t), Some(t));
+        assert_eq!(shape.intersect(&ray, t.next_down()), None);
+    }
+    assert!(hits.iter().all(|&n| n > 20), "{hits:?}");
+}
+
+/// Checks the overlap with cells of all sizes; `sample` gives points of the solid or surface,
+/// `distance` a point's distance from it. Returns how many cells at the bounds were told apart.
+fn check_overlaps(
+    shape: &impl Shape,
+    sample: impl Fn(&mut Random) -> Vec3,
+    distance: impl Fn(Vec3) -> f64,
+    seed: u64,
+) -> usize {
+    let bounds = shape.bounds();
+    let size = bounds.size().max_element();
+    let mut random = Random(seed);
+    let (mut apart, mut rejected_within_bounds) = (0, 0);
+    for _ in 0..20_000 {
+        let point = sample(&mut random);
+        let extent = size * 10f64.powf(random.within(-6.0, 0.5));
+        let edges = random.point(&Aabb::new(Vec3::ZERO, Vec3::ONE)) * extent;
+        // The point is inside, or on a face, an edge or a corner.
+        let share = random.point(&Aabb::new(Vec3::splat(-0.5), Vec3::splat(1.5)));
+        let share = share.clamp(Vec3::ZERO, Vec3::ONE);
+        let lo = (point - edges * share).min(point);
+        let cell = Aabb::new(lo, (lo + edges).max(point));
+        // Sampled points carry rounding, which the cell takes up.
+        assert!(shape.overlaps(&cell.enlarged(1e-15 * bounds.magnitude())));
+
+        let center = random.point(&bounds.enlarged(0.1 * size));
+        let half = random.unit().abs() * size * 10f64.powf(random.within(-4.0, -0.3));
+        if distance(center) > half.length() * (1.0 + 1e-9) {
+            apart += 1;
+            let cell = Aabb::new(center - half, center + half);
+            assert!(!shape.overlaps(&cell), "{cell:?}");
+            rejected_within_bounds += usize::from(bounds.touches(&cell));
+        }
+    }
+    assert!(apart > 1000);
+    rejected_within_bounds
+}
+
+/// Samples of the surface come close to every face of the bounds, which are hence tight.
+fn check_tightness(shape: &impl Shape, points: impl Iterator<Item = Vec3>, tolerance: f64) {
+    let bounds = shape.bounds();
+    let around = Aabb::around(points);
+    assert!((around.lo - bounds.lo).abs().max_element() < tolerance);
+    assert!((around.hi - bounds.hi).abs().max_element() < tolerance);
+}
+
+/// The bounds of an object's part within a cell hold every one of its points there, and reach no
+/// further than some of its points, of which there must be many.
+fn check_bounds_within(shape: &impl Shape, points: &[Vec3], random: &mut Random) {
+    let bounds = shape.bounds();
+    let size = bounds.size().max_element();
+    let mut met = 0;
+    for _ in 0..200 {
+        let half = size * random.within(0.1, 0.5);
+        let cell = cube(random.point(&bounds), half);
+        let within: Vec<Vec3> = points
+            .iter()
+            .copied()
+            .filter(|&p| cell.contains(p))
+            .collect();
+        let Some(part) = shape.bounds_within(&cell) else {
+            assert!(within.is_empty(), "{within:?} in {cell:?}");
+            continue;
+        };
+        assert!(cell.contains(part.lo) && cell.contains(part.hi));
+        let held = part.enlarged(1e-9 * size);
+        assert!(within.iter().all(|&p| held.contains(p)));
+        if within.len() > 1000 {
+            let tight = Aabb::around(within).enlarged(0.1 * size);
+            assert!(
+                tight.contains(part.lo) && tight.contains(part.hi),
+                "{part:?}"
+            );
+            met += 1;
+        }
+    }
+    assert!(met > 10, "{met}");
+}
+
+#[test]
+fn bounds_within_a_cell_are_those_of_the_part() {
+    let mut random = Random(5);
+    let mut weights = Vec::new();
+    while weights.len() < 20_000 {
+        let w = random.point(&Aabb::new(Vec3::ZERO, Vec3::ONE));
+        weights.push(w / w.element_sum());
+    }
+    let corners = [
+        Vec3::new(0.1, 0.0, 0.3),
+        Vec3::new(2.0, 1.0, -0.4),
+        Vec3::new(0.4, 1.8, 0.9),
+    ];
+    let points: Vec<Vec3> = weights
+        .iter()
+        .map(|w| corners[0] * w.x + corners[1] * w.y + corners[2] * w.z)
+        .collect();
+    let triangle = Triangle::new(corners, None).unwrap();
+    check_bounds_within(&triangle, &points, &mut random);
+    let polygon = Polygon::new(corners.to_vec(), None).unwrap();
+    check_bounds_within(&polygon, &points, &mut random);
+    let center = Vec3::new(0.3, -2.0, 5.0);
+    let ball: Vec<Vec3> = (0..20_000)
+        .map(|_| center + 1.5 * random.unit() * random.within(0.0, 1.0).cbrt())
+        .collect();
+    check_bounds_within(&Sphere::new(center, 1.5).unwrap(), &ball, &mut random);
+}
