@@ -6,8 +6,8 @@
 use bspscope::measure::paper::SCENES;
 use bspscope::progress::Progress;
 use bspscope::scene::{SceneRequest, load};
+use bspscope::structure::{BuildSettings, Method, build};
 use bspscope::trace::{RenderSettings, counted_pass, thread_pool, timed_pass};
-use bspscope::tree::{BuildSettings, Method, build};
 use std::time::Instant;
 
 /// How often each pass runs, in turns.

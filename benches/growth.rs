@@ -17,7 +17,7 @@ mod terrain;
 use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
-use bspscope::tree::{BuildSettings, MaxDepth, Method, Tree, build};
+use bspscope::structure::{BuildSettings, MaxDepth, Method, Tree, build};
 use clap::Parser;
 use cpu_time::ProcessTime;
 use std::time::Instant;

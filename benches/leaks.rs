@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench leaks -- [RAYS]`, 10⁸ without a number. Prints how many left each mesh.
 
-#[path = "../tests/closed_meshes/mod.rs"]
+#[path = "../tests/support/closed_meshes.rs"]
 mod closed_meshes;
 
 use std::time::Instant;

@@ -3,8 +3,8 @@
 
 use bspscope::progress::Progress;
 use bspscope::scene::{Cylinders, SceneRequest, load};
+use bspscope::structure::{BuildSettings, MaxDepth, Method};
 use bspscope::trace::RenderSettings;
-use bspscope::tree::{BuildSettings, MaxDepth, Method};
 use bspscope::worker::{Request, Stage, Update, Worker};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};

@@ -10,9 +10,9 @@ use bspscope::geometry::Axis;
 use bspscope::measure::{DELTA, measure, parameter};
 use bspscope::progress::Progress;
 use bspscope::scene::{SceneRequest, load};
+use bspscope::structure::split::{Cell, Decision, MethodInfo, SplitRule, Structure};
+use bspscope::structure::{BuildSettings, Method, validate};
 use bspscope::trace::RenderSettings;
-use bspscope::tree::split::{Cell, Decision, MethodInfo, SplitRule, Structure};
-use bspscope::tree::{BuildSettings, Method, validate};
 
 /// What is known of the method before it is used.
 static METHOD: MethodInfo = MethodInfo {

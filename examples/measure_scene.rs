@@ -5,8 +5,8 @@
 use bspscope::measure::{DELTA, change, measure, parameter, unequal};
 use bspscope::progress::Progress;
 use bspscope::scene::{SceneRequest, load};
+use bspscope::structure::{BuildSettings, MaxDepth, Method};
 use bspscope::trace::RenderSettings;
-use bspscope::tree::{BuildSettings, MaxDepth, Method};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let name = std::env::args().nth(1).unwrap_or("balls:3".into());

@@ -16,8 +16,8 @@
 //! | [`scene`] | objects, materials, lights, camera; what the scene requires | |
 //! | [`scene::format`] | readers and writers of files: NFF, OBJ, PLY, glTF, STL; the load report | a line in [`scene::format::FORMATS`] |
 //! | [`scene::builtin`] | generated scenes | a line in [`scene::builtin::BUILTINS`] |
-//! | [`tree`] | 8-byte nodes, the one build driver, voxels of grids, moments of the build, validation | |
-//! | [`tree::split`] | where a method splits a cell | a line in [`tree::split::SPLIT_RULES`] |
+//! | [`structure`] | 8-byte nodes, the one build driver, voxels of grids, moments of the build, validation | |
+//! | [`structure::split`] | where a method splits a cell | a line in [`structure::split::SPLIT_RULES`] |
 //! | [`trace`] | traversal of trees and grids in two precisions, timed and counting kernels, plain or in lanes of vectors, shading, passes over a picture, visits of nodes | |
 //! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ, figures of each kind of ray; trees against testing every object | an entry of [`measure::PARAMETERS`] or [`measure::RAY_FIGURES`] |
 //! | [`measure::model`] | the time model of equation (1): by regression and in place; where the time of a picture goes | |
@@ -25,14 +25,14 @@
 //! | [`measure::paper`] | the paper's printed tables, and its experiment repeated | |
 //! | [`measure::judge`] | exact arithmetic: why two answers about a ray differ | |
 //! | [`measure::stability`] | trees at the extremes | an entry of [`measure::stability::CASES`] |
-//! | [`measure::trade`] | what accuracy costs: time and error of every choice | a line in [`measure::trade::KNOBS`] |
+//! | [`measure::accuracy`] | what accuracy costs: time and error of every choice | a line in [`measure::accuracy::KNOBS`] |
 //! | [`measure::heat`] | what every pixel cost | a line in [`measure::heat::HEATMAPS`] |
-//! | [`overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves and rays | a line in [`overlay::COLORINGS`], [`overlay::COLORMAPS`] or [`overlay::HISTOGRAMS`] |
+//! | [`present::overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves and rays | a line in [`present::overlay::COLORINGS`], [`present::overlay::COLORMAPS`] or [`present::overlay::HISTOGRAMS`] |
 //! | [`files`] | files written whole or not at all, and their fingerprints | |
 //! | [`lesson`] | guided tours in plain text: what they look at, ask and tell; whether it holds | a line in [`lesson::LESSONS`] |
-//! | [`report`] | text, JSON, CSV, Markdown, LaTeX; the page of HTML | a line in [`report::WRITERS`] |
+//! | [`present::report`] | text, JSON, CSV, Markdown, LaTeX; the page of HTML | a line in [`present::report::WRITERS`] |
 //! | [`workspace`] | what was looked at and how, as a file; settings as a command | a field with a default |
-//! | [`export`] | pictures, heatmaps with legends, leaf boxes, the report put together | a line in [`export::LEAF_WRITERS`] |
+//! | [`present::export`] | pictures, heatmaps with legends, leaf boxes, the report put together | a line in [`present::export::LEAF_WRITERS`] |
 //! | [`worker`] | the thread between a window and all of the above: latest request wins | |
 //! | [`cli`], `gui` | the two faces; they never import each other but to start the window | |
 //!
@@ -52,7 +52,7 @@
 //! use bspscope::progress::Progress;
 //! use bspscope::scene::{SceneRequest, load};
 //! use bspscope::trace::RenderSettings;
-//! use bspscope::tree::{BuildSettings, Method};
+//! use bspscope::structure::{BuildSettings, Method};
 //!
 //! let progress = Progress::new();
 //! let scene = load(&SceneRequest::parse("tetra:3"), &progress)?;
@@ -72,19 +72,17 @@
 #![allow(rustdoc::private_intra_doc_links)]
 
 pub mod cli;
-pub mod export;
 pub mod files;
 pub mod geometry;
 #[cfg(feature = "gui")]
 pub mod gui;
 pub mod lesson;
 pub mod measure;
-pub mod overlay;
+pub mod present;
 pub mod primitive;
 pub mod progress;
-pub mod report;
 pub mod scene;
+pub mod structure;
 pub mod trace;
-pub mod tree;
 pub mod worker;
 pub mod workspace;

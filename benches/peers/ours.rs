@@ -4,10 +4,10 @@ use super::kernels::{Found, Kernel, Rays};
 use bspscope::primitive::{Precision, Shapes};
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
+use bspscope::structure::{BuildSettings, MaxDepth, Method, Tree, build as build_tree};
 use bspscope::trace::{
     Batch, Hit, InstructionSet, LaneKernel, LaneTree, RayCompany, RayKind, RayTracer, Timed,
 };
-use bspscope::tree::{BuildSettings, MaxDepth, Method, Tree, build as build_tree};
 
 /// The tree that all our kernels walk, built on one thread as the others' are.
 pub fn build(scene: &Scene) -> Tree {

@@ -7,17 +7,17 @@ use super::values::{
     sampling_names, scale_names, share, writer_names,
 };
 use crate::geometry::{Axis, Vec3};
+use crate::measure::accuracy::KNOBS;
 use crate::measure::heat::RayFilter;
 use crate::measure::model::Equation;
 use crate::measure::paper::PaperScene;
 use crate::measure::sweep::Shard;
-use crate::measure::trade::KNOBS;
-use crate::overlay::{Range, Scale};
+use crate::present::overlay::{Range, Scale};
 use crate::scene::builtin::BUILTINS;
 use crate::scene::format::FORMATS;
 use crate::scene::{Cylinders, Sampling};
+use crate::structure::{BuildSettings, MaxDepth, Method, OverlapRule};
 use crate::trace::{KernelChoice, PrecisionChoice};
-use crate::tree::{BuildSettings, MaxDepth, Method, OverlapRule};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -751,7 +751,7 @@ mod tests {
 
     #[test]
     fn the_defaults_are_those_of_the_library() {
-        use crate::tree::BuildSettings;
+        use crate::structure::BuildSettings;
         let arguments = Arguments::parse_from(["bspscope", "measure", "balls"]);
         let Some(Command::Measure(args)) = arguments.command else {
             panic!("not a measurement");

@@ -3,7 +3,7 @@
 use super::args::CompareArgs;
 use super::{Outcome, measure, output, resolve};
 use crate::measure::unequal;
-use crate::report::Report;
+use crate::present::report::Report;
 use anyhow::Result;
 
 pub fn run(args: &CompareArgs) -> Result<Outcome> {

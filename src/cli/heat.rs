@@ -3,12 +3,12 @@
 use super::args::HeatArgs;
 use super::values::ByColormap;
 use super::{bar, render};
-use crate::export::HeatSheet;
 use crate::measure::heat::{Heatmap, PixelCounts, Source};
-use crate::overlay::COLORMAPS;
+use crate::present::export::HeatSheet;
+use crate::present::overlay::COLORMAPS;
 use crate::scene::Scene;
+use crate::structure::Tree;
 use crate::trace::{RenderSettings, counted_pass, pixel_times, thread_pool};
-use crate::tree::Tree;
 use anyhow::{Result, bail};
 use image::ImageFormat;
 use std::sync::{Mutex, PoisonError};

@@ -2,10 +2,10 @@
 
 use super::args::{LeavesArgs, LeavesShown};
 use super::{Outcome, bar, output, resolve};
-use crate::export::{LEAF_WRITERS, LeafCells};
-use crate::overlay::Filter;
+use crate::present::export::{LEAF_WRITERS, LeafCells};
+use crate::present::overlay::Filter;
+use crate::structure::build;
 use crate::trace::thread_pool;
-use crate::tree::build;
 use anyhow::Result;
 
 pub fn run(args: &LeavesArgs) -> Result<Outcome> {

@@ -3,10 +3,10 @@
 use super::args::MeasureArgs;
 use super::{Outcome, bar, output, resolve};
 use crate::measure::{Measured, measure};
-use crate::report::Report;
+use crate::present::report::Report;
 use crate::scene::Scene;
+use crate::structure::BuildSettings;
 use crate::trace::RenderSettings;
-use crate::tree::BuildSettings;
 use anyhow::Result;
 
 pub fn run(args: &MeasureArgs) -> Result<Outcome> {

@@ -2,8 +2,8 @@
 
 use super::args::{ListFormat, MethodsArgs};
 use super::{Outcome, output};
-use crate::tree::Method;
-use crate::tree::split::Constant;
+use crate::structure::Method;
+use crate::structure::split::Constant;
 use anyhow::Result;
 use serde_json::{Value, json};
 use std::io::{self, Write};

@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 done, 1 a check failed, 2 bad use or bad input.
 
+mod accuracy;
 mod args;
 mod bar;
 mod compare;
@@ -21,7 +22,6 @@ mod report;
 mod resolve;
 mod stability;
 mod sweep;
-mod trade;
 mod values;
 mod verify;
 mod window;
@@ -58,7 +58,7 @@ pub fn main() -> ExitCode {
         Some(Command::Methods(args)) => methods::run(args),
         Some(Command::Verify(args)) => verify::run(args),
         Some(Command::Stability(args)) => stability::run(args),
-        Some(Command::Trade(args)) => trade::run(args),
+        Some(Command::Trade(args)) => accuracy::run(args),
         Some(Command::Lesson(args)) => lesson::run(args),
     };
     match outcome {

@@ -6,7 +6,7 @@ use crate::measure::grouped;
 use crate::measure::model::{
     Equation, Fit, InPlace, Observation, Term, fit, observe, parted, time_in_place, trees,
 };
-use crate::report::grid::Grid;
+use crate::present::report::grid::Grid;
 use crate::scene::Scene;
 use crate::trace::RenderSettings;
 use anyhow::{Context, Result, ensure};

@@ -3,7 +3,7 @@
 use super::args::ReportArgs;
 use super::resolve;
 use crate::files;
-use crate::report::{Report, WRITERS, Writer};
+use crate::present::report::{Report, WRITERS, Writer};
 use anyhow::{Context, Result, bail};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};

@@ -3,7 +3,7 @@
 use super::args::PaperArgs;
 use super::{Outcome, bar, output};
 use crate::measure::paper::{Conditions, PaperScene, SCENES, reproduce};
-use crate::report::paper::PAPER_WRITERS;
+use crate::present::report::paper::PAPER_WRITERS;
 use anyhow::Result;
 
 pub fn run(args: &PaperArgs) -> Result<Outcome> {

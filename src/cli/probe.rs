@@ -2,9 +2,9 @@
 
 use super::args::{ListFormat, ProbeArgs};
 use super::{Outcome, bar, output, resolve};
-use crate::report::pixel::{PixelReport, write_json, write_text};
+use crate::present::report::pixel::{PixelReport, write_json, write_text};
+use crate::structure::build;
 use crate::trace::record_pixel;
-use crate::tree::build;
 use anyhow::{Result, bail};
 
 pub fn run(args: &ProbeArgs) -> Result<Outcome> {

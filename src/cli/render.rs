@@ -2,10 +2,10 @@
 
 use super::args::RenderArgs;
 use super::{Outcome, bar, heat, output, resolve};
-use crate::export;
+use crate::present::export;
 use crate::scene::Scene;
+use crate::structure::{Tree, build};
 use crate::trace::{Picture, RenderSettings, thread_pool, timed_pass};
-use crate::tree::{Tree, build};
 use anyhow::{Result, bail};
 use image::ImageFormat;
 use std::path::Path;

@@ -2,9 +2,9 @@
 
 use super::args::PageArgs;
 use super::{Outcome, bar, output, resolve};
-use crate::export::write_page;
 use crate::measure::measure_pixels;
-use crate::report::Report;
+use crate::present::export::write_page;
+use crate::present::report::Report;
 use anyhow::{Context, Result};
 
 pub fn run(args: &PageArgs) -> Result<Outcome> {

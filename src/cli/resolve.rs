@@ -2,11 +2,11 @@
 
 use super::args::{BuildArgs, CameraArgs, CylinderArgs, PictureArgs, TraceArgs};
 use super::bar;
-use crate::report::Writer;
+use crate::present::report::Writer;
 use crate::scene::format::{FORMATS, FormatError};
 use crate::scene::{Camera, LoadError, NoteKind, Scene, SceneRequest, SceneSource, builtin, load};
+use crate::structure::{BuildSettings, Method};
 use crate::trace::RenderSettings;
-use crate::tree::{BuildSettings, Method};
 use anyhow::{Result, bail};
 use std::io::{ErrorKind, Write};
 use std::path::Path;

@@ -3,9 +3,9 @@
 use super::args::{ListFormat, StabilityArgs};
 use super::{Outcome, bar, output, resolve};
 use crate::measure::stability::{self, Cell};
-use crate::report::plain_table;
+use crate::present::report::plain_table;
+use crate::structure::Method;
 use crate::trace::thread_pool;
-use crate::tree::Method;
 use anyhow::Result;
 use std::io::{self, Write};
 

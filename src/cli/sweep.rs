@@ -6,7 +6,7 @@ use super::{Outcome, bar, output, resolve};
 use crate::measure::sweep::{
     Chart, Form, Key, Plan, Row, answers, done, header, line, png, read_rows, svg,
 };
-use crate::tree::{BuildSettings, MaxDepth};
+use crate::structure::{BuildSettings, MaxDepth};
 use anyhow::{Context, Result, bail};
 use std::fs::{self, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};

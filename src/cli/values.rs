@@ -1,16 +1,16 @@
 //! What the text of an argument stands for: names of registries, lists of numbers, points.
 
-use crate::export::LEAF_WRITERS;
 use crate::geometry::Vec3;
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, heatmap};
 use crate::measure::model::Equation;
 use crate::measure::paper::{self, PaperScene};
 use crate::measure::{PARAMETERS, Parameter, parameter};
-use crate::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
-use crate::report::WRITERS;
+use crate::present::export::LEAF_WRITERS;
+use crate::present::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
+use crate::present::report::WRITERS;
 use crate::scene::Sampling;
+use crate::structure::{MaxDepth, Method};
 use crate::trace::{KernelChoice, PrecisionChoice};
-use crate::tree::{MaxDepth, Method};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 /// A parameter, chosen by its symbol.

@@ -2,12 +2,13 @@
 
 use super::args::WindowArgs;
 use super::{Outcome, measure, output, resolve};
-use crate::report::{Report, write_summary};
+use crate::files;
+use crate::present::export;
+use crate::present::report::{Report, write_summary};
 use crate::scene::{Scene, SceneRequest};
+use crate::structure::BuildSettings;
 use crate::trace::RenderSettings;
-use crate::tree::BuildSettings;
 use crate::workspace::Workspace;
-use crate::{export, files};
 use anyhow::{Context, Result, bail};
 use image::ImageFormat;
 use std::io::Write;

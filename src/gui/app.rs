@@ -19,10 +19,10 @@ use super::view3d::View3d;
 use super::walk::Go;
 use super::workspaces::Workspaces;
 use super::{StartOptions, build_bar, help, keep, top_bar, walk_bar};
-use crate::overlay::COLORINGS;
+use crate::present::overlay::COLORINGS;
 use crate::scene::SceneSource;
 use crate::scene::format::names;
-use crate::tree::{BuildSettings, MaxDepth, Method};
+use crate::structure::{BuildSettings, MaxDepth, Method};
 use crate::workspace::{Arrangement, Workspace};
 
 /// The window.

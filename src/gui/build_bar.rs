@@ -5,7 +5,7 @@ use super::name_widget;
 use super::shortcuts::{Action, tip};
 use super::state::State;
 use super::symbol::grouped;
-use crate::tree::{Moment, NodeKind};
+use crate::structure::{Moment, NodeKind};
 
 /// The switch that shows the bar.
 pub fn switch(ui: &mut egui::Ui, state: &mut State) {

@@ -1,7 +1,7 @@
 //! The build of the tree step by step: which moment of it the panes show, and how it plays.
 
 use super::state::State;
-use crate::tree::{Moment, Tree};
+use crate::structure::{Moment, Tree};
 use std::ops::RangeInclusive;
 
 /// The speeds that can be chosen, in steps a second.

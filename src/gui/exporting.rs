@@ -7,9 +7,9 @@ use super::save_as::{Answer, SaveAs};
 use super::shortcuts::{Action, choose, text};
 use super::state::{Current, Failure, State};
 use super::view3d::View3d;
-use crate::export::{LEAF_WRITERS, LeafCells, encoded, write_page};
 use crate::files;
-use crate::report::{Report, WRITERS};
+use crate::present::export::{LEAF_WRITERS, LeafCells, encoded, write_page};
+use crate::present::report::{Report, WRITERS};
 use crate::scene::SceneSource;
 use image::ImageFormat;
 use std::path::{Path, PathBuf};
@@ -246,7 +246,7 @@ fn png(image: &egui::ColorImage) -> Result<Vec<u8>, String> {
     let rgb = image.pixels.iter().flat_map(|p| [p.r(), p.g(), p.b()]);
     let image = image::RgbImage::from_raw(width, height, rgb.collect());
     let image = image.ok_or("the screen gave no picture")?;
-    crate::export::png(&image).map_err(|error| error.to_string())
+    crate::present::export::png(&image).map_err(|error| error.to_string())
 }
 
 /// What makes the bytes, later and elsewhere; or why there is nothing to export.

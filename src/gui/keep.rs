@@ -5,7 +5,7 @@ use super::selection::Selection;
 use super::state::{Current, State, Wanted};
 use super::walk::Wish;
 use crate::scene::SceneRequest;
-use crate::tree::Moment;
+use crate::structure::Moment;
 use crate::worker::Request;
 use crate::workspace::{PictureSettings, Selected, TreeSettings, Workspace};
 use std::collections::BTreeMap;

@@ -9,8 +9,8 @@ use crate::measure::model::{
     time_in_place, trees,
 };
 use crate::scene::Scene;
+use crate::structure::BuildSettings;
 use crate::trace::RenderSettings;
-use crate::tree::BuildSettings;
 use std::sync::Arc;
 
 /// Pictures are traced for the model with at most so many pixels.

@@ -7,7 +7,7 @@ use super::shortcuts::{Action, tip};
 use super::state::{Current, State};
 use super::symbol::grouped;
 use crate::geometry::{Aabb, Vec3};
-use crate::overlay::{BOX_EDGES, CELL_COLOR, NODES_A_RAY, REFERRING_COLOR};
+use crate::present::overlay::{BOX_EDGES, CELL_COLOR, NODES_A_RAY, REFERRING_COLOR};
 use crate::primitive::Shape as _;
 use crate::scene::View;
 use egui::{

@@ -1,6 +1,6 @@
 //! The colour bar of a legend and its numbers.
 
-use crate::overlay::{Colormap, HeatScale};
+use crate::present::overlay::{Colormap, HeatScale};
 use egui::{Color32, FontId, Painter, Rect, Stroke, pos2};
 
 /// Length of a tick in points.

@@ -7,7 +7,7 @@ use super::turns::{Doing, Stop, Turns};
 use crate::files::write_whole;
 use crate::measure::sweep::{Form, Plan, Row, done, header, line};
 use crate::scene::Scene;
-use crate::tree::{BuildSettings, MaxDepth, Method};
+use crate::structure::{BuildSettings, MaxDepth, Method};
 use crate::worker::Request;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -5,7 +5,7 @@ use super::files::Files;
 use super::shortcuts::{Action, choose, text, tip};
 use super::state::State;
 use crate::measure::parameter;
-use crate::tree::{BuildSettings, MaxDepth, Method};
+use crate::structure::{BuildSettings, MaxDepth, Method};
 
 /// The most that the window lets secondary rays recurse.
 pub const MOST_RECURSION: u32 = 50;

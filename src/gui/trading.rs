@@ -2,7 +2,7 @@
 
 use super::state::State;
 use super::turns::{Doing, Stop, Turns};
-use crate::measure::trade::{self, Trade, choices, reference};
+use crate::measure::accuracy::{self, Trade, choices, reference};
 use crate::progress::Progress;
 use crate::scene::{Cylinders, Scene, SceneRequest, load};
 use crate::trace::RenderSettings;
@@ -161,7 +161,7 @@ fn take(doing: &Doing<Found>, scene: &Arc<Scene>, of: &Request, rounds: u32) -> 
     let choices = choices(&reference(&of.build, render), &scene);
     let pixels = render.width as usize * render.height as usize;
     let keeps = choices.len() * pixels * size_of::<f32>() <= MOST_BYTES;
-    let mut trading = trade::Trading::new(&scene, choices, rounds)?;
+    let mut trading = accuracy::Trading::new(&scene, choices, rounds)?;
     let turns = trading.turns();
     doing.tell(|found| found.turns = turns);
     while let Some(turn) = doing.turn(|progress| trading.turn(progress))? {

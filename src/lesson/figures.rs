@@ -1,7 +1,7 @@
 //! What was measured for a step of a lesson, and the names that lessons have for it.
 
+use crate::measure::accuracy::pixel_errors;
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, Source, Whole};
-use crate::measure::trade::pixel_errors;
 use crate::measure::{Class, Measurement, PARAMETERS, Parameter, differing_pixels};
 use crate::measure::{grouped, significant};
 use crate::trace::{Picture, PixelTallies, Tally};

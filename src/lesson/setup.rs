@@ -1,8 +1,8 @@
 //! What a step of a lesson looks at: a scene, one or two trees of it, and a picture.
 
 use crate::scene::{Camera, Cylinders, SceneRequest, SceneSource};
+use crate::structure::BuildSettings;
 use crate::trace::{PrecisionChoice, RenderSettings};
-use crate::tree::BuildSettings;
 
 /// What is built, traced and shown.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use crate::primitive::Shape;
 use crate::scene::Scene;
-use crate::tree::{NodeKind, Tree};
+use crate::structure::{NodeKind, Tree};
 
 /// Facts of a scene (class S).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -4,11 +4,11 @@ use super::heat::PixelCounts;
 use super::{SceneFacts, TreeFacts};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
+use crate::structure::{BuildError, BuildSettings, MaxDepth, Tree, build};
 use crate::trace::{
     ChosenPrecision, CountedPass, CountedTile, Picture, RayKind, RenderError, RenderSettings,
     Tally, TimedPass, counted_pass, thread_pool, timed_pass,
 };
-use crate::tree::{BuildError, BuildSettings, MaxDepth, Tree, build};
 use cpu_time::ThreadTime;
 use rayon::ThreadPool;
 use std::sync::{Mutex, PoisonError};

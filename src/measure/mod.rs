@@ -1,5 +1,6 @@
 //! The paper's method: every parameter of its Tables 1 to 3, the septet Δ and the triplet Λ.
 
+pub mod accuracy;
 mod comparison;
 mod facts;
 pub mod heat;
@@ -12,7 +13,6 @@ mod parameters;
 mod ray_figures;
 pub mod stability;
 pub mod sweep;
-pub mod trade;
 mod verify;
 
 pub use comparison::{Change, Unequal, change, differing_pixels, unequal};

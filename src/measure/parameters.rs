@@ -7,8 +7,8 @@
 //! that match the paper's to the integer; ours are counted and left as they are.
 
 use super::{Class, Measurement, Parameter, Table, Unit};
+use crate::structure::split::Structure;
 use crate::trace::RayKind;
-use crate::tree::split::Structure;
 
 /// The septet Δ by symbol, in the paper's order (equation 2).
 pub const DELTA: [&str; 7] = [

@@ -6,11 +6,11 @@ use crate::geometry::Ray;
 use crate::primitive::Precision;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
+use crate::structure::{BuildError, BuildSettings, Method, Tree, build};
 use crate::trace::{
     Batch, Hit, RayKind, RayTracer, RenderError, RenderSettings, Shading, Timed, tiles,
     trace_samples,
 };
-use crate::tree::{BuildError, BuildSettings, Method, Tree, build};
 use rayon::prelude::*;
 
 /// Rays that a picture of the scene takes, by [`RayKind`].

@@ -5,7 +5,7 @@ use super::space::{Inside, Space};
 use super::{LeafVisitor, Probe, Scratch};
 use crate::geometry::Ray;
 use crate::primitive::{Form, Shapes};
-use crate::tree::Tree;
+use crate::structure::Tree;
 
 struct All<'a, F: Form> {
     ray: &'a F::Ray,

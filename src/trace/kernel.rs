@@ -5,7 +5,7 @@ use super::{LeafVisitor, MostOfARay, PixelTallies, Probe, RayCounts, Scratch, Ta
 use crate::geometry::Ray;
 use crate::primitive::{Form, Shapes};
 use crate::progress::Progress;
-use crate::tree::Tree;
+use crate::structure::Tree;
 use cpu_time::ThreadTime;
 use std::time::Duration;
 

@@ -6,7 +6,7 @@
 use super::traverse::{Scratch, Waiting};
 use crate::geometry::Ray;
 use crate::primitive::UnitFrame;
-use crate::tree::Tree;
+use crate::structure::Tree;
 
 /// The number that a walk computes with: `f32` or `f64`.
 pub(crate) trait Real: Copy + PartialOrd {

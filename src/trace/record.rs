@@ -9,7 +9,7 @@ use super::{
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
 use crate::primitive::Shapes;
 use crate::scene::Scene;
-use crate::tree::{NodeKind, StopReason, Tree};
+use crate::structure::{NodeKind, StopReason, Tree};
 use serde::Serialize;
 
 /// An inner node that a ray traversed.

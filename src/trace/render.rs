@@ -7,7 +7,7 @@ use super::{
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{CameraError, Scene, View};
-use crate::tree::Tree;
+use crate::structure::Tree;
 use cpu_time::ThreadTime;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};

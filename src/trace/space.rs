@@ -6,7 +6,7 @@ use super::traverse::traverse;
 use super::{LeafVisitor, Probe, Scratch, Way};
 use crate::geometry::Ray;
 use crate::primitive::{PackedRay, UnitFrame};
-use crate::tree::Tree;
+use crate::structure::Tree;
 
 /// Where rays are traced.
 pub(super) trait Space {

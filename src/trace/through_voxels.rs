@@ -8,7 +8,7 @@
 
 use super::line::{Line, Real};
 use super::{LeafVisitor, Probe};
-use crate::tree::{Tree, Voxels};
+use crate::structure::{Tree, Voxels};
 
 /// The slabs along an axis that a ray may be in, counted in the order in which it meets them.
 struct Slabs<'a, L: Line> {

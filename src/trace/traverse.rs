@@ -4,12 +4,12 @@
 //! with a stack. Decisions are conservative: the distance to a plane carries a few roundings, so an
 //! interval is widened by more than that whenever a plane bounds it, and a comparison that NaN
 //! could reach is written so that NaN visits both children. Objects within rounding of a plane are
-//! in the leaves of both sides ([`crate::tree::Frame::slack`]). What is widened, and by how much, is
+//! in the leaves of both sides ([`crate::structure::Frame::slack`]). What is widened, and by how much, is
 //! the business of the two [`Line`]s, one a precision.
 
 use super::line::{Line, Real};
 use super::{Probe, Way};
-use crate::tree::Tree;
+use crate::structure::Tree;
 
 /// What is done in the leaves a ray visits.
 pub trait LeafVisitor {

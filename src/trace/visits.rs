@@ -9,7 +9,7 @@ use crate::geometry::Ray;
 use crate::primitive::Shapes;
 use crate::progress::Progress;
 use crate::scene::Scene;
-use crate::tree::{NodeKind, Tree};
+use crate::structure::{NodeKind, Tree};
 use std::sync::{Mutex, PoisonError};
 
 /// How often the rays of a picture visited every node, and how many nodes each of them visited.

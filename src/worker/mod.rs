@@ -11,11 +11,11 @@ use crate::measure::heat::PixelCounts;
 use crate::measure::{Measurement, Times};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Camera, LoadError, Scene, SceneRequest, load};
+use crate::structure::{BuildError, BuildSettings, Tree, build};
 use crate::trace::{
     Picture, RenderError, RenderSettings, Tile, TimedPass, counted_pass, preview, thread_pool,
     timed_pass,
 };
-use crate::tree::{BuildError, BuildSettings, Tree, build};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::{Duration, Instant};

@@ -2,7 +2,7 @@
 
 use super::TreeSettings;
 use crate::scene::{Camera, Cylinders, Sampling, SceneSource};
-use crate::tree::BuildSettings;
+use crate::structure::BuildSettings;
 use std::fmt::Display;
 use std::path::absolute;
 

@@ -2,8 +2,8 @@
 
 use super::names;
 use crate::scene::{Camera, Cylinders, Sampling};
+use crate::structure::BuildSettings;
 use crate::trace::{KernelChoice, PrecisionChoice, RenderSettings};
-use crate::tree::BuildSettings;
 use serde::{Deserialize, Serialize};
 
 /// What a tree is built with, and its picture traced; the camera is the workspace's.

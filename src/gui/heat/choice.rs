@@ -1,7 +1,7 @@
 //! What the picture pane shows of every pixel, as the user chose it.
 
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter};
-use crate::overlay::{COLORMAPS, HeatScale, Range, Scale};
+use crate::present::overlay::{COLORMAPS, HeatScale, Range, Scale};
 use std::collections::BTreeMap;
 
 /// The choice. Heatmaps and colour maps go by their place in their registries.

@@ -5,7 +5,7 @@ use super::HeatView;
 use super::choice::Choice;
 use crate::gui::shortcuts::{Action, text, tip};
 use crate::measure::heat::{HEATMAPS, Heatmap};
-use crate::overlay::{COLORMAPS, Scale};
+use crate::present::overlay::{COLORMAPS, Scale};
 use egui::containers::menu::{MenuButton, MenuConfig};
 
 impl HeatView {

@@ -1,10 +1,10 @@
 //! The heatmap on view as a file.
 
 use super::{HeatView, On};
-use crate::export::HeatSheet;
 use crate::gui::comparing::Which;
 use crate::gui::state::State;
-use crate::overlay::COLORMAPS;
+use crate::present::export::HeatSheet;
+use crate::present::overlay::COLORMAPS;
 use image::ImageFormat;
 use std::sync::Arc;
 

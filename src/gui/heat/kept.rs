@@ -3,7 +3,7 @@
 use super::HeatView;
 use super::choice::Choice;
 use crate::measure::heat::{HEATMAPS, RayFilter};
-use crate::overlay::{COLORMAPS, Scale};
+use crate::present::overlay::{COLORMAPS, Scale};
 use crate::workspace::Heat;
 
 impl HeatView {

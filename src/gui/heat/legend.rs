@@ -214,7 +214,11 @@ fn scale(ui: &mut egui::Ui, look: &Look, hovered: Option<[u32; 2]>, picked: Opti
     );
     let bar = Rect::from_min_size(axis.min + vec2(0.0, HISTOGRAM), vec2(axis.width(), BAR));
     columns(&painter, look, bar, soft);
-    color_bar(&painter, &crate::overlay::COLORMAPS[look.key.colors], bar);
+    color_bar(
+        &painter,
+        &crate::present::overlay::COLORMAPS[look.key.colors],
+        bar,
+    );
     painter.rect_stroke(bar, 0.0, Stroke::new(1.0, soft), egui::StrokeKind::Outside);
     numbers(&painter, range, look.beyond, bar, rect, ink);
     let room = HISTOGRAM - 2.0;

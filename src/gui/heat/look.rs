@@ -4,7 +4,7 @@ use crate::measure::heat::{
     HEATMAPS, HeatImage, HeatStatistics, Heatmap, PixelCounts, RayFilter, Whole,
 };
 use crate::measure::{grouped, parameter, significant};
-use crate::overlay::{COLORMAPS, HeatScale, Range, Scale, heat_colors};
+use crate::present::overlay::{COLORMAPS, HeatScale, Range, Scale, heat_colors};
 use egui::{Color32, ColorImage};
 use std::sync::Arc;
 

@@ -16,7 +16,7 @@ use super::shortcuts::Action;
 use super::state::{Current, State};
 use super::symbol::grouped;
 use crate::measure::heat::{Heatmap, PixelCounts, Source};
-use crate::overlay::Range;
+use crate::present::overlay::Range;
 use crate::trace::{pixel_times, thread_pool};
 use crate::worker::{PIXEL_COUNTS_LIMIT, Stage};
 use choice::Choice;

@@ -4,8 +4,8 @@ use super::{Panel, Side, row};
 use crate::geometry::Axis;
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::State;
-use crate::tree::split::Constant;
-use crate::tree::{BuildSettings, OverlapRule};
+use crate::structure::split::Constant;
+use crate::structure::{BuildSettings, OverlapRule};
 
 pub(super) const PANEL: Panel = Panel {
     title: "Tree",

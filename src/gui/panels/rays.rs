@@ -7,7 +7,7 @@ use crate::gui::state::State;
 use crate::gui::step_text;
 use crate::gui::symbol::grouped;
 use crate::measure::heat::RayFilter;
-use crate::overlay::ray_style;
+use crate::present::overlay::ray_style;
 use crate::scene::Scene;
 use crate::trace::{RayKind, RecordedRay, Tally};
 use egui::{Rect, pos2, vec2};

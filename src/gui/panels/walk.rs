@@ -7,7 +7,7 @@ use crate::gui::state::State;
 use crate::gui::step_text;
 use crate::gui::symbol::grouped;
 use crate::gui::walk::{Picked, listed};
-use crate::overlay::order_color;
+use crate::present::overlay::order_color;
 use crate::scene::Scene;
 use crate::trace::{RayPath, Step};
 use egui::{Color32, Painter, Rect, Stroke, pos2, vec2};

@@ -7,7 +7,7 @@ use crate::gui::inspect::{TreeKey, WhatIf};
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::State;
 use crate::gui::symbol::grouped;
-use crate::tree::{NodeCost, SplitCost};
+use crate::structure::{NodeCost, SplitCost};
 use egui::{Color32, vec2};
 use egui_plot::{AxisHints, GridMark, HLine, LineStyle, Plot, PlotPoint, Text, VLine};
 use std::sync::Arc;

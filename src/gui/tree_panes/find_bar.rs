@@ -5,7 +5,7 @@ use crate::gui::inspect::TreeKey;
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::symbol::grouped;
 use crate::gui::visits::PictureVisits;
-use crate::tree::{Query, TreeIndex};
+use crate::structure::{Query, TreeIndex};
 use std::sync::Arc;
 
 /// What is looked for.

@@ -6,7 +6,9 @@ use crate::gui::inspect::{LeavesKey, TreeKey};
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::State;
 use crate::gui::symbol::grouped;
-use crate::overlay::{Bars, HISTOGRAMS, HistogramAxis, Leaf, NODES_A_RAY, Spread, ray_bars};
+use crate::present::overlay::{
+    Bars, HISTOGRAMS, HistogramAxis, Leaf, NODES_A_RAY, Spread, ray_bars,
+};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, pos2, vec2};
 use std::sync::Arc;
 

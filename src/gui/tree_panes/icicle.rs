@@ -9,8 +9,8 @@ use crate::gui::state::State;
 use crate::gui::symbol::grouped;
 use crate::gui::view3d::color_bar;
 use crate::gui::visits::PictureVisits;
-use crate::overlay::{COLORINGS, Coloring, Leaf};
-use crate::tree::{Moment, NodeKind, Tree, TreeIndex};
+use crate::present::overlay::{COLORINGS, Coloring, Leaf};
+use crate::structure::{Moment, NodeKind, Tree, TreeIndex};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, pos2, vec2};
 use std::sync::Arc;
 

@@ -9,7 +9,7 @@ use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::{Current, State};
 use crate::gui::symbol::grouped;
 use crate::gui::visits::{self, PictureVisits};
-use crate::tree::{NodeKind, Tree, TreeIndex};
+use crate::structure::{NodeKind, Tree, TreeIndex};
 use egui::{Align, Sense};
 use egui_extras::{Column, TableBuilder, TableRow};
 use std::sync::Arc;

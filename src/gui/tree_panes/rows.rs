@@ -1,6 +1,6 @@
 //! Which nodes the outline shows: those whose parents are all unfolded.
 
-use crate::tree::{Moment, NodeKind, Tree, TreeIndex};
+use crate::structure::{Moment, NodeKind, Tree, TreeIndex};
 use std::collections::HashSet;
 
 /// The unfolded nodes and the rows that follow from them.
@@ -95,7 +95,7 @@ mod tests {
     use super::*;
     use crate::progress::Progress;
     use crate::scene::{SceneRequest, load};
-    use crate::tree::{BuildSettings, build};
+    use crate::structure::{BuildSettings, build};
 
     #[test]
     fn revealing_a_node_unfolds_the_way_to_it_alone() {

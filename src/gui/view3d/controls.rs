@@ -6,7 +6,7 @@ use crate::geometry::{Axis, Vec3};
 use crate::gui::build_bar;
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::{Current, State};
-use crate::overlay::{COLORINGS, Coloring, Filter, Visited};
+use crate::present::overlay::{COLORINGS, Coloring, Filter, Visited};
 use egui::containers::menu::{MenuButton, MenuConfig};
 
 /// What the 3D view shows.

@@ -3,7 +3,7 @@
 use super::View3d;
 use super::controls::Settings;
 use super::cut::Cut;
-use crate::overlay::{self, Filter};
+use crate::present::overlay::{self, Filter};
 use crate::workspace::View3dSettings;
 
 impl View3d {

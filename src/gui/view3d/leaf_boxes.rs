@@ -3,8 +3,8 @@
 use crate::geometry::Vec3;
 use crate::gui::background::Latest;
 use crate::gui::visits::PictureVisits;
-use crate::overlay::{Coloring, Filter, LeafBoxes, leaf_boxes};
-use crate::tree::Tree;
+use crate::present::overlay::{Coloring, Filter, LeafBoxes, leaf_boxes};
+use crate::structure::Tree;
 use std::sync::Arc;
 
 /// What decides the boxes.

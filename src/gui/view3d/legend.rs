@@ -4,7 +4,7 @@ use super::Settings;
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::symbol::grouped;
 use crate::gui::walk::Picked;
-use crate::overlay::{
+use crate::present::overlay::{
     Coloring, INTERVAL, LeafBoxes, RaysShown, Visited, WAITING, order_color, ray_style,
 };
 use crate::trace::RayKind;

@@ -6,12 +6,12 @@ use super::controls::Settings;
 use crate::geometry::{Aabb, Axis, Vec3};
 use crate::gui::state::State;
 use crate::gui::symbol::grouped;
-use crate::overlay::Leaf;
-use crate::overlay::{
+use crate::present::overlay::Leaf;
+use crate::present::overlay::{
     CELL_COLOR, FaceCorner, Line, PLANE_COLOR, REFERRING_COLOR, box_lines, cell_faces, cell_lines,
     leaves_along,
 };
-use crate::tree::CellOfNode;
+use crate::structure::CellOfNode;
 use egui::{Align2, Color32, Rect, vec2};
 
 /// So many of an object's leaves are drawn.

@@ -17,7 +17,7 @@ use super::shortcuts::{Scope, pressed};
 use super::state::{Current, State};
 use super::visits::PictureVisits;
 use crate::geometry::{Aabb, Vec3};
-use crate::overlay::{self, Line};
+use crate::present::overlay::{self, Line};
 use crate::primitive::Precision;
 use crate::scene::{Camera, Scene};
 use crate::trace::{Scratch, closest_hit};

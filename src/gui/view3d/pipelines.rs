@@ -1,7 +1,7 @@
 //! The render pipelines of the 3D view.
 
 use super::scene_mesh::{Ball, Vertex};
-use crate::overlay::{FaceCorner, Instance, Line};
+use crate::present::overlay::{FaceCorner, Instance, Line};
 use eframe::egui_wgpu::wgpu;
 
 /// Samples a pixel.

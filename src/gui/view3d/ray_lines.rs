@@ -2,7 +2,7 @@
 
 use crate::geometry::{Aabb, Vec3};
 use crate::gui::state::Current;
-use crate::overlay::{Line, RaysShown, ray_lines, step_lines, visited_lines};
+use crate::present::overlay::{Line, RaysShown, ray_lines, step_lines, visited_lines};
 use crate::trace::PixelRecord;
 use std::sync::Arc;
 

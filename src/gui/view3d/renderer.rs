@@ -5,7 +5,7 @@
 
 use super::pipelines::{MSAA, Pipelines};
 use super::scene_mesh::SceneMesh;
-use crate::overlay::{FaceCorner, LeafBoxes, Line};
+use crate::present::overlay::{FaceCorner, LeafBoxes, Line};
 use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, ScreenDescriptor, wgpu};
 use std::sync::Arc;
 

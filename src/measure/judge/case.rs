@@ -6,8 +6,8 @@ use crate::measure::verify::{ask, unsplit};
 use crate::progress::Progress;
 use crate::scene::format::{ReadError, nff};
 use crate::scene::{Scene, SceneParts};
+use crate::structure::{BuildError, BuildSettings, build};
 use crate::trace::{Hit, RayKind};
-use crate::tree::{BuildError, BuildSettings, build};
 use serde::{Deserialize, Serialize};
 
 /// A ray of which a tree and testing every object say different things, with all that it takes to ask

@@ -266,7 +266,7 @@ fn least_squares(columns: &[&[f64]], target: &[f64]) -> Option<Solution> {
 mod tests {
     use super::*;
     use crate::primitive::PrimitiveKind::{Polygon, Sphere};
-    use crate::tree::BuildSettings;
+    use crate::structure::BuildSettings;
 
     /// Times made up of 10 ns a node, 20 and 50 ns a miss, 30 ns a hit of a sphere and 2 ms.
     fn made_up(noise: f64) -> Vec<Observation> {

@@ -8,8 +8,8 @@ use crate::measure::MeasureError;
 use crate::primitive::{PrimitiveKind, Shape};
 use crate::progress::Progress;
 use crate::scene::Scene;
+use crate::structure::{BuildSettings, build};
 use crate::trace::{RayKind, RenderSettings, counted_pass, thread_pool};
-use crate::tree::{BuildSettings, build};
 use cpu_time::ThreadTime;
 use std::hint::black_box;
 

@@ -16,7 +16,7 @@ pub use picture::{Part, PictureTerms, RayTerms, Region, TermTimes};
 
 use crate::primitive::PrimitiveKind;
 use crate::scene::Scene;
-use crate::tree::{BuildSettings, MaxDepth, Method};
+use crate::structure::{BuildSettings, MaxDepth, Method};
 
 /// How equation (1) counts tests that hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

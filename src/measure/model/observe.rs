@@ -5,11 +5,11 @@ use crate::measure::MeasureError;
 use crate::primitive::{PrimitiveKind, Shapes};
 use crate::progress::Progress;
 use crate::scene::Scene;
+use crate::structure::{BuildSettings, Tree, build};
 use crate::trace::{
     Batch, Hit, Probe, RayKind, RayTracer, RenderError, RenderSettings, Scratch, Shading, Way,
     any_hit, closest_hit, thread_pool, tiles, timed_pass, trace_samples,
 };
-use crate::tree::{BuildSettings, Tree, build};
 
 const KINDS: usize = PrimitiveKind::ALL.len();
 

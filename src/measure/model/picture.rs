@@ -5,8 +5,8 @@ use super::{Fit, InPlace, Term};
 use crate::primitive::PrimitiveKind;
 use crate::progress::Progress;
 use crate::scene::Scene;
+use crate::structure::Tree;
 use crate::trace::{RenderError, RenderSettings};
-use crate::tree::Tree;
 use serde::{Deserialize, Serialize};
 use std::ops::AddAssign;
 

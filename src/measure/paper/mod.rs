@@ -10,8 +10,8 @@ use super::{
 };
 use crate::progress::Progress;
 use crate::scene::{Cylinders, LoadError, Sampling, SceneRequest, SceneSource, load};
+use crate::structure::{BuildSettings, Method};
 use crate::trace::RenderSettings;
-use crate::tree::{BuildSettings, Method};
 
 /// How a computed figure relates to the printed one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -19,7 +19,7 @@ pub use trial::{KERNELS, Kernel, Outcome, Trial};
 use crate::primitive::Precision;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
-use crate::tree::Method;
+use crate::structure::Method;
 use rayon::prelude::*;
 use serde::Serialize;
 

@@ -6,8 +6,8 @@ use crate::geometry::Ray;
 use crate::primitive::{Precision, Primitive, Shape};
 use crate::progress::Progress;
 use crate::scene::Scene;
+use crate::structure::{Method, Tree};
 use crate::trace::{Hit, LeafVisitor, Line, Meeting, Probe, RayKind, Scratch, WideLine, traverse};
-use crate::tree::{Method, Tree};
 use std::marker::PhantomData;
 
 /// What is broken of the decisions about a ray.

@@ -6,8 +6,8 @@ use crate::geometry::{Ray, Vec3};
 use crate::measure::judge::Answer;
 use crate::primitive::{Primitive, Shape};
 use crate::scene::Scene;
+use crate::structure::{NodeKind, Tree};
 use crate::trace::RayKind;
-use crate::tree::{NodeKind, Tree};
 
 const fn case(name: &'static str, rule: &'static str, run: fn(&Trial<'_>) -> Outcome) -> Case {
     Case {

@@ -5,10 +5,10 @@ use super::{Case, Outcome, Trial};
 use crate::geometry::Vec3;
 use crate::measure::unsplit;
 use crate::scene::{Camera, CameraError, Material, Scene, SceneParts};
+use crate::structure::{BuildError, BuildSettings, MaxDepth, Tree, build};
 use crate::trace::{
     Picture, RenderError, RenderSettings, TimedPass, counted_pass, thread_pool, timed_pass,
 };
-use crate::tree::{BuildError, BuildSettings, MaxDepth, Tree, build};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 

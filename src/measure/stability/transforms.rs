@@ -8,8 +8,8 @@ use crate::measure::unsplit;
 use crate::primitive::Precision;
 use crate::primitive::{Cone, Polygon, Primitive, ShapeError, Sphere, Triangle};
 use crate::scene::{Scene, SceneParts};
+use crate::structure::BuildSettings;
 use crate::trace::{Hit, RayKind};
-use crate::tree::BuildSettings;
 
 pub const CASES: &[Case] = &[
     Case {

@@ -6,9 +6,9 @@ use crate::measure::unsplit;
 use crate::primitive::Precision;
 use crate::progress::Progress;
 use crate::scene::Scene;
+use crate::structure::split::Structure;
+use crate::structure::{BuildError, BuildSettings, MaxDepth, Method, Tree, build, validate};
 use crate::trace::{Batch, RayKind, RayTracer, Timed, objects_fit_f32};
-use crate::tree::split::Structure;
-use crate::tree::{BuildError, BuildSettings, MaxDepth, Method, Tree, build, validate};
 use serde::Serialize;
 
 /// What came of a case.

@@ -13,7 +13,7 @@ pub use plan::{Plan, Point};
 pub use rows::{Form, Key, MergeError, Row, RowError, header, line, merge, read_rows};
 
 use super::{Measurement, PARAMETERS, Parameter};
-use crate::tree::{BuildSettings, MaxDepth};
+use crate::structure::{BuildSettings, MaxDepth};
 
 /// A part of a sweep's points: those whose number leaves `index` when divided by `count`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,8 @@ use super::{Key, Row};
 use crate::measure::{MeasureError, measure};
 use crate::progress::Progress;
 use crate::scene::{Sampling, Scene, SceneRequest};
+use crate::structure::{BuildSettings, MaxDepth};
 use crate::trace::RenderSettings;
-use crate::tree::{BuildSettings, MaxDepth};
 
 /// One point: a tree's settings and what identifies it.
 #[derive(Clone, Debug, PartialEq)]

@@ -29,7 +29,7 @@ use super::{Hit, Scratch, any_hit, closest_hit};
 use crate::geometry::Ray;
 use crate::primitive::{PrimitiveKind, Shapes, UnitFrame, with_array};
 use crate::scene::Scene;
-use crate::tree::Tree;
+use crate::structure::Tree;
 use block::{Boxes, Spheres, Triangles};
 use exact::{Any, Closest, InArray, InSpheres, InTriangles, Narrow, Numbers, Objects, Wide};
 use packet::{Aside, walk_packets};

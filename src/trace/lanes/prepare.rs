@@ -5,7 +5,7 @@ use super::block::{BLOCK, Block};
 use super::pages::Pages;
 use crate::geometry::{Axis, Vec3};
 use crate::primitive::{Primitive, PrimitiveKind, Shape, UnitFrame};
-use crate::tree::{self, OverlapRule, Tree, is_inside};
+use crate::structure::{self, OverlapRule, Tree, is_inside};
 
 /// A node in 8 bytes.
 ///
@@ -79,7 +79,7 @@ impl<B: Block> Prepared<B> {
         } else {
             [corner(bounds.lo, -thick), corner(bounds.hi, thick)]
         };
-        let blocks = |node: &tree::Node| match node.is_leaf() {
+        let blocks = |node: &structure::Node| match node.is_leaf() {
             true => node.as_leaf().1.div_ceil(BLOCK),
             false => 0,
         };

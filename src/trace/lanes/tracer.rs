@@ -5,8 +5,8 @@ use crate::geometry::Ray;
 use crate::primitive::Shapes;
 use crate::progress::Progress;
 use crate::scene::Scene;
+use crate::structure::Tree;
 use crate::trace::{Batch, Hit, RayTracer, Timed};
-use crate::tree::Tree;
 use serde::{Deserialize, Serialize};
 
 /// The timed kernel asked for.

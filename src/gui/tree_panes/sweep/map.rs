@@ -6,7 +6,7 @@ use crate::gui::tree_panes::short;
 use crate::measure::heat::HeatImage;
 use crate::measure::sweep::{Row, is_wide};
 use crate::measure::{Unit, parameter};
-use crate::overlay::{Colormap, HeatScale, Range, Scale, colormap};
+use crate::present::overlay::{Colormap, HeatScale, Range, Scale, colormap};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, StrokeKind, pos2, vec2};
 
 /// Height of a cell in points.

@@ -11,7 +11,7 @@ use crate::gui::sweeping::Found;
 use crate::gui::turns::End;
 use crate::measure::sweep::{Row, answers, rule_depth};
 use crate::measure::{Class, PARAMETERS, Parameter, parameter};
-use crate::tree::{MaxDepth, Method};
+use crate::structure::{MaxDepth, Method};
 use egui::vec2;
 
 /// From this width on, in points, the map stands beside the curves.

@@ -10,8 +10,8 @@ use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::State;
 use crate::gui::trading::Found;
 use crate::gui::turns::End;
+use crate::measure::accuracy::{ERROR_MEASURES, ErrorMeasure, Outcome, Trade};
 use crate::measure::significant;
-use crate::measure::trade::{ERROR_MEASURES, ErrorMeasure, Outcome, Trade};
 use egui::vec2;
 
 /// From this width on, in points, table and error map both stand beside the plot.

@@ -2,8 +2,8 @@
 
 use super::words;
 use crate::gui::tree_panes::log_axis::{marks, number};
+use crate::measure::accuracy::{ErrorMeasure, Outcome, Trade};
 use crate::measure::significant;
-use crate::measure::trade::{ErrorMeasure, Outcome, Trade};
 use egui::{Color32, Pos2, Rect, Sense, vec2};
 use egui_plot::{AxisHints, GridMark, Line, MarkerShape, Plot, PlotPoint, Points};
 

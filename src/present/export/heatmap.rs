@@ -1,0 +1,155 @@
+//! A heatmap as a file: in colours with its legend, or its raw values.
+
+use super::png;
+use crate::measure::heat::{HeatImage, HeatStatistics, Heatmap, RayFilter, Whole};
+use crate::measure::{grouped, parameter, significant};
+use crate::present::overlay::{
+    Captions, Colormap, HeatPicture, HeatScale, Range, Scale, blend, heat_colors, with_legend,
+};
+use crate::trace::Picture;
+use exr::prelude::{SpecificChannels, WritableImage};
+use image::{ImageError, RgbImage};
+use std::io::Cursor;
+
+/// A heatmap with all that decides how it looks on paper.
+pub struct HeatSheet<'a> {
+    pub heatmap: &'a Heatmap,
+    pub image: &'a HeatImage,
+    /// Of the whole picture; `None` where it has no value, and for a difference.
+    pub total: Option<f64>,
+    /// Whether values are those of a tree B less those of a tree A.
+    pub difference: bool,
+    pub rays: RayFilter,
+    pub scale: Scale,
+    pub range: Range,
+    pub colors: &'a Colormap,
+    /// The picture below, and how much of it is hidden, 0 to 1.
+    pub below: Option<(&'a Picture, f64)>,
+    /// What it is of, such as scene and method.
+    pub of: String,
+}
+
+impl HeatSheet<'_> {
+    /// The picture with title, colour bar, histogram and figures.
+    pub fn drawn(&self) -> RgbImage {
+        let HeatSheet { image, colors, .. } = self;
+        let scale = HeatScale::new(image, self.scale, self.range, colors);
+        let mut pixels = heat_colors(image, scale.as_ref(), colors);
+        if let Some((below, opacity)) = self.below {
+            pixels = blend(&pixels, &below.to_srgb8(), opacity);
+        }
+        let difference = if self.difference { " · B − A" } else { "" };
+        let captions = Captions {
+            title: format!(
+                "{} · {}{difference}",
+                self.heatmap.symbol, self.heatmap.name
+            ),
+            subtitle: self.subtitle(),
+            unit: format!(
+                "{}, {} scale; above, how many pixels (square root)",
+                self.heatmap.unit,
+                self.scale.name()
+            ),
+            figures: self.figures(),
+        };
+        let picture = HeatPicture {
+            image,
+            pixels,
+            scale,
+            colors,
+        };
+        with_legend(&picture, &captions)
+    }
+
+    /// The bytes of a PNG file of it.
+    ///
+    /// # Errors
+    /// Those of the encoder.
+    pub fn png(&self) -> Result<Vec<u8>, ImageError> {
+        png(&self.drawn())
+    }
+
+    /// The bytes of an OpenEXR file: the values as 32-bit floats in one channel named after the
+    /// symbol; NaN where there is none.
+    ///
+    /// # Errors
+    /// Those of the encoder.
+    pub fn exr(&self) -> Result<Vec<u8>, exr::error::Error> {
+        let image = self.image;
+        let (width, height) = (image.width as usize, image.height as usize);
+        let channels = SpecificChannels::build()
+            .with_channel::<f32>(self.heatmap.symbol)
+            .with_pixel_fn(|at| (image.values[at.y() * width + at.x()],));
+        let mut bytes = Cursor::new(Vec::new());
+        exr::prelude::Image::from_channels((width, height), channels)
+            .write()
+            .to_buffered(&mut bytes)?;
+        Ok(bytes.into_inner())
+    }
+
+    /// What is shown of what.
+    fn subtitle(&self) -> String {
+        let mut words = self.of.clone();
+        if self.heatmap.filters().len() > 1 {
+            words += &format!(", {} rays", self.rays.name());
+        }
+        if let Some((_, opacity)) = self.below {
+            words += &format!("; {:.0} % over the picture", opacity * 100.0);
+        }
+        words
+    }
+
+    /// The figures of the whole picture.
+    fn figures(&self) -> String {
+        let HeatSheet { heatmap, image, .. } = self;
+        let mut words = Vec::new();
+        if let Some(total) = self.total {
+            let parameters = heatmap.parameters(self.rays);
+            words.push(match (parameters, heatmap.whole) {
+                ([first, ..], _) => {
+                    let number = parameter(first).number(total);
+                    format!("{} {number}", parameters.join(" + "))
+                }
+                ([], Whole::Sum) => {
+                    // A sum over pixels is not per pixel any more.
+                    let unit = heatmap.unit.trim_end_matches(" per pixel");
+                    format!("total {} {unit}", number(total))
+                }
+                ([], Whole::Mean | Whole::RatioTo(_)) => {
+                    format!("whole picture {} {}", number(total), heatmap.unit)
+                }
+            });
+        }
+        if let Some(HeatStatistics {
+            lowest,
+            highest,
+            mean,
+            pixels,
+        }) = image.statistics()
+        {
+            let [lowest, mean, highest] = [lowest, mean, highest].map(number);
+            words.push(format!(
+                "a pixel: lowest {lowest}, mean {mean}, highest {highest}"
+            ));
+            let without = image.values.len() - pixels;
+            if without > 0 {
+                let color = if self.colors.diverging {
+                    "grey"
+                } else {
+                    "white"
+                };
+                words.push(format!("no value in {without} pixels, {color}"));
+            }
+        }
+        words.join("; ")
+    }
+}
+
+/// A whole number in full, any other to four digits.
+fn number(value: f64) -> String {
+    if value.fract() == 0.0 {
+        grouped(value)
+    } else {
+        significant(value)
+    }
+}

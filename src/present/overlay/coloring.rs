@@ -1,0 +1,248 @@
+//! What leaves can be coloured by. A colouring is one entry of [`COLORINGS`].
+
+use crate::structure::{CellOfNode, NodeKind, Tree};
+use crate::trace::Visits;
+
+/// A leaf as colourings, filters and histograms see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leaf {
+    pub depth: u32,
+    /// Number of objects that it refers to.
+    pub objects: u32,
+    /// Volume of its cell, in cubed units of length.
+    pub volume: f64,
+    /// Rays of the picture that visited it; `None` unless counted.
+    pub visits: Option<u64>,
+}
+
+impl Leaf {
+    /// The leaf in a cell; `None` for the cell of an inner node.
+    pub fn of(tree: &Tree, cell: &CellOfNode, visits: Option<&Visits>) -> Option<Leaf> {
+        match tree.kind(cell.node) {
+            NodeKind::Leaf { count, .. } => Some(Leaf {
+                depth: cell.depth,
+                objects: count,
+                volume: cell.bounds.volume(),
+                visits: visits.map(|visits| visits.by_node[cell.node as usize]),
+            }),
+            NodeKind::Inner { .. } => None,
+        }
+    }
+}
+
+/// How values spread over the colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Scale {
+    /// From 0.
+    Linear,
+    /// By log(1 + value): most leaves hold few objects, some very many.
+    Log,
+    /// By the logarithm, from the least value.
+    Powers,
+    /// Nothing between the two ends.
+    TwoValues([&'static str; 2]),
+}
+
+/// A way to colour leaves.
+pub struct Coloring {
+    /// Name in settings.
+    pub name: &'static str,
+    /// Name for people.
+    pub title: &'static str,
+    /// What the numbers of the legend count; empty where there are none.
+    pub unit: &'static str,
+    value: fn(&Leaf) -> Option<f64>,
+    scale: Scale,
+    gradient: colorous::Gradient,
+}
+
+/// A place in a legend, 0 to 1, and what stands there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    pub place: f64,
+    pub text: String,
+}
+
+/// All colourings.
+pub static COLORINGS: &[Coloring] = &[
+    Coloring {
+        name: "depth",
+        title: "Depth",
+        unit: "levels below the root",
+        value: |leaf| Some(f64::from(leaf.depth)),
+        scale: Scale::Linear,
+        gradient: colorous::VIRIDIS,
+    },
+    Coloring {
+        name: "objects",
+        title: "Objects",
+        unit: "objects in a leaf",
+        value: |leaf| Some(f64::from(leaf.objects)),
+        scale: Scale::Log,
+        gradient: colorous::PLASMA,
+    },
+    Coloring {
+        name: "emptiness",
+        title: "Emptiness",
+        unit: "",
+        value: |leaf| Some(f64::from(leaf.objects.min(1))),
+        scale: Scale::TwoValues(["empty", "full"]),
+        gradient: colorous::COOL,
+    },
+    Coloring {
+        name: "volume",
+        title: "Volume",
+        unit: "cubed units of length",
+        value: |leaf| Some(leaf.volume.max(f64::MIN_POSITIVE)),
+        scale: Scale::Powers,
+        gradient: colorous::CIVIDIS,
+    },
+    Coloring {
+        name: "visits",
+        title: "Visits",
+        unit: "rays of the picture that visited it",
+        value: |leaf| Some(leaf.visits? as f64),
+        scale: Scale::Log,
+        gradient: colorous::INFERNO,
+    },
+];
+
+/// The colouring of this name.
+pub fn coloring(name: &str) -> Option<&'static Coloring> {
+    COLORINGS.iter().find(|c| c.name == name)
+}
+
+impl Coloring {
+    /// The value of a leaf, of which the legend tells the colours; `None` for visits that were not
+    /// counted.
+    pub fn value(&self, leaf: &Leaf) -> Option<f64> {
+        (self.value)(leaf)
+    }
+
+    /// Whether visits must be counted for it.
+    pub fn needs_visits(&self) -> bool {
+        let unvisited = Leaf {
+            depth: 0,
+            objects: 0,
+            volume: 0.0,
+            visits: None,
+        };
+        self.value(&unvisited).is_none()
+    }
+
+    /// The least and the greatest value of the legend, from all values; [0, 0] without any.
+    pub fn range(&self, values: impl Iterator<Item = f64>) -> [f64; 2] {
+        let from = match self.scale {
+            Scale::Powers => f64::INFINITY,
+            Scale::Linear | Scale::Log | Scale::TwoValues(_) => 0.0,
+        };
+        let [lo, hi] = values.fold([from, 0.0], |[lo, hi], value| {
+            [lo.min(value), f64::max(hi, value)]
+        });
+        [lo.min(hi), hi]
+    }
+
+    /// sRGB colour of a value in this range.
+    pub fn color(&self, value: f64, range: [f64; 2]) -> [u8; 3] {
+        self.color_at(self.place(value, range))
+    }
+
+    /// sRGB colour at a place of the legend, 0 to 1.
+    pub fn color_at(&self, place: f64) -> [u8; 3] {
+        // The darkest fifth could not be told from the dark ground.
+        let color = self.gradient.eval_continuous(0.2 + 0.8 * place);
+        [color.r, color.g, color.b]
+    }
+
+    /// Whether colours run from one end of the legend to the other.
+    pub fn is_continuous(&self) -> bool {
+        !matches!(self.scale, Scale::TwoValues(_))
+    }
+
+    fn place(&self, value: f64, [lowest, highest]: [f64; 2]) -> f64 {
+        let place = match self.scale {
+            Scale::Linear => value / highest,
+            Scale::Log => value.ln_1p() / highest.ln_1p(),
+            Scale::Powers => (value.ln() - lowest.ln()) / (highest.ln() - lowest.ln()),
+            Scale::TwoValues(_) => value,
+        };
+        // Where all values are equal, all colours are the lowest.
+        if place.is_nan() {
+            0.0
+        } else {
+            place.clamp(0.0, 1.0)
+        }
+    }
+
+    /// The numbers of the legend from the lowest to the highest place.
+    pub fn marks(&self, range: [f64; 2]) -> Vec<Mark> {
+        let [lowest, highest] = range;
+        let mark = |value: f64| Mark {
+            place: self.place(value, range),
+            text: match self.scale {
+                Scale::Powers => format!("{value:.1e}"),
+                _ => format!("{value:.0}"),
+            },
+        };
+        match self.scale {
+            Scale::TwoValues(names) => names
+                .into_iter()
+                .zip([0.0, 1.0])
+                .map(|(text, place)| Mark {
+                    place,
+                    text: text.to_owned(),
+                })
+                .collect(),
+            _ if highest <= lowest => vec![mark(lowest)],
+            Scale::Linear => {
+                let step = (highest / 4.0).ceil().max(1.0);
+                let mut marks: Vec<Mark> = (0..)
+                    .map(|i| f64::from(i) * step)
+                    .take_while(|&value| value <= highest - step * 0.5)
+                    .map(mark)
+                    .collect();
+                marks.push(mark(highest));
+                marks
+            }
+            Scale::Log => {
+                let mut marks = vec![mark(0.0)];
+                // So few that their numbers have room.
+                let factor = if highest > 300.0 {
+                    libm::exp10((highest.log10() / 4.0).ceil())
+                } else {
+                    4.0
+                };
+                let mut value = 1.0_f64;
+                while value.ln_1p() < highest.ln_1p() * 0.88 {
+                    marks.push(mark(value));
+                    value *= factor;
+                }
+                marks.push(mark(highest));
+                marks
+            }
+            Scale::Powers => {
+                let middle = ((lowest.ln() + highest.ln()) * 0.5).exp();
+                [lowest, middle, highest].map(mark).to_vec()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn legends_run_from_end_to_end_in_order() {
+        assert!(!COLORINGS.is_empty());
+        for coloring in COLORINGS {
+            for highest in [1.0, 3.0, 20.0, 5000.0] {
+                let marks = coloring.marks(coloring.range([0.5, highest].into_iter()));
+                assert_eq!(marks.first().map(|m| m.place), Some(0.0));
+                assert_eq!(marks.last().map(|m| m.place), Some(1.0));
+                assert!(marks.is_sorted_by(|a, b| a.place < b.place), "{marks:?}");
+            }
+            assert!(!coloring.marks([0.0, 0.0]).is_empty());
+        }
+    }
+}

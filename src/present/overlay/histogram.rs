@@ -1,0 +1,339 @@
+//! Histograms of a tree's leaves, and ranges of them that select leaves; and one of a picture's
+//! rays. A histogram of leaves is one entry of [`HISTOGRAMS`].
+
+use super::Leaf;
+use crate::structure::Tree;
+use crate::trace::Visits;
+
+/// How many histograms of leaves there are.
+pub const HISTOGRAM_COUNT: usize = 4;
+
+/// All histograms of leaves.
+pub static HISTOGRAMS: [Histogram; HISTOGRAM_COUNT] = [
+    Histogram {
+        name: "depth",
+        axis: HistogramAxis {
+            title: "Leaf depth",
+            unit: "levels below the root",
+            counted: "leaves",
+            spread: Spread::Whole,
+        },
+        value: |leaf| Some(f64::from(leaf.depth)),
+    },
+    Histogram {
+        name: "objects",
+        axis: HistogramAxis {
+            title: "Objects a leaf",
+            unit: "objects",
+            counted: "leaves",
+            spread: Spread::Whole,
+        },
+        value: |leaf| Some(f64::from(leaf.objects)),
+    },
+    Histogram {
+        name: "volume",
+        axis: HistogramAxis {
+            title: "Leaf volume",
+            unit: "cubed units of length, powers of 10",
+            counted: "leaves",
+            spread: Spread::Powers,
+        },
+        value: |leaf| Some(leaf.volume.max(f64::MIN_POSITIVE).log10()),
+    },
+    Histogram {
+        name: "visits",
+        axis: HistogramAxis {
+            title: "Visits of a leaf",
+            unit: "rays, logarithmic",
+            counted: "leaves",
+            spread: Spread::Counts,
+        },
+        value: |leaf| Some((leaf.visits? as f64 + 1.0).log10()),
+    },
+];
+
+/// The axis of the histogram of rays: nodes that a ray visited.
+pub static NODES_A_RAY: HistogramAxis = HistogramAxis {
+    title: "Nodes a ray",
+    unit: "nodes visited, inner ones and leaves",
+    counted: "rays",
+    spread: Spread::Whole,
+};
+
+/// A number that every leaf has.
+pub struct Histogram {
+    /// Name in settings.
+    pub name: &'static str,
+    pub axis: HistogramAxis,
+    value: fn(&Leaf) -> Option<f64>,
+}
+
+/// What a histogram is of.
+pub struct HistogramAxis {
+    /// Name for people.
+    pub title: &'static str,
+    /// What the numbers along the axis count.
+    pub unit: &'static str,
+    /// What the bars count.
+    pub counted: &'static str,
+    pub spread: Spread,
+}
+
+/// How values spread over the axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spread {
+    /// Whole numbers: bars are a whole number of values wide.
+    Whole,
+    /// Values are exponents of ten.
+    Powers,
+    /// Whole numbers of which many are small: values are log₁₀(number + 1).
+    Counts,
+}
+
+/// The bars of a histogram.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bars {
+    /// Where the first bar begins.
+    pub start: f64,
+    /// Width of a bar, above 0.
+    pub width: f64,
+    /// Full and empty leaves in every bar; rays are all in the first.
+    pub counts: Vec<[u64; 2]>,
+}
+
+/// A selection of leaves: for every histogram the values that are in, if not all are. Both ends
+/// count.
+pub type Ranges = [Option<[f64; 2]>; HISTOGRAM_COUNT];
+
+/// Whether a leaf lies in all ranges; one without a value lies in no range of it.
+pub fn in_ranges(leaf: &Leaf, ranges: &Ranges) -> bool {
+    HISTOGRAMS.iter().zip(ranges).all(|(histogram, range)| {
+        range.is_none_or(|[lo, hi]| {
+            let value = histogram.value(leaf);
+            value.is_some_and(|value| (lo..=hi).contains(&value))
+        })
+    })
+}
+
+/// Whether visits must be counted for these ranges.
+pub fn ranges_need_visits(ranges: &Ranges) -> bool {
+    let mut pairs = HISTOGRAMS.iter().zip(ranges);
+    pairs.any(|(histogram, range)| range.is_some() && histogram.needs_visits())
+}
+
+/// All leaves of a tree as colourings, filters and histograms see them.
+pub fn leaves(tree: &Tree, visits: Option<&Visits>) -> Vec<Leaf> {
+    tree.cells()
+        .filter_map(|cell| Leaf::of(tree, &cell, visits))
+        .collect()
+}
+
+impl Histogram {
+    /// The value of a leaf on the axis; `None` for visits that were not counted.
+    pub fn value(&self, leaf: &Leaf) -> Option<f64> {
+        (self.value)(leaf)
+    }
+
+    /// Whether visits must be counted for it.
+    pub fn needs_visits(&self) -> bool {
+        self.value(&Leaf {
+            depth: 0,
+            objects: 0,
+            volume: 0.0,
+            visits: None,
+        })
+        .is_none()
+    }
+
+    /// At most `most` bars over all leaves that have a value; none without such leaves.
+    pub fn bars(&self, leaves: &[Leaf], most: usize) -> Bars {
+        let with_value = leaves.iter().filter_map(|leaf| {
+            let class = usize::from(leaf.objects == 0);
+            Some((self.value(leaf)?, class, 1))
+        });
+        self.axis.bars(with_value, most)
+    }
+}
+
+/// At most `most` bars over all rays of [`NODES_A_RAY`]; none without rays.
+pub fn ray_bars(visits: &Visits, most: usize) -> Bars {
+    let bins = visits.rays_by_nodes.iter().enumerate();
+    let visited = bins.filter(|(_, rays)| **rays > 0);
+    NODES_A_RAY.bars(visited.map(|(nodes, rays)| (nodes as f64, 0, *rays)), most)
+}
+
+impl HistogramAxis {
+    /// Bars over values, each of a class, 0 or 1, and counted so often.
+    fn bars(&self, items: impl Iterator<Item = (f64, usize, u64)> + Clone, most: usize) -> Bars {
+        let most = most.max(1);
+        let [lo, hi] = items
+            .clone()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], (v, ..)| {
+                [lo.min(v), hi.max(v)]
+            });
+        if lo > hi {
+            return Bars {
+                start: 0.0,
+                width: 1.0,
+                counts: Vec::new(),
+            };
+        }
+        let (start, width) = match self.spread {
+            // Bars lie around their whole numbers.
+            Spread::Whole => (lo - 0.5, ((hi - lo + 1.0) / most as f64).ceil()),
+            Spread::Powers | Spread::Counts => (lo, (hi - lo) / most as f64),
+        };
+        // Where all values are equal there is one bar around them.
+        let width = if width > 0.0 { width } else { 1.0 };
+        let place = |value: f64| (((value - start) / width) as usize).min(most - 1);
+        let mut counts = vec![[0; 2]; place(hi) + 1];
+        for (value, class, count) in items {
+            counts[place(value)][class] += count;
+        }
+        Bars {
+            start,
+            width,
+            counts,
+        }
+    }
+
+    /// A value of the axis for people.
+    pub fn format(&self, value: f64) -> String {
+        match self.spread {
+            Spread::Whole => format!("{value:.0}"),
+            Spread::Powers => {
+                let value = libm::exp10(value);
+                if (0.01..1e4).contains(&value) {
+                    format!("{value:.3}")
+                } else {
+                    format!("{value:.1e}")
+                }
+            }
+            Spread::Counts => format!("{:.0}", libm::exp10(value) - 1.0),
+        }
+    }
+
+    /// The values from one edge of a bar to another, for people.
+    pub fn format_range(&self, [lo, hi]: [f64; 2]) -> String {
+        let (lo, hi) = match self.spread {
+            // Bars lie around whole numbers.
+            Spread::Whole => (lo + 0.5, hi - 0.5),
+            Spread::Powers => (lo, hi),
+            Spread::Counts => {
+                // The first and the last whole number inside, unless rounding moves an edge.
+                let [lo, hi] = [lo, hi].map(|edge| libm::exp10(edge) - 1.0);
+                let (lo, hi) = ((lo - 1e-9 * lo).ceil(), (hi + 1e-9 * hi).floor());
+                ((lo + 1.0).log10(), (hi.max(lo) + 1.0).log10())
+            }
+        };
+        let [lo, hi] = [lo, hi].map(|value| self.format(value));
+        if lo == hi {
+            lo
+        } else {
+            format!("{lo} to {hi}")
+        }
+    }
+}
+
+impl Bars {
+    /// Where the last bar ends.
+    pub fn end(&self) -> f64 {
+        self.start + self.width * self.counts.len() as f64
+    }
+
+    /// Leaves or rays in the highest bar.
+    pub fn highest(&self) -> u64 {
+        self.counts.iter().map(|[a, b]| a + b).max().unwrap_or(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn leaf(depth: u32, objects: u32, volume: f64) -> Leaf {
+        Leaf {
+            depth,
+            objects,
+            volume,
+            visits: Some(u64::from(objects) * 1000),
+        }
+    }
+
+    #[test]
+    fn every_leaf_is_in_one_bar_whatever_their_number() {
+        let leaves = [
+            leaf(0, 3, 0.0),
+            leaf(20, 0, 1e-9),
+            leaf(7, 1, 8.0),
+            leaf(7, 1000, 8.0),
+        ];
+        for histogram in &HISTOGRAMS {
+            for most in [1, 2, 7, 40] {
+                let bars = histogram.bars(&leaves, most);
+                assert!(bars.counts.len() <= most);
+                let total: u64 = bars.counts.iter().map(|[full, empty]| full + empty).sum();
+                assert_eq!(total, 4);
+                let empty: u64 = bars.counts.iter().map(|[_, empty]| empty).sum();
+                assert_eq!(empty, 1);
+            }
+            assert_eq!(histogram.bars(&leaves[2..3], 10).highest(), 1);
+            assert!(histogram.bars(&[], 10).counts.is_empty());
+        }
+    }
+
+    #[test]
+    fn ranges_hold_their_ends_and_all_must_agree() {
+        let mut ranges = Ranges::default();
+        let deep = leaf(9, 2, 10.0);
+        assert!(in_ranges(&deep, &ranges));
+        ranges[0] = Some([3.0, 9.0]);
+        assert!(in_ranges(&deep, &ranges));
+        ranges[2] = Some([1.5, 2.0]);
+        assert!(!in_ranges(&deep, &ranges));
+        ranges[2] = Some([0.5, 1.0]);
+        assert!(in_ranges(&deep, &ranges));
+    }
+
+    #[test]
+    fn visits_count_only_where_they_are_known() {
+        let visited = leaf(3, 2, 1.0);
+        let unknown = Leaf {
+            visits: None,
+            ..visited
+        };
+        let by_visits = &HISTOGRAMS[3];
+        assert!(by_visits.needs_visits() && !HISTOGRAMS[0].needs_visits());
+        let bars = by_visits.bars(&[visited, unknown, leaf(1, 0, 1.0)], 30);
+        assert_eq!(bars.highest(), 1);
+        assert_eq!(bars.start, 0.0);
+        let mut ranges = Ranges::default();
+        assert!(in_ranges(&unknown, &ranges) && !ranges_need_visits(&ranges));
+        ranges[3] = Some([1.0, 5.0]);
+        assert!(in_ranges(&visited, &ranges) && ranges_need_visits(&ranges));
+        assert!(!in_ranges(&unknown, &ranges));
+    }
+
+    #[test]
+    fn ranges_of_counts_name_the_whole_numbers_inside() {
+        let axis = &HISTOGRAMS[3].axis;
+        let edge = |number: f64| (number + 1.0).log10();
+        assert_eq!(axis.format_range([edge(0.0), edge(0.4)]), "0");
+        assert_eq!(axis.format_range([edge(0.4), edge(99.5)]), "1 to 99");
+        assert_eq!(axis.format_range([edge(7.0), edge(1000.0)]), "7 to 1000");
+    }
+
+    #[test]
+    fn every_ray_is_in_one_bar() {
+        let visits = Visits {
+            rays_by_nodes: vec![4, 0, 7, 1],
+            ..Visits::default()
+        };
+        let bars = ray_bars(&visits, 36);
+        assert_eq!(bars.counts, [[4, 0], [0, 0], [7, 0], [1, 0]]);
+        assert_eq!(NODES_A_RAY.format_range([1.5, 2.5]), "2");
+        let few = ray_bars(&visits, 2).counts;
+        assert_eq!(few, [[4, 0], [8, 0]]);
+        assert!(ray_bars(&Visits::default(), 36).counts.is_empty());
+    }
+}

@@ -1,0 +1,222 @@
+//! The cells of leaves as coloured boxes, filtered.
+
+use super::{Coloring, Leaf, Ranges, in_ranges, ranges_need_visits};
+use crate::geometry::Vec3;
+use crate::structure::{Moment, Tree};
+use crate::trace::Visits;
+use serde::{Deserialize, Serialize};
+
+/// Leaves by whether rays of the picture visited them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Visited {
+    /// All leaves.
+    #[default]
+    Either,
+    /// Those that a ray visited.
+    Yes,
+    /// Those that no ray visited.
+    Never,
+}
+
+impl Visited {
+    pub const ALL: [Visited; 3] = [Visited::Either, Visited::Yes, Visited::Never];
+
+    /// Name for people.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Visited::Either => "Visited or not",
+            Visited::Yes => "Visited by the picture",
+            Visited::Never => "Never visited",
+        }
+    }
+
+    /// Whether a leaf is among them; none is while its visits are not counted.
+    fn holds(self, leaf: &Leaf) -> bool {
+        match self {
+            Visited::Either => true,
+            Visited::Yes => leaf.visits.is_some_and(|visits| visits > 0),
+            Visited::Never => leaf.visits == Some(0),
+        }
+    }
+}
+
+/// Which leaves are shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Filter {
+    /// Least and greatest depth shown.
+    pub depth: [u32; 2],
+    pub empty: bool,
+    pub full: bool,
+    pub visited: Visited,
+    /// The moment of the build that is shown; `None` for the finished tree.
+    pub moment: Option<Moment>,
+    /// Ranges of the histograms.
+    pub ranges: Ranges,
+}
+
+impl Default for Filter {
+    /// All leaves.
+    fn default() -> Self {
+        Filter {
+            depth: [0, u32::MAX],
+            empty: true,
+            full: true,
+            visited: Visited::default(),
+            moment: None,
+            ranges: Ranges::default(),
+        }
+    }
+}
+
+impl Filter {
+    /// Whether a leaf is shown.
+    pub fn passes(&self, leaf: &Leaf) -> bool {
+        let [lowest, highest] = self.depth;
+        let wanted = if leaf.objects == 0 {
+            self.empty
+        } else {
+            self.full
+        };
+        wanted
+            && (lowest..=highest).contains(&leaf.depth)
+            && self.visited.holds(leaf)
+            && in_ranges(leaf, &self.ranges)
+    }
+
+    /// Whether visits must be counted for it.
+    pub fn needs_visits(&self) -> bool {
+        self.visited != Visited::Either || ranges_need_visits(&self.ranges)
+    }
+}
+
+/// A box to draw, relative to a centre.
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub struct Instance {
+    pub lo: [f32; 3],
+    pub hi: [f32; 3],
+    /// sRGB; the fourth is 255 for solid edges (full leaves), 0 for dashed ones (empty leaves),
+    /// 128 for dotted ones (cells that were not decided yet).
+    pub color: [u8; 4],
+}
+
+/// The colour of cells that were not decided yet: no colouring of leaves has it.
+pub const UNDECIDED_COLOR: [u8; 3] = [235; 3];
+
+/// The boxes of a tree's leaves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LeafBoxes {
+    pub instances: Vec<Instance>,
+    /// Leaves of the tree, hidden ones included.
+    pub leaves: usize,
+    /// Boxes of cells that were not decided yet.
+    pub undecided: usize,
+    /// The least and the greatest value of the legend.
+    pub range: [f64; 2],
+}
+
+/// The boxes of the leaves that pass the filter, coloured, relative to `center` to stay precise in
+/// 32 bits. The legend spans all leaves of the tree, so that a filter changes no colour. Filters and
+/// colourings by visits need them; without, no leaf has a colour or passes. At a moment of the build,
+/// cells that were not decided yet pass by their depth alone.
+pub fn leaf_boxes(
+    tree: &Tree,
+    filter: &Filter,
+    coloring: &Coloring,
+    visits: Option<&Visits>,
+    center: Vec3,
+) -> LeafBoxes {
+    let leaves = || {
+        tree.cells()
+            .filter_map(|cell| Some((cell, Leaf::of(tree, &cell, visits)?)))
+    };
+    let range = coloring.range(leaves().filter_map(|(_, leaf)| coloring.value(&leaf)));
+    let mut boxes = LeafBoxes {
+        range,
+        ..LeafBoxes::default()
+    };
+    boxes.leaves = leaves().count();
+    // At the greatest depth the tree is finished.
+    let moment = filter.moment.unwrap_or(Moment::Depth(u32::MAX));
+    for (cell, decided) in tree.cells_at(moment) {
+        let mut add = |[r, g, b]: [u8; 3], edges: u8| {
+            boxes.instances.push(Instance {
+                lo: (cell.bounds.lo - center).as_vec3().to_array(),
+                hi: (cell.bounds.hi - center).as_vec3().to_array(),
+                color: [r, g, b, edges],
+            });
+        };
+        let [lowest, highest] = filter.depth;
+        if !decided {
+            if (lowest..=highest).contains(&cell.depth) {
+                add(UNDECIDED_COLOR, 128);
+                boxes.undecided += 1;
+            }
+            continue;
+        }
+        if let Some(leaf) = Leaf::of(tree, &cell, visits)
+            && let Some(value) = coloring.value(&leaf)
+            && filter.passes(&leaf)
+        {
+            let edges = if leaf.objects == 0 { 0 } else { 255 };
+            add(coloring.color(value, range), edges);
+        }
+    }
+    boxes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::present::overlay::coloring;
+
+    #[test]
+    fn filters_tell_full_from_empty_and_depths_apart() {
+        let full = Leaf {
+            depth: 3,
+            objects: 2,
+            volume: 1.0,
+            visits: None,
+        };
+        let empty = Leaf {
+            depth: 5,
+            objects: 0,
+            volume: 1.0,
+            visits: None,
+        };
+        let all = Filter::default();
+        assert!(all.passes(&full) && all.passes(&empty));
+        let only_full = Filter {
+            empty: false,
+            ..all
+        };
+        assert!(only_full.passes(&full) && !only_full.passes(&empty));
+        let shallow = Filter {
+            depth: [0, 4],
+            ..all
+        };
+        assert!(shallow.passes(&full) && !shallow.passes(&empty));
+        let [visited, unvisited] = [Some(7), Some(0)].map(|visits| Leaf { visits, ..full });
+        fn only(visited: Visited) -> Filter {
+            Filter {
+                visited,
+                ..Filter::default()
+            }
+        }
+        assert!(!all.needs_visits() && only(Visited::Never).needs_visits());
+        assert!(only(Visited::Yes).passes(&visited) && !only(Visited::Yes).passes(&unvisited));
+        assert!(!only(Visited::Never).passes(&visited) && only(Visited::Never).passes(&unvisited));
+        assert!(!only(Visited::Yes).passes(&full) && !only(Visited::Never).passes(&full));
+    }
+
+    #[test]
+    fn an_instance_takes_28_bytes_and_colours_differ() {
+        assert_eq!(size_of::<Instance>(), 28);
+        let depth = coloring("depth").unwrap();
+        assert_ne!(
+            depth.color(0.0, [0.0, 20.0]),
+            depth.color(20.0, [0.0, 20.0])
+        );
+    }
+}

@@ -1,0 +1,150 @@
+//! A selected cell with its split plane, as lines and translucent faces; cells along a ray.
+
+use super::lines::{Line, box_lines};
+use crate::geometry::{Aabb, Axis, Ray, Vec3};
+use crate::structure::{CellOfNode, NodeKind, Tree};
+
+/// A corner of a translucent triangle, relative to a centre.
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub struct FaceCorner {
+    pub place: [f32; 3],
+    /// sRGB and how much of what lies behind is covered.
+    pub color: [u8; 4],
+}
+
+/// The colour of the selected cell, and of its plane: no colouring of leaves and no ray has these.
+pub const CELL_COLOR: [u8; 3] = [255, 176, 0];
+pub const PLANE_COLOR: [u8; 3] = [90, 200, 255];
+
+/// The colour of the leaves that refer to the selected object.
+pub const REFERRING_COLOR: [u8; 3] = [255, 80, 70];
+
+/// The edges of a cell, and the outline and diagonals of its plane, if there is one.
+pub fn cell_lines(cell: &Aabb, plane: Option<(Axis, f64)>, center: Vec3) -> Vec<Line> {
+    let [r, g, b] = CELL_COLOR;
+    let mut lines = box_lines(cell, center, [r, g, b, 255], 3.5);
+    if let Some(quad) = plane.map(|(axis, at)| quad(cell, axis, at)) {
+        let [r, g, b] = PLANE_COLOR;
+        for [a, c] in [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 3]] {
+            lines.push(Line {
+                a: (quad[a] - center).as_vec3().to_array(),
+                b: (quad[c] - center).as_vec3().to_array(),
+                color: [r, g, b, 255],
+                width: 2.0,
+            });
+        }
+    }
+    lines
+}
+
+/// The faces of a cell and its plane as triangles.
+pub fn cell_faces(cell: &Aabb, plane: Option<(Axis, f64)>, center: Vec3) -> Vec<FaceCorner> {
+    let mut faces = Vec::new();
+    let mut add = |quad: [Vec3; 4], [r, g, b]: [u8; 3], cover: u8| {
+        faces.extend([0, 1, 2, 0, 2, 3].map(|corner| FaceCorner {
+            place: (quad[corner] - center).as_vec3().to_array(),
+            color: [r, g, b, cover],
+        }));
+    };
+    for axis in Axis::ALL {
+        for at in [cell.lo[axis.index()], cell.hi[axis.index()]] {
+            add(quad(cell, axis, at), CELL_COLOR, 40);
+        }
+    }
+    if let Some((axis, at)) = plane {
+        add(quad(cell, axis, at), PLANE_COLOR, 110);
+    }
+    faces
+}
+
+/// The part of a plane inside a cell, its corners in order around it.
+fn quad(cell: &Aabb, axis: Axis, at: f64) -> [Vec3; 4] {
+    let (k, u, v) = (
+        axis.index(),
+        axis.next().index(),
+        axis.next().next().index(),
+    );
+    [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[a, b]| {
+        let mut corner = Vec3::ZERO;
+        corner[k] = at;
+        corner[u] = [cell.lo[u], cell.hi[u]][a];
+        corner[v] = [cell.lo[v], cell.hi[v]][b];
+        corner
+    })
+}
+
+/// The leaves that a ray passes through, nearest first; objects do not stop it. The leaf in which
+/// the ray starts is not among them.
+pub fn leaves_along(tree: &Tree, ray: &Ray) -> Vec<CellOfNode> {
+    let mut found: Vec<(f64, CellOfNode)> = Vec::new();
+    let mut stack = vec![tree.root()];
+    while let Some(cell) = stack.pop() {
+        let Some(enter) = entry(&cell.bounds, ray) else {
+            continue;
+        };
+        if let Some(children) = tree.children(&cell) {
+            stack.extend(children);
+        } else if enter > ray.t_min && matches!(tree.kind(cell.node), NodeKind::Leaf { .. }) {
+            found.push((enter, cell));
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.into_iter().map(|(_, cell)| cell).collect()
+}
+
+/// Where a ray enters a box; its own start if that lies inside, `None` if it misses.
+fn entry(bounds: &Aabb, ray: &Ray) -> Option<f64> {
+    let (mut enter, mut exit) = (ray.t_min, ray.t_max);
+    for k in 0..3 {
+        let (origin, direction) = (ray.origin[k], ray.direction[k]);
+        if direction == 0.0 {
+            if origin < bounds.lo[k] || origin > bounds.hi[k] {
+                return None;
+            }
+            continue;
+        }
+        let a = (bounds.lo[k] - origin) / direction;
+        let b = (bounds.hi[k] - origin) / direction;
+        enter = enter.max(a.min(b));
+        exit = exit.min(a.max(b));
+    }
+    (enter < exit).then_some(enter)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::progress::Progress;
+    use crate::scene::{SceneRequest, load};
+    use crate::structure::{BuildSettings, build};
+
+    #[test]
+    fn a_ray_from_outside_passes_leaves_without_gaps() {
+        let progress = Progress::new();
+        let scene = load(&SceneRequest::parse("balls:1"), &progress).unwrap();
+        let tree = build(&scene, &BuildSettings::default(), &progress).unwrap();
+        let root = tree.root_cell();
+        let direction = Vec3::new(0.31, 0.84, -0.05).normalize();
+        let ray = Ray::new(root.center() - direction * root.size().length(), direction);
+        let leaves = leaves_along(&tree, &ray);
+        assert!(leaves.len() > 2);
+        for pair in leaves.windows(2) {
+            let gap = pair[0].bounds.intersection(&pair[1].bounds);
+            assert!(gap.lo.cmple(gap.hi + 1e-9).all());
+        }
+        let away = Ray::new(ray.origin, -direction);
+        assert!(leaves_along(&tree, &away).is_empty());
+    }
+
+    #[test]
+    fn a_cell_has_twelve_edges_and_six_faces_and_a_plane_adds_its_own() {
+        let cell = Aabb::new(Vec3::ZERO, Vec3::ONE);
+        assert_eq!(cell_lines(&cell, None, Vec3::ZERO).len(), 12);
+        assert_eq!(cell_faces(&cell, None, Vec3::ZERO).len(), 36);
+        let plane = Some((Axis::Y, 0.25));
+        assert_eq!(cell_lines(&cell, plane, Vec3::ZERO).len(), 18);
+        let faces = cell_faces(&cell, plane, Vec3::ZERO);
+        assert!(faces[36..].iter().all(|corner| corner.place[1] == 0.25));
+    }
+}

@@ -1,0 +1,58 @@
+//! The walk of a ray through the tree: the leaves it visited in order, and one step in detail.
+
+use super::lines::{Line, box_lines, order_color};
+use crate::geometry::Vec3;
+use crate::structure::Tree;
+use crate::trace::{RayPath, Step};
+
+/// Colour of the ray inside the current cell.
+pub const INTERVAL: [u8; 3] = [90, 255, 120];
+/// Colour of the cells that wait.
+pub const WAITING: [u8; 3] = [200, 200, 200];
+
+const SOLID: u8 = 255;
+const DASHED: u8 = 0;
+
+fn rgba([r, g, b]: [u8; 3], strokes: u8) -> [u8; 4] {
+    [r, g, b, strokes]
+}
+
+/// The outlines of the leaves that a ray visited, coloured by their order; empty ones are dashed,
+/// and those after the current step thin.
+pub fn visited_lines(path: &RayPath, step: usize, center: Vec3) -> Vec<Line> {
+    let n = path.leaves().count();
+    let leaves = path.steps.iter().enumerate().filter_map(|(i, s)| match s {
+        Step::Leaf(leaf) => Some((i, leaf)),
+        Step::Inner(_) => None,
+    });
+    let mut lines = Vec::new();
+    for (order, (i, leaf)) in leaves.enumerate() {
+        let strokes = if leaf.objects == 0 { DASHED } else { SOLID };
+        let width = if i <= step { 2.5 } else { 1.0 };
+        let color = rgba(order_color(order, n), strokes);
+        lines.extend(box_lines(&leaf.bounds, center, color, width));
+    }
+    lines
+}
+
+/// One step: the cells that wait, and the ray inside the node's cell. The cell itself is the
+/// selected node's. Nothing where there is no such step.
+pub fn step_lines(tree: &Tree, path: &RayPath, step: usize, center: Vec3) -> Vec<Line> {
+    let Some(current) = path.steps.get(step) else {
+        return Vec::new();
+    };
+    let mut lines = Vec::new();
+    for waiting in path.waiting(step) {
+        let bounds = tree.cell_of(waiting.node).bounds;
+        lines.extend(box_lines(&bounds, center, rgba(WAITING, DASHED), 1.0));
+    }
+    let (t_enter, t_exit) = match current {
+        Step::Inner(inner) => (inner.t_enter, inner.t_exit),
+        Step::Leaf(leaf) => (leaf.t_enter, leaf.t_exit),
+    };
+    if t_enter.is_finite() && t_exit.is_finite() {
+        let [from, to] = [t_enter, t_exit].map(|t| path.ray.at(t));
+        lines.push(Line::new(from, to, center, rgba(INTERVAL, SOLID), 8.0));
+    }
+    lines
+}

@@ -1,0 +1,164 @@
+//! The trade of time for accuracy: text for people, JSON and CSV for programs.
+
+use super::plain_table;
+use crate::measure::accuracy::{Outcome, Trade};
+use crate::measure::significant;
+use serde_json::{Value, json};
+use std::io::{Result, Write};
+
+/// A trade with what it was taken of.
+pub struct TradeReport<'a> {
+    pub scene: &'a str,
+    pub trade: &'a Trade,
+}
+
+const TITLES: [&str; 12] = [
+    "choice",
+    "front",
+    "time",
+    "least",
+    "most",
+    "wrong hits",
+    "RMSE",
+    "max",
+    "PSNR dB",
+    "SSIM",
+    "FLIP",
+    "objects",
+];
+
+/// Two tables: choices that move the picture, and those that move only its time.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_text(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
+    let trade = report.trade;
+    if let Some(first) = trade.outcomes.first() {
+        let setting = &first.choice.setting;
+        let render = &setting.render;
+        writeln!(
+            out,
+            "Scene {}. Reference: f64, exact shapes, D_AREC {}, {} samples a pixel, {} × {} pixels, \
+             {}: {} s of CPU time,\nthe median of {} interleaved rounds. Times are ratios to it. \
+             Errors are on linear light from 0 to 1.",
+            report.scene,
+            render.d_arec,
+            render.samples,
+            render.width,
+            render.height,
+            setting.build.method.name,
+            significant(first.median()),
+            first.seconds.len()
+        )?;
+    }
+    let rows = || trade.outcomes.iter().zip(trade.front()).enumerate();
+    for (title, moves_image) in [
+        ("What moves the picture", true),
+        ("What moves only the time", false),
+    ] {
+        let mut table = plain_table(TITLES.map(String::from).to_vec(), 2);
+        for (_, (outcome, front)) in
+            rows().filter(|(i, (o, _))| *i == 0 || o.choice.moves_image == moves_image)
+        {
+            table.add_row(cells(trade, outcome, front));
+        }
+        writeln!(out, "\n{title}\n{}", table.trim_fmt())?;
+    }
+    Ok(())
+}
+
+fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 12] {
+    let [least, median, most] = trade.ratios(outcome);
+    let error = &outcome.error;
+    [
+        outcome.choice.words(),
+        if front { "front".into() } else { String::new() },
+        format!("{median:.3}"),
+        format!("{least:.3}"),
+        format!("{most:.3}"),
+        format!("{} %", significant(100.0 * outcome.wrong_hits)),
+        significant(error.rmse),
+        significant(error.max),
+        error.psnr.map_or("∞".into(), |psnr| format!("{psnr:.1}")),
+        format!("{:.5}", error.ssim),
+        significant(error.flip),
+        format!("{} KiB", outcome.object_bytes.div_ceil(1024)),
+    ]
+}
+
+/// # Errors
+/// Those of `out`.
+pub fn write_json(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
+    let trade = report.trade;
+    let outcomes: Vec<Value> = trade
+        .outcomes
+        .iter()
+        .zip(trade.front())
+        .map(|(outcome, front)| {
+            let [least, median, most] = trade.ratios(outcome);
+            let turned = outcome.choice.turned.iter();
+            let turned: serde_json::Map<_, _> = turned
+                .map(|(knob, value)| ((*knob).to_owned(), json!(value)))
+                .collect();
+            json!({
+                "turned": turned,
+                "moves_image": outcome.choice.moves_image,
+                "front": front,
+                "seconds": outcome.seconds,
+                "time_ratio": {"least": least, "median": median, "most": most},
+                "wrong_hits": outcome.wrong_hits,
+                "error": outcome.error,
+                "object_bytes": outcome.object_bytes,
+            })
+        })
+        .collect();
+    let document = json!({"scene": report.scene, "outcomes": outcomes});
+    serde_json::to_writer_pretty(&mut *out, &document)?;
+    writeln!(out)
+}
+
+/// One line a choice.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_csv(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
+    let trade = report.trade;
+    let mut csv = csv::Writer::from_writer(out);
+    csv.write_record([
+        "scene",
+        "choice",
+        "moves_image",
+        "front",
+        "time_ratio",
+        "time_ratio_least",
+        "time_ratio_most",
+        "wrong_hits",
+        "rmse",
+        "max",
+        "psnr_db",
+        "ssim",
+        "flip",
+        "object_bytes",
+    ])?;
+    for (outcome, front) in trade.outcomes.iter().zip(trade.front()) {
+        let [least, median, most] = trade.ratios(outcome);
+        let error = &outcome.error;
+        csv.write_record([
+            report.scene.to_owned(),
+            outcome.choice.words(),
+            outcome.choice.moves_image.to_string(),
+            front.to_string(),
+            median.to_string(),
+            least.to_string(),
+            most.to_string(),
+            outcome.wrong_hits.to_string(),
+            error.rmse.to_string(),
+            error.max.to_string(),
+            error.psnr.map_or(String::new(), |psnr| psnr.to_string()),
+            error.ssim.to_string(),
+            error.flip.to_string(),
+            outcome.object_bytes.to_string(),
+        ])?;
+    }
+    csv.flush()
+}

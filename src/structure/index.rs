@@ -1,0 +1,272 @@
+//! What every node of a tree amounts to, worked out once a tree: sums over subtrees, expected
+//! work of rays, and where each object went.
+
+use super::{NodeKind, Tree};
+use std::ops::Range;
+
+/// What is known of one node beside what [`Tree`] says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NodeFacts {
+    /// Levels below the root.
+    pub depth: u32,
+    /// The node above; the root is its own.
+    pub parent: u32,
+    /// One past the last node of the subtree.
+    pub end: u32,
+    /// Leaves of the subtree.
+    pub leaves: u32,
+    /// References of all leaves of the subtree.
+    pub references: u32,
+    /// Objects that the subtree refers to, each counted once.
+    pub objects: u32,
+    /// Surface area of the cell, in squared units of length.
+    pub area: f64,
+    /// Volume of the cell, in cubed units of length.
+    pub volume: f64,
+    /// Nodes of the subtree, itself included, that a ray through the cell is expected to visit if
+    /// nothing stops it; at least 1.
+    pub expected_visits: f64,
+    /// Intersection tests that such a ray is expected to make.
+    pub tests: f64,
+}
+
+/// All nodes' facts, and the leaves of every object.
+///
+/// A ray that meets a convex cell meets a convex part of it with probability area of the part by
+/// area of the cell (J. D. MacDonald and K. S. Booth, Heuristics for ray tracing using space
+/// subdivision, 1990); expectations follow from the leaves upwards.
+#[derive(Clone, Debug, Default)]
+pub struct TreeIndex {
+    nodes: Vec<NodeFacts>,
+    /// For every object the place of its first leaf in `leaves`, and one more for the end.
+    starts: Vec<u32>,
+    leaves: Vec<u32>,
+}
+
+impl TreeIndex {
+    /// Works out all facts; the tree refers to objects below the number `objects`.
+    pub fn new(tree: &Tree, objects: usize) -> Self {
+        let mut nodes = vec![NodeFacts::default(); tree.nodes().len()];
+        for cell in tree.cells() {
+            let facts = &mut nodes[cell.node as usize];
+            facts.depth = cell.depth;
+            facts.area = cell.bounds.surface_area();
+            facts.volume = cell.bounds.volume();
+            if let NodeKind::Inner { below, above, .. } = tree.kind(cell.node) {
+                nodes[below as usize].parent = cell.node;
+                nodes[above as usize].parent = cell.node;
+            }
+        }
+        let (starts, leaves) = leaves_by_object(tree, objects);
+        sum_up(tree, &mut nodes);
+        count_objects(&mut nodes, tree, &starts, &leaves);
+        TreeIndex {
+            nodes,
+            starts,
+            leaves,
+        }
+    }
+
+    /// The facts of a node.
+    ///
+    /// # Panics
+    /// If there is no such node.
+    pub fn of(&self, node: u32) -> &NodeFacts {
+        &self.nodes[node as usize]
+    }
+
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether there is no node; the index of a tree always has one.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// The leaves that refer to an object, ascending; none for an object that no leaf refers to.
+    pub fn leaves_of(&self, object: u32) -> &[u32] {
+        match self.starts.get(object as usize..object as usize + 2) {
+            Some(&[from, to]) => &self.leaves[from as usize..to as usize],
+            _ => &[],
+        }
+    }
+
+    /// The nodes from the root to this one, both included.
+    pub fn path_to(&self, node: u32) -> Vec<u32> {
+        let mut path = vec![node];
+        let mut at = node;
+        while at != 0 {
+            at = self.of(at).parent;
+            path.push(at);
+        }
+        path.reverse();
+        path
+    }
+}
+
+impl Tree {
+    /// Where the references of a subtree lie, whose last node comes just before `end`: leaves lie in
+    /// the order of their references.
+    pub fn references_below(&self, node: u32, end: u32) -> Range<usize> {
+        let first = (node..end).find_map(|n| match self.kind(n) {
+            NodeKind::Leaf { first, .. } => Some(first as usize),
+            NodeKind::Inner { .. } => None,
+        });
+        // The last node of a subtree is a leaf.
+        match (first, self.kind(end - 1)) {
+            (Some(from), NodeKind::Leaf { first, count, .. }) => from..(first + count) as usize,
+            _ => 0..0,
+        }
+    }
+}
+
+fn leaves_by_object(tree: &Tree, objects: usize) -> (Vec<u32>, Vec<u32>) {
+    let mut starts = vec![0_u32; objects + 1];
+    for &object in tree.references() {
+        starts[object as usize + 1] += 1;
+    }
+    for i in 0..objects {
+        starts[i + 1] += starts[i];
+    }
+    let mut next = starts.clone();
+    let mut leaves = vec![0; tree.references().len()];
+    for node in 0..tree.nodes().len() as u32 {
+        for &object in tree.leaf_objects(node) {
+            leaves[next[object as usize] as usize] = node;
+            next[object as usize] += 1;
+        }
+    }
+    (starts, leaves)
+}
+
+/// Sums over subtrees. Children come after their parents, so backwards every child is ready.
+fn sum_up(tree: &Tree, nodes: &mut [NodeFacts]) {
+    for node in (0..nodes.len()).rev() {
+        let (first, rest) = nodes[node..].split_at_mut(1);
+        let facts = &mut first[0];
+        match tree.kind(node as u32) {
+            NodeKind::Leaf { count, .. } => {
+                facts.end = node as u32 + 1;
+                facts.leaves = 1;
+                facts.references = count;
+                facts.expected_visits = 1.0;
+                facts.tests = f64::from(count);
+            }
+            NodeKind::Inner { below, above, .. } => {
+                let of = |child: u32| &rest[child as usize - node - 1];
+                let (below, above) = (of(below), of(above));
+                facts.end = above.end;
+                facts.leaves = below.leaves + above.leaves;
+                facts.references = below.references + above.references;
+                facts.expected_visits = 1.0;
+                for child in [below, above] {
+                    let share = child.area / facts.area;
+                    facts.expected_visits += share * child.expected_visits;
+                    facts.tests += share * child.tests;
+                }
+            }
+        }
+    }
+}
+
+/// Counts objects once a subtree: an object with leaves on both sides of a node is one too many
+/// there, and neighbours in its list of leaves part at the lowest node that holds both.
+fn count_objects(nodes: &mut [NodeFacts], tree: &Tree, starts: &[u32], leaves: &[u32]) {
+    let mut too_many = vec![0_u32; nodes.len()];
+    for range in starts.windows(2) {
+        for pair in leaves[range[0] as usize..range[1] as usize].windows(2) {
+            let mut at = pair[0];
+            while nodes[at as usize].end <= pair[1] {
+                at = nodes[at as usize].parent;
+            }
+            too_many[at as usize] += 1;
+        }
+    }
+    for node in (0..nodes.len()).rev() {
+        nodes[node].objects = match tree.kind(node as u32) {
+            NodeKind::Leaf { count, .. } => count,
+            NodeKind::Inner { below, above, .. } => {
+                nodes[below as usize].objects + nodes[above as usize].objects - too_many[node]
+            }
+        };
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::progress::Progress;
+    use crate::scene::{Scene, SceneRequest, load};
+    use crate::structure::{BuildSettings, Method, build};
+    use std::collections::BTreeSet;
+
+    pub fn small(scene: &str, method: &str) -> (Scene, Tree) {
+        let progress = Progress::new();
+        let scene = load(&SceneRequest::parse(scene), &progress).unwrap();
+        let settings = BuildSettings::for_method(Method::named(method).unwrap());
+        let tree = build(&scene, &settings, &progress).unwrap();
+        (scene, tree)
+    }
+
+    #[test]
+    fn sums_agree_with_counting_every_subtree() {
+        for method in ["midpoint", "sah-cut", "none"] {
+            let (scene, tree) = small("balls:1", method);
+            let index = TreeIndex::new(&tree, scene.objects().len());
+            assert_eq!(index.len(), tree.nodes().len());
+            assert_eq!(index.of(0).end as usize, tree.nodes().len());
+            for cell in tree.cells() {
+                let facts = index.of(cell.node);
+                assert_eq!(facts.depth, cell.depth);
+                let below = tree.references_below(cell.node, facts.end);
+                assert_eq!(below.len(), facts.references as usize);
+                let objects: BTreeSet<u32> = tree.references()[below].iter().copied().collect();
+                assert_eq!(objects.len(), facts.objects as usize);
+                let leaves = (cell.node..facts.end)
+                    .filter(|&n| matches!(tree.kind(n), NodeKind::Leaf { .. }))
+                    .count();
+                assert_eq!(leaves, facts.leaves as usize);
+                let expected: f64 = (cell.node..facts.end)
+                    .map(|n| index.of(n).area / facts.area * tree.leaf_objects(n).len() as f64)
+                    .sum();
+                assert!((facts.tests - expected).abs() <= 1e-9 * expected);
+            }
+        }
+    }
+
+    #[test]
+    fn every_reference_is_found_from_its_object() {
+        let (scene, tree) = small("balls:1", "midpoint");
+        let index = TreeIndex::new(&tree, scene.objects().len());
+        let mut found = 0;
+        for object in 0..scene.objects().len() as u32 {
+            let leaves = index.leaves_of(object);
+            assert!(leaves.is_sorted());
+            assert!(
+                leaves
+                    .iter()
+                    .all(|&l| tree.leaf_objects(l).contains(&object))
+            );
+            found += leaves.len();
+        }
+        assert_eq!(found, tree.references().len());
+        assert!(index.leaves_of(1_000_000).is_empty());
+    }
+
+    #[test]
+    fn paths_lead_from_the_root_by_children() {
+        let (scene, tree) = small("balls:1", "sah-cut");
+        let index = TreeIndex::new(&tree, scene.objects().len());
+        let last = tree.nodes().len() as u32 - 1;
+        let path = index.path_to(last);
+        assert_eq!((path[0], path[path.len() - 1]), (0, last));
+        for pair in path.windows(2) {
+            assert!(
+                matches!(tree.kind(pair[0]), NodeKind::Inner { below, above, .. }
+                if below == pair[1] || above == pair[1])
+            );
+        }
+    }
+}

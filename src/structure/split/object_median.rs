@@ -1,0 +1,67 @@
+//! The object median: as many objects below the plane as above it.
+
+use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
+use crate::geometry::Axis;
+use crate::structure::{BuildSettings, StopReason};
+
+pub(super) const METHOD: MethodInfo = MethodInfo {
+    name: "object-median",
+    title: "Object median",
+    about: "Splits at the median of the objects' centres, so that both halves hold about as many.",
+    source: "M. R. Kaplan, Space-tracing: a constant time ray-tracer, 1985; J. D. MacDonald and \
+             K. S. Booth, Heuristics for ray tracing using space subdivision, 1990, section 3",
+    paper: None,
+    paper_spheres_exactly: false,
+    structure: Structure::Bintree,
+    constants: &[Constant {
+        name: "longest-axis",
+        default: 0.0,
+        lowest: 0.0,
+        highest: 1.0,
+        step: 1.0,
+        unit: "",
+        about: "1 splits the cell's longest axis, 0 takes the axes in cyclic order as method 1.",
+        source: "ours: 0 leaves the plane as the only difference to midpoint",
+    }],
+    rule: |settings| Box::new(ObjectMedian::new(settings)),
+};
+
+struct ObjectMedian {
+    first_axis: Axis,
+    longest_axis: bool,
+}
+
+impl ObjectMedian {
+    fn new(settings: &BuildSettings) -> Self {
+        ObjectMedian {
+            first_axis: settings.first_axis,
+            longest_axis: settings.constant("longest-axis") > 0.5,
+        }
+    }
+}
+
+impl SplitRule for ObjectMedian {
+    fn decide(&self, cell: &Cell<'_>) -> Decision {
+        let axis = if self.longest_axis {
+            cell.bounds.longest_axis()
+        } else {
+            Axis::from_index(self.first_axis.index() + cell.depth as usize)
+        };
+        let mut centers: Vec<f64> = cell
+            .objects()
+            .map(|object| {
+                let [lo, hi] = cell.clipped(object, axis);
+                lo * 0.5 + hi * 0.5
+            })
+            .collect();
+        if centers.is_empty() {
+            return Decision::Leaf(StopReason::NoCandidate);
+        }
+        let middle = centers.len() / 2;
+        let (_, &mut median, _) = centers.select_nth_unstable_by(middle, f64::total_cmp);
+        Decision::Split {
+            axis,
+            plane: cell.frame.nearest_plane(axis, median),
+        }
+    }
+}

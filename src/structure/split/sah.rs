@@ -1,0 +1,242 @@
+//! The surface-area heuristic for kernels that test a block of objects at once.
+//!
+//! The expected cost of a leaf is the number of blocks its objects fill, not of the objects: a test
+//! of 1 costs as much as one of 8 or 16. Candidates are the ends of the objects' bounds, each as the
+//! nearest plane that a node can store, so that neighbours in a mesh are parted between them; large
+//! cells try the limits of bins instead, so that a tree takes time in O(N log N). An object that only touches a cell from outside does not count there: kernels that read leaves in
+//! blocks leave it out, as the neighbour has it.
+
+mod bins;
+mod every_plane;
+mod extents;
+mod grid;
+
+use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
+use crate::geometry::Axis;
+use crate::structure::{BuildSettings, StopReason};
+use bins::Bins;
+use every_plane::Search;
+use extents::Extents;
+
+pub(super) const METHOD: MethodInfo = MethodInfo {
+    name: "sah",
+    title: "Surface area, leaves in blocks",
+    about: "Splits where the surface-area heuristic expects rays to cost least when objects are \
+            tested in blocks; favours cutting off empty space.",
+    source: "I. Wald and V. Havran, On building fast kd-trees for ray tracing, 2006; V. Havran, \
+             Heuristic ray shooting algorithms, 2000",
+    paper: None,
+    paper_spheres_exactly: false,
+    structure: Structure::Bintree,
+    constants: &[
+        Constant {
+            name: "block",
+            default: 16.0,
+            lowest: 1.0,
+            highest: 64.0,
+            step: 1.0,
+            unit: "objects",
+            about: "How many objects are tested at the cost of one.",
+            source: "lanes of a 512-bit vector; 8 and 16 measured by cargo bench --bench peers",
+        },
+        Constant {
+            name: "traversal-cost",
+            default: 0.55,
+            lowest: 0.01,
+            highest: 100.0,
+            step: 0.0,
+            unit: "blocks",
+            about: "Cost of passing an inner node, in tests of a block.",
+            source: "measured by cargo bench --bench peers",
+        },
+        Constant {
+            name: "empty-factor",
+            default: 0.8,
+            lowest: 0.0,
+            highest: 1.0,
+            step: 0.0,
+            unit: "",
+            about: "Factor on the cost of a split with an empty side; below 1 favours cutting off \
+                    empty space.",
+            source: "Wald and Havran 2006, section 3",
+        },
+        Constant {
+            name: "exact",
+            default: 16384.0,
+            lowest: 0.0,
+            highest: 1e9,
+            step: 1.0,
+            unit: "objects",
+            about: "Cells with at most this many objects try every plane, larger ones the limits of \
+                    64 bins.",
+            source: "measured by cargo bench --bench peers and growth: as quick to build as with 1024, \
+                     and rays are up to a twentieth faster",
+        },
+        CLIP,
+    ],
+    rule: |settings| Box::new(Sah::new(settings)),
+};
+
+/// Whether objects are clipped to the cell before they are counted.
+pub(super) const CLIP: Constant = Constant {
+    name: "clip",
+    default: 0.0,
+    lowest: 0.0,
+    highest: 1.0,
+    step: 1.0,
+    unit: "",
+    about: "1 counts an object by the bounds of its part within the cell, 0 by its bounds cut off at \
+            the cell; best with objects held against cells exactly.",
+    source: "V. Havran, Heuristic ray shooting algorithms, 2000 (split clipping)",
+};
+
+/// The ends of an extent along an axis, as planes.
+type Extent = [f32; 2];
+
+struct Sah {
+    block: u32,
+    traversal_cost: f32,
+    empty_factor: f32,
+    exact: usize,
+    clip: bool,
+}
+
+/// A plane and how many objects have a part on either side of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Plane {
+    at: f32,
+    below: usize,
+    above: usize,
+}
+
+/// The cheapest that was found for a cell.
+struct Best {
+    cost: f32,
+    /// `None` is a leaf.
+    plane: Option<(Axis, f32)>,
+}
+
+impl Best {
+    /// Of planes that cost the same the first along the first axis stays.
+    fn offer(&mut self, axis: Axis, at: f32, cost: f32) {
+        let earlier = |(other, plane): (Axis, f32)| (axis.index(), at) < (other.index(), plane);
+        let earlier = self.plane.is_some_and(earlier);
+        if cost < self.cost || cost == self.cost && earlier {
+            *self = Best {
+                cost,
+                plane: Some((axis, at)),
+            };
+        }
+    }
+}
+
+impl Sah {
+    fn new(settings: &BuildSettings) -> Self {
+        Sah {
+            block: settings.constant("block") as u32,
+            traversal_cost: settings.constant("traversal-cost") as f32,
+            empty_factor: settings.constant("empty-factor") as f32,
+            exact: settings.constant("exact") as usize,
+            clip: settings.constant(CLIP.name) > 0.5,
+        }
+    }
+
+    fn blocks(&self, objects: usize) -> f32 {
+        (objects as u32).div_ceil(self.block) as f32
+    }
+
+    /// Expected cost of a ray through the cell if it is split, in tests of a block, without the
+    /// factor for empty sides.
+    fn cost_of_parts(&self, plane: &Plane, areas: &Areas) -> f32 {
+        let work = areas.below(plane.at) * self.blocks(plane.below)
+            + areas.above(plane.at) * self.blocks(plane.above);
+        self.traversal_cost + work
+    }
+
+    /// The same with that factor.
+    fn cost(&self, plane: &Plane, areas: &Areas) -> f32 {
+        let empty = plane.below == 0 || plane.above == 0;
+        let factor = if empty { self.empty_factor } else { 1.0 };
+        factor * self.cost_of_parts(plane, areas)
+    }
+
+    /// The cheapest of the limits of bins.
+    fn among_bins(&self, cell: &Cell<'_>) -> Best {
+        let bins = Bins::of(cell, self.clip);
+        let mut best = Best {
+            cost: self.blocks(bins.objects()),
+            plane: None,
+        };
+        for axis in Axis::ALL {
+            let areas = Areas::new(cell, axis);
+            for plane in bins.planes(axis).filter(|p| cell.divides(axis, p.at)) {
+                best.offer(axis, plane.at, self.cost(&plane, &areas));
+            }
+        }
+        best
+    }
+
+    /// The cheapest of all planes.
+    fn among_all(&self, cell: &Cell<'_>) -> Best {
+        Extents::with(cell, self.clip, |extents, room| {
+            let mut best = Best {
+                cost: self.blocks(extents.objects()),
+                plane: None,
+            };
+            let size = cell.bounds.size();
+            let mut axes = Axis::ALL;
+            axes.sort_by(|a, b| size[b.index()].total_cmp(&size[a.index()]));
+            for axis in axes {
+                let areas = Areas::new(cell, axis);
+                let ends = cell.local[axis.index()];
+                Search::new(self, &areas, axis, ends, &mut best).run(extents.along(axis), room);
+            }
+            best
+        })
+    }
+}
+
+impl SplitRule for Sah {
+    fn decide(&self, cell: &Cell<'_>) -> Decision {
+        let best = if cell.object_count() > self.exact {
+            self.among_bins(cell)
+        } else {
+            self.among_all(cell)
+        };
+        match best.plane {
+            Some((axis, plane)) => Decision::Split { axis, plane },
+            None => Decision::Leaf(StopReason::NoSplitPays),
+        }
+    }
+}
+
+/// Surface areas of the two parts of a cell as shares of the cell's, linear in the plane.
+struct Areas {
+    ends: Extent,
+    /// Share of the two faces parallel to the plane.
+    faces: f32,
+    /// Share of the other four faces, a unit of the plane's coordinate.
+    rim: f32,
+}
+
+impl Areas {
+    fn new(cell: &Cell<'_>, axis: Axis) -> Self {
+        let (k, size) = (axis.index(), cell.bounds.size());
+        let (u, v) = (size[(k + 1) % 3], size[(k + 2) % 3]);
+        let ends = cell.local[k];
+        let area = cell.bounds.surface_area();
+        Areas {
+            ends,
+            faces: (2.0 * u * v / area) as f32,
+            rim: (2.0 * (u + v) * size[k] / area) as f32 / (ends[1] - ends[0]),
+        }
+    }
+
+    fn below(&self, plane: f32) -> f32 {
+        self.faces + self.rim * (plane - self.ends[0])
+    }
+
+    fn above(&self, plane: f32) -> f32 {
+        self.faces + self.rim * (self.ends[1] - plane)
+    }
+}

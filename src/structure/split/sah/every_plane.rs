@@ -1,0 +1,280 @@
+//! All planes at which an object begins or ends, for cells with few objects.
+//!
+//! The planes are dealt into bins, and a bin is only looked into if, by the counts at its limits, one
+//! of its planes might be the cheapest. What is found is what looking at every plane finds.
+
+use super::extents::{Along, Room};
+use super::grid::{BINS, Grid, count_bins};
+use super::{Areas, Best, Extent, Plane, Sah};
+use crate::geometry::Axis;
+
+/// Objects a bin, on average.
+const FILL: usize = 8;
+
+/// The search along one axis of a cell.
+pub(super) struct Search<'a> {
+    rule: &'a Sah,
+    areas: &'a Areas,
+    axis: Axis,
+    /// Of the cell.
+    ends: Extent,
+    best: &'a mut Best,
+}
+
+/// What lies in a bin and before it.
+struct Bin<'a> {
+    begins: &'a mut [f32],
+    ends: &'a mut [f32],
+    /// Objects that begin and end in the bins before.
+    begun: usize,
+    ended: usize,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(
+        rule: &'a Sah,
+        areas: &'a Areas,
+        axis: Axis,
+        ends: Extent,
+        best: &'a mut Best,
+    ) -> Self {
+        Search {
+            rule,
+            areas,
+            axis,
+            ends,
+            best,
+        }
+    }
+
+    /// Offers every plane that might be the cheapest.
+    pub(super) fn run(mut self, extents: Along<'_>, room: &mut Room) {
+        let Along { begins, ends } = extents;
+        let objects = begins.len();
+        let pairs = || begins.iter().zip(ends);
+        room.flat.clear();
+        // To look at all of them is quick, and in most cells there is none.
+        if pairs().fold(false, |any, (begin, end)| any | (begin == end)) {
+            let flat = pairs().filter(|(begin, end)| begin == end);
+            room.flat.extend(flat.map(|(&begin, _)| begin));
+            room.flat.sort_unstable_by(f32::total_cmp);
+        }
+        self.outermost(extents, &room.flat);
+
+        let grid = Grid::new(self.ends, (objects / FILL).clamp(1, BINS));
+        let bins = grid.bins();
+        if bins == 1 && self.least(self.ends, 0, 0) > self.best.cost {
+            return;
+        }
+        grid.bins_of(begins, &mut room.begin_bins);
+        grid.bins_of(ends, &mut room.end_bins);
+        let (mut begin_of, mut end_of) = ([0; BINS + 1], [0; BINS + 1]);
+        find_starts(&room.begin_bins, bins, &mut begin_of);
+        find_starts(&room.end_bins, bins, &mut end_of);
+        let mut costs = [f32::INFINITY; BINS];
+        for (bin, cost) in costs[..bins].iter_mut().enumerate() {
+            if begin_of[bin] < begin_of[bin + 1] || end_of[bin] < end_of[bin + 1] {
+                let [lo, hi] = self.ends;
+                let limits = [
+                    if bin == 0 { lo } else { grid.limit(bin) },
+                    if bin + 1 == bins {
+                        hi
+                    } else {
+                        grid.limit(bin + 1)
+                    },
+                ];
+                let ended = end_of[bin + 1] as usize;
+                *cost = self.least(limits, begin_of[bin] as usize, objects - ended);
+            }
+        }
+        // The most promising first, as what it gives rules out most of the others.
+        let by_cost = |a: &usize, b: &usize| costs[*a].total_cmp(&costs[*b]);
+        let first = (0..bins).min_by(by_cost);
+        if first.is_none_or(|first| costs[first] > self.best.cost) {
+            return;
+        }
+        deal(begins, &room.begin_bins, &begin_of, &mut room.begins);
+        deal(ends, &room.end_bins, &end_of, &mut room.ends);
+        let within = |starts: &Starts, bin| starts[bin] as usize..starts[bin + 1] as usize;
+        let others = (0..bins).filter(|&bin| Some(bin) != first);
+        for bin in first.into_iter().chain(others) {
+            if costs[bin] <= self.best.cost {
+                let held = Bin {
+                    begins: &mut room.begins[within(&begin_of, bin)],
+                    ends: &mut room.ends[within(&end_of, bin)],
+                    begun: begin_of[bin] as usize,
+                    ended: end_of[bin] as usize,
+                };
+                self.look_into(held, &room.flat, objects);
+            }
+        }
+    }
+
+    fn offer(&mut self, plane: Plane) {
+        let [lo, hi] = self.ends;
+        if lo < plane.at && plane.at < hi {
+            let cost = self.rule.cost(&plane, self.areas);
+            self.best.offer(self.axis, plane.at, cost);
+        }
+    }
+
+    /// Offers the planes before which no object begins and after which none ends: the only ones that
+    /// may have an empty side.
+    fn outermost(&mut self, extents: Along<'_>, flat: &[f32]) {
+        let objects = extents.begins.len();
+        let [first, last] = extents.hull();
+        self.offer(Plane {
+            at: first,
+            below: count(flat, first),
+            above: objects,
+        });
+        self.offer(Plane {
+            at: last,
+            below: objects,
+            above: count(flat, last),
+        });
+    }
+
+    /// No plane between two limits costs less, but for the outermost, where at least so many objects
+    /// are on either side. Between them the cost of parts with these objects is linear.
+    fn least(&self, limits: Extent, below: usize, above: usize) -> f32 {
+        /// More than rounding can take off a cost.
+        const ROUNDING: f32 = 32.0 * f32::EPSILON;
+        let [a, b] = limits.map(|at| {
+            let plane = Plane {
+                at,
+                below: below.max(1),
+                above: above.max(1),
+            };
+            self.rule.cost_of_parts(&plane, self.areas)
+        });
+        a.min(b) * (1.0 - ROUNDING)
+    }
+
+    fn look_into(&mut self, bin: Bin<'_>, flat: &[f32], objects: usize) {
+        let Bin {
+            begins,
+            ends,
+            begun,
+            ended,
+        } = bin;
+        begins.sort_unstable_by(f32::total_cmp);
+        ends.sort_unstable_by(f32::total_cmp);
+        // How many of them lie before the plane.
+        let (mut i, mut k) = (0, 0);
+        loop {
+            let at = match (begins.get(i), ends.get(k)) {
+                (Some(&begin), Some(&end)) => begin.min(end),
+                (Some(&at), None) | (None, Some(&at)) => at,
+                (None, None) => return,
+            };
+            let before = begun + i;
+            let equal = |list: &[f32]| list.iter().take_while(|&&other| other == at).count();
+            i += equal(&begins[i..]);
+            k += equal(&ends[k..]);
+            let in_plane = count(flat, at);
+            self.offer(Plane {
+                at,
+                below: before + in_plane,
+                above: objects - ended - k + in_plane,
+            });
+        }
+    }
+}
+
+/// How many of a sorted list are equal to `at`.
+fn count(sorted: &[f32], at: f32) -> usize {
+    let from = sorted.partition_point(|&other| other < at);
+    sorted[from..].partition_point(|&other| other == at)
+}
+
+/// Where each bin begins if planes lie in the order of their bins, and the end.
+type Starts = [u32; BINS + 1];
+
+#[inline]
+fn find_starts(planes: &[u8], bins: usize, starts: &mut Starts) {
+    let mut counts = [0; BINS];
+    count_bins(planes, &mut counts);
+    for bin in 0..bins {
+        starts[bin + 1] = starts[bin] + counts[bin];
+    }
+}
+
+/// Puts planes in the order of their bins.
+fn deal(planes: &[f32], bins: &[u8], starts: &Starts, dealt: &mut Vec<f32>) {
+    let mut next = *starts;
+    dealt.resize(planes.len(), 0.0);
+    let dealt = &mut dealt[..];
+    for (&at, &bin) in planes.iter().zip(bins) {
+        let place = &mut next[usize::from(bin) % BINS];
+        dealt[*place as usize] = at;
+        *place += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::METHOD;
+    use super::*;
+    use crate::structure::{BuildSettings, Method};
+
+    /// What a plane cuts, by definition.
+    fn counted(extents: &[Extent], at: f32) -> Plane {
+        let in_plane = extents.iter().filter(|e| **e == [at, at]).count();
+        Plane {
+            at,
+            below: extents.iter().filter(|e| e[0] < at).count() + in_plane,
+            above: extents.iter().filter(|e| e[1] > at).count() + in_plane,
+        }
+    }
+
+    #[test]
+    fn looking_into_few_bins_finds_what_trying_every_plane_finds() {
+        let settings = BuildSettings::for_method(Method::named(METHOD.name).unwrap());
+        let rule = Sah::new(&settings);
+        let ends = [-0.75, 0.5];
+        let (mut found, mut random) = (0, 1_u32);
+        let mut next = |most: u32| {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (random >> 8) % most
+        };
+        for case in 0..2000 {
+            let objects = 1 + next(if case % 10 == 0 { 700 } else { 90 });
+            // Few places make many ends equal, and width 0 an object that lies in a plane.
+            let (places, widest) = (4 + next(400), 1 + next(40));
+            let place = |i: u32| (ends[0] + 1.25 * i as f32 / places as f32).min(ends[1]);
+            let extents: Vec<Extent> = (0..objects)
+                .map(|_| {
+                    let (begin, width) = (next(places + 1), next(widest));
+                    [place(begin), place(begin + width)]
+                })
+                .collect();
+            let areas = Areas {
+                ends,
+                faces: next(1000) as f32 / 1000.0,
+                rim: 1.0 / 1.25,
+            };
+            let leaf = || Best {
+                cost: rule.blocks(objects as usize),
+                plane: None,
+            };
+            let mut expected = leaf();
+            for at in extents.as_flattened() {
+                if ends[0] < *at && *at < ends[1] {
+                    let plane = counted(&extents, *at);
+                    expected.offer(Axis::Y, *at, rule.cost(&plane, &areas));
+                }
+            }
+            let [begins, closes] = [0, 1].map(|i| extents.iter().map(|e| e[i]).collect::<Vec<_>>());
+            let along = Along {
+                begins: &begins,
+                ends: &closes,
+            };
+            let mut best = leaf();
+            Search::new(&rule, &areas, Axis::Y, ends, &mut best).run(along, &mut Room::default());
+            assert_eq!((best.cost, best.plane), (expected.cost, expected.plane));
+            found += usize::from(best.plane.is_some());
+        }
+        assert!(found > 100, "{found}");
+    }
+}

@@ -1,0 +1,5 @@
+//! Tests of the command line.
+
+mod commands;
+mod show;
+mod sweep;

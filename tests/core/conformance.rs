@@ -1,0 +1,273 @@
+//! Every build method on every scene file: a valid tree, the same hits as testing every object, the
+//! same picture, and the same counts for any number of threads.
+
+use bspscope::measure::{answer, compare, sample_rays, unsplit};
+use bspscope::primitive::Precision;
+use bspscope::progress::Progress;
+use bspscope::scene::{Sampling, Scene, SceneRequest, load};
+use bspscope::structure::{BuildSettings, Method, OverlapRule, Tree, build, validate};
+use bspscope::trace::{
+    CountedPass, Picture, RayKind, RenderSettings, counted_pass, thread_pool, timed_pass,
+};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::Duration;
+
+/// Rays of every kind: fewer in the reconstructions, whose many polygons take long to test one by one.
+fn rays_per_kind(path: &Path) -> usize {
+    let reconstructed = ["fluid", "m-fluid", "room"];
+    let name = path.file_stem().and_then(|name| name.to_str()).unwrap();
+    if reconstructed.contains(&name) {
+        5_000
+    } else {
+        50_000
+    }
+}
+
+fn scene_files() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "nff"))
+        .collect();
+    files.sort();
+    assert!(files.len() >= 4, "scenes are missing: {files:?}");
+    files
+}
+
+fn open(path: &Path) -> Scene {
+    let request = SceneRequest::parse(&path.display().to_string());
+    load(&request, &Progress::new()).unwrap()
+}
+
+fn tree_of(scene: &Scene, method: Method, overlap: OverlapRule) -> Tree {
+    let settings = BuildSettings {
+        overlap,
+        ..BuildSettings::for_method(method)
+    };
+    build(scene, &settings, &Progress::new()).unwrap()
+}
+
+fn small_picture(scene: &Scene, threads: usize) -> RenderSettings {
+    RenderSettings {
+        width: 90,
+        height: 70,
+        threads,
+        ..RenderSettings::for_camera(*scene.camera())
+    }
+}
+
+fn count(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> CountedPass {
+    let pool = thread_pool(settings.threads).unwrap();
+    let pass = counted_pass(scene, tree, settings, &pool, &Progress::new(), |_| ()).unwrap();
+    CountedPass {
+        walking: Duration::ZERO,
+        ..pass
+    }
+}
+
+fn picture(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> Picture {
+    let pool = thread_pool(settings.threads).unwrap();
+    let picture = Mutex::new(Picture::new(settings.width, settings.height));
+    for sample in 0..settings.samples {
+        timed_pass(
+            scene,
+            tree,
+            settings,
+            sample,
+            &pool,
+            &Progress::new(),
+            |tile, colors| picture.lock().unwrap().add_tile(tile, sample, colors),
+        )
+        .unwrap();
+    }
+    picture.into_inner().unwrap()
+}
+
+#[test]
+fn every_method_gives_the_hits_of_testing_every_object() {
+    let pool = thread_pool(0).unwrap();
+    for path in scene_files() {
+        let scene = open(&path);
+        let progress = Progress::new();
+        let naive = unsplit(&scene, &progress).unwrap();
+        let helper = tree_of(&scene, Method::all().next().unwrap(), OverlapRule::Paper);
+        let settings = RenderSettings::for_camera(*scene.camera());
+        let per_kind = rays_per_kind(&path);
+        let rays = sample_rays(&scene, &helper, &settings, per_kind, &pool, &progress).unwrap();
+        for kind in RayKind::ALL {
+            let needed = match kind {
+                RayKind::Primary => true,
+                RayKind::Shadow => scene.requirements().casts_shadows,
+                RayKind::Reflected => scene.requirements().reflects,
+                RayKind::Refracted => scene.requirements().refracts,
+            };
+            let found = rays.rays[kind as usize].len();
+            let expected = if needed { per_kind } else { 0 };
+            assert_eq!(found, expected, "{kind:?} rays of {}", path.display());
+        }
+        let expected =
+            Precision::ALL.map(|p| answer(&scene, &naive, p, &rays, &pool, &progress).unwrap());
+        assert_ne!(
+            expected[0], expected[1],
+            "the precisions differ in the last places"
+        );
+        for method in Method::all().filter(|m| m.name != "none") {
+            for overlap in OverlapRule::ALL {
+                let tree = tree_of(&scene, method, overlap);
+                for (precision, expected) in Precision::ALL.into_iter().zip(&expected) {
+                    let found = answer(&scene, &tree, precision, &rays, &pool, &progress).unwrap();
+                    let result = compare(&scene, &rays, expected, &found, None);
+                    assert!(
+                        result.is_identical(),
+                        "{} by {method:?}, overlap {}, {precision:?}: wrong {:?} of {:?}, such as {:?}",
+                        path.display(),
+                        overlap.name(),
+                        result.others,
+                        result.rays,
+                        result.faults
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_tree_is_valid() {
+    for path in scene_files() {
+        let scene = open(&path);
+        for method in Method::all() {
+            for overlap in OverlapRule::ALL {
+                let tree = tree_of(&scene, method, overlap);
+                if let Err(wrong) = validate(&scene, &tree) {
+                    panic!(
+                        "{} by {method:?}, {}: {wrong}",
+                        path.display(),
+                        overlap.name()
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn trees_do_not_depend_on_the_number_of_threads() {
+    let pools = [1, 2, 7].map(|threads| thread_pool(threads).unwrap());
+    let check = |scene: &Scene, settings: &BuildSettings| {
+        let [one, others @ ..] = pools.each_ref().map(|pool| {
+            pool.install(|| build(scene, settings, &Progress::new()))
+                .unwrap()
+        });
+        for other in others {
+            let name = (scene.name(), settings);
+            assert!(one.nodes() == other.nodes(), "{name:?}");
+            assert!(one.references() == other.references(), "{name:?}");
+            assert_eq!(one.depth_reached(), other.depth_reached(), "{name:?}");
+        }
+    };
+    // The files are small: this one is shared out among threads many times over.
+    let many = load(&SceneRequest::parse("balls:5"), &Progress::new()).unwrap();
+    assert!(many.objects().len() > 60_000);
+    for method in Method::all() {
+        check(&many, &BuildSettings::for_method(method));
+        for path in scene_files() {
+            for overlap in OverlapRule::ALL {
+                let settings = BuildSettings {
+                    overlap,
+                    ..BuildSettings::for_method(method)
+                };
+                check(&open(&path), &settings);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_method_gives_the_same_picture() {
+    for path in scene_files() {
+        let scene = open(&path);
+        let settings = small_picture(&scene, 0);
+        let mut pictures = Method::all().map(|method| {
+            let tree = tree_of(&scene, method, OverlapRule::Paper);
+            picture(&scene, &tree, &settings)
+        });
+        let first = pictures.next().unwrap();
+        let colors: std::collections::HashSet<_> = first.to_srgb8().into_iter().collect();
+        assert!(colors.len() > 10, "nothing to see in {}", path.display());
+        assert!(pictures.all(|p| p == first), "{}", path.display());
+    }
+}
+
+#[test]
+fn counts_and_picture_do_not_depend_on_the_number_of_threads() {
+    for path in scene_files() {
+        let scene = open(&path);
+        for method in Method::of_the_paper() {
+            let tree = tree_of(&scene, method, OverlapRule::Paper);
+            let of = |threads| {
+                let settings = RenderSettings {
+                    samples: 3,
+                    sampling: Sampling::Corner,
+                    ..small_picture(&scene, threads)
+                };
+                (
+                    count(&scene, &tree, &settings),
+                    picture(&scene, &tree, &settings),
+                )
+            };
+            let one = of(1);
+            assert!(one.0.tallies.iter().map(|t| t.inner_nodes).sum::<u64>() > 10_000);
+            for threads in [2, 7] {
+                assert_eq!(of(threads), one, "{} with {threads}", path.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn the_counting_kernel_sees_the_picture_that_the_timed_kernel_makes() {
+    for path in scene_files() {
+        let scene = open(&path);
+        let settings = small_picture(&scene, 0);
+        let tree = tree_of(
+            &scene,
+            Method::named("midpoint").unwrap(),
+            OverlapRule::Paper,
+        );
+        let pass = count(&scene, &tree, &settings);
+        let [primary, shadow, reflected, refracted] = pass.tallies;
+        let pixels = u64::from(settings.width * settings.height);
+        assert_eq!(primary.rays, pixels);
+        assert!(primary.hits > 0 && primary.hits <= primary.rays);
+        assert!(pass.objects_met >= primary.hits);
+        for tally in [primary, shadow, reflected, refracted] {
+            assert!(tally.empty_leaves <= tally.leaves);
+            assert!(tally.hits <= tally.tests);
+        }
+    }
+}
+
+#[test]
+fn what_a_scene_does_not_require_is_not_done() {
+    let files = scene_files();
+    let tetra = files.iter().find(|path| path.ends_with("tetra.nff"));
+    let tetra = open(tetra.unwrap());
+    let tree = tree_of(
+        &tetra,
+        Method::named("midpoint").unwrap(),
+        OverlapRule::Paper,
+    );
+    let pass = count(&tetra, &tree, &small_picture(&tetra, 0));
+    assert_eq!(pass.tallies[RayKind::Reflected as usize].rays, 0);
+    assert_eq!(pass.tallies[RayKind::Refracted as usize].rays, 0);
+    assert!(pass.tallies[RayKind::Shadow as usize].rays > 0);
+
+    let mut parts = tetra.parts().clone();
+    parts.lights.clear();
+    let dark = Scene::new(parts);
+    let pass = count(&dark, &tree, &small_picture(&dark, 0));
+    assert_eq!(pass.tallies[RayKind::Shadow as usize].rays, 0);
+}

@@ -1,0 +1,32 @@
+//! Tests of the library.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod accuracy;
+mod build;
+mod compare;
+mod conformance;
+mod export;
+mod foreign;
+mod formats;
+mod gltf;
+mod heat;
+mod judge;
+mod lanes;
+mod leaks;
+mod lessons;
+mod malformed;
+mod malformed_meshes;
+mod methods;
+mod model;
+mod paper;
+mod precision;
+mod primitives;
+mod properties;
+mod reconstructions;
+mod record;
+mod stability;
+mod visits;
+mod worker;
+mod workspace;

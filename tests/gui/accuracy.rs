@@ -1,0 +1,158 @@
+//! The trade in the window: taken in the background, plotted, listed, loaded and looked at pixel by
+//! pixel.
+
+use crate::harness::{Window, click, finish, has, open, press, small, wait};
+use bspscope::measure::accuracy::{choices, reference};
+use bspscope::progress::Progress;
+use bspscope::scene::load;
+use bspscope::trace::{PrecisionChoice, RenderSettings};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+/// A window on the pane, with a finished picture.
+fn on_trade<'a>(scene: &str, size: u32) -> Window<'a> {
+    let mut start = small(scene);
+    start.render.width = size;
+    start.render.height = size;
+    let mut window = open(start);
+    finish(&mut window);
+    click(&mut window, "Trade");
+    window
+}
+
+fn take(window: &mut Window<'_>) {
+    click(window, "Run trade");
+    wait(window, "the end of the trade", |w| has(w, "Run trade"));
+}
+
+/// The text of the one label that contains this.
+fn text_with(window: &Window<'_>, part: &str) -> String {
+    let node = window.get_by_label_contains(part);
+    let node = node.accesskit_node();
+    node.label().or(node.value()).unwrap_or_default()
+}
+
+/// Turns taken and turns in all.
+fn turns(window: &Window<'_>) -> [usize; 2] {
+    let text = text_with(window, " turns");
+    let words = text.split(" · ").find(|part| part.ends_with(" turns"));
+    let mut numbers = words.unwrap().split(' ').filter_map(|n| n.parse().ok());
+    [numbers.next().unwrap(), numbers.next().unwrap()]
+}
+
+#[test]
+fn a_trade_is_plotted_and_listed_with_every_choice() {
+    let mut window = on_trade("teaching", 24);
+    take(&mut window);
+    let start = small("teaching");
+    let scene = load(&start.scene, &Progress::new()).unwrap();
+    let render = RenderSettings {
+        camera: *scene.camera(),
+        width: 24,
+        height: 24,
+        samples: 8,
+        ..start.render
+    };
+    let expected = choices(&reference(&start.build, &render), &scene);
+    assert_eq!(turns(&window), [3 * expected.len(); 2]);
+    let plot = format!("Plot of RMSE against time, {} choices", expected.len());
+    window.get_by_label(&plot);
+    for choice in &expected {
+        let point = format!("{}: ", choice.words());
+        let points = window.query_all_by_label_contains(&point);
+        let points = points.filter(|p| {
+            let name = p.accesskit_node().label().unwrap_or_default();
+            name.starts_with(&point) && name.contains("of the reference's time, RMSE ")
+        });
+        assert_eq!(points.count(), 1, "{point}");
+    }
+    window.get_by_label("reference: 1.000 of the reference's time, RMSE 0");
+    window.get_by_label("Load reference");
+    // Another measure of the same outcomes.
+    let plot = window.get_by_label(&plot).rect();
+    window.hover_at(plot.center());
+    window.run_steps(2);
+    press(&mut window, egui::Modifiers::NONE, egui::Key::E);
+    assert!(has(&window, "Plot of max against time"));
+    assert!(has(
+        &window,
+        "reference: 1.000 of the reference's time, max 0"
+    ));
+}
+
+#[test]
+fn a_row_or_a_point_loads_its_settings_and_undo_takes_them_back() {
+    let mut window = on_trade("teaching", 24);
+    take(&mut window);
+    let used = |w: &Window<'_>, depth: u32| has(w, &format!("· D_AREC {depth} · 24 × 24 pixels"));
+    assert!(used(&window, 4));
+    click(&mut window, "Load D_AREC 1");
+    wait(&mut window, "the row's settings", |w| used(w, 1));
+    finish(&mut window);
+    let point = text_with(&window, "D_AREC 2: ");
+    click(&mut window, &point);
+    wait(&mut window, "the point's settings", |w| used(w, 2));
+    finish(&mut window);
+    for depth in [1, 4] {
+        press(&mut window, egui::Modifiers::COMMAND, egui::Key::Z);
+        wait(&mut window, "what was before", |w| used(w, depth));
+        finish(&mut window);
+    }
+}
+
+#[test]
+fn the_chosen_outcomes_error_is_mapped_pixel_by_pixel() {
+    let mut window = on_trade("teaching", 24);
+    take(&mut window);
+    click(&mut window, "Error map");
+    assert!(has(&window, "Choose an outcome"));
+    let point = text_with(&window, "D_AREC 0: ");
+    click(&mut window, &point);
+    wait(&mut window, "the map", |w| {
+        w.query_by_label("Error map of D_AREC 0").is_some()
+    });
+    assert!(has(&window, "Legend from 0 to 0."));
+    finish(&mut window);
+    let map = window.get_by_label("Error map of D_AREC 0").rect();
+    let at = map.min + map.size() * egui::vec2(6.5, 10.5) / 24.0;
+    window.hover_at(at);
+    window.run_steps(2);
+    assert!(has(&window, "pixel 6, 10: ") && !has(&window, "Pixel 6, 10 (from"));
+    window.drag_at(at);
+    window.drop_at(at);
+    wait(&mut window, "the pixel", |w| has(w, "Pixel 6, 10 (from"));
+    let point = text_with(&window, "method sah-cut: ");
+    click(&mut window, &point);
+    wait(&mut window, "no error", |w| has(w, "No pixel differs"));
+}
+
+#[test]
+fn a_cancelled_trade_keeps_what_was_found() {
+    let mut window = on_trade("balls:2", 256);
+    click(&mut window, "Run trade");
+    wait(&mut window, "some outcomes", |w| {
+        has(w, "Plot of RMSE") && turns(w)[0] >= 2
+    });
+    press(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
+    wait(&mut window, "the end", |w| {
+        has(w, "cancelled: what was found stays")
+    });
+    let [taken, of] = turns(&window);
+    assert!(taken >= 2 && taken < of, "{taken} of {of}");
+    assert!(has(
+        &window,
+        &format!("Plot of RMSE against time, {taken} choices")
+    ));
+    window.get_by_label("Load reference");
+}
+
+#[test]
+fn the_precision_that_auto_takes_is_told_with_the_reason() {
+    let mut start = small("teaching");
+    start.render.precision = PrecisionChoice::Auto;
+    let mut window = open(start);
+    finish(&mut window);
+    window.get_by_label("took f32").hover();
+    wait(&mut window, "the reason", |w| {
+        has(w, "Used: f32, every object and every pixel is wide enough")
+    });
+}

@@ -1,0 +1,75 @@
+//! Scene files of every format in the window, and what the reader says of them.
+
+use crate::harness::{finish, has, open, small, wait};
+use bspscope::scene::format::FORMATS;
+use egui_kittest::kittest::Queryable as _;
+use std::path::{Path, PathBuf};
+
+fn asset(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/assets")
+        .join(name)
+}
+
+#[test]
+fn files_of_every_format_are_opened_by_the_path_field() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    for (name, title, kinds) in [
+        ("trimesh.glb", "trimesh · ", "triangles: 92"),
+        ("meshio.obj", "meshio · ", "polygons: 5"),
+        ("trimesh.stl", "trimesh · ", "triangles: 92"),
+        ("meshio-text.ply", "meshio-text · ", "triangles: 6"),
+        ("polygons.nff", "polygons · ", "polygons: 5"),
+    ] {
+        let field = window.get_by_label("Path of a scene");
+        field.click();
+        window.run_steps(2);
+        window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+        let field = window.get_by_label("Path of a scene");
+        field.type_text(asset(name).to_str().unwrap());
+        window.run_steps(2);
+        window.key_press(egui::Key::Enter);
+        wait(&mut window, name, |w| has(w, title) && has(w, kinds));
+        finish(&mut window);
+        let extension = Path::new(name).extension().unwrap().to_str().unwrap();
+        let format = FORMATS.iter().find(|f| f.extensions.contains(&extension));
+        let said = format!("{} file of ", format.unwrap().name.to_uppercase());
+        assert!(has(&window, &said), "{name}");
+    }
+}
+
+#[test]
+fn the_load_report_says_what_was_read_skipped_and_made_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("faulty.obj");
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\nl 1 2\nf 1 2 3\nf 2 2 3\n";
+    std::fs::write(&file, text).unwrap();
+    let mut window = open(small(file.to_str().unwrap()));
+    finish(&mut window);
+    for text in [
+        "Load report",
+        "OBJ file of",
+        "2 × polygon without area, first at line 4",
+        "line, which is no surface, at line 5",
+        "no camera: one taken that frames all objects",
+        "no light: two taken",
+    ] {
+        assert!(has(&window, text), "{text}");
+    }
+}
+
+#[test]
+fn a_file_that_is_no_scene_is_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("letter.txt");
+    std::fs::write(&file, "Dear all,\nthis is no scene.\n").unwrap();
+    let mut window = open(small(file.to_str().unwrap()));
+    wait(&mut window, "the message", |w| {
+        has(w, "could not be opened")
+    });
+    assert!(has(
+        &window,
+        "neither name nor content is that of a scene file"
+    ));
+}

@@ -1,0 +1,20 @@
+//! Tests of the window.
+
+mod harness;
+
+mod accuracy;
+mod build;
+mod compare;
+mod feel;
+mod formats;
+mod heat;
+mod judge;
+mod keep;
+mod lesson;
+mod model;
+mod paper;
+mod process;
+mod rays;
+mod sweep;
+mod tree;
+mod window;

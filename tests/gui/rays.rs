@@ -1,0 +1,241 @@
+//! The rays of a picked pixel and the stepping through their walks, found by their labels.
+
+use crate::harness::{SIZE, Window, click, finish, has, open_sized, press, wait};
+use bspscope::progress::Progress;
+use bspscope::scene::load;
+use bspscope::structure::build;
+use bspscope::trace::{PixelRecord, RayKind, RenderSettings, Step, record_pixel};
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+/// The pixel in the picture's middle, which a click on the picture picks.
+const MIDDLE: u32 = SIZE / 2;
+
+fn start() -> bspscope::gui::StartOptions {
+    crate::harness::small("balls:1")
+}
+
+/// What the library records of the pixel in the middle.
+fn expected() -> PixelRecord {
+    let start = start();
+    let progress = Progress::new();
+    let scene = load(&start.scene, &progress).unwrap();
+    let tree = build(&scene, &start.build, &progress).unwrap();
+    let render = RenderSettings {
+        width: SIZE,
+        height: SIZE,
+        camera: *scene.camera(),
+        ..start.render
+    };
+    record_pixel(&scene, &tree, &render, [MIDDLE, MIDDLE]).unwrap()
+}
+
+/// A window in which the pixel in the middle is picked.
+fn picked<'a>(graphics: bool) -> Window<'a> {
+    // High enough that the lists need not be scrolled to.
+    let mut window = open_sized(start(), [1500.0, 1500.0], graphics);
+    finish(&mut window);
+    assert!(has(&window, "step – of –"));
+    window.get_by_label("Traced picture").click();
+    let rays = expected().rays.len();
+    let text = format!("ray 1 of {rays} of pixel {MIDDLE}, {MIDDLE}: primary ray");
+    wait(&mut window, "the rays", |w| has(w, &text));
+    window
+}
+
+fn at_step(window: &Window<'_>, step: usize, of: usize) -> bool {
+    window
+        .query_by_label(&format!("step {step} of {of}"))
+        .is_some()
+}
+
+fn is_disabled(window: &Window<'_>, label: &str) -> bool {
+    window.get_by_label(label).accesskit_node().is_disabled()
+}
+
+/// The row whose label begins so.
+fn row(record: &PixelRecord, ray: usize) -> String {
+    format!("Ray {}: {}", ray + 1, record.rays[ray].path.kind.name())
+}
+
+#[test]
+fn picking_shows_every_ray_and_what_they_sum_to() {
+    for graphics in [false, true] {
+        let mut window = picked(graphics);
+        let record = expected();
+        assert!(record.rays.len() > 3);
+        // The list makes the rows in view only: going on to a ray brings it there.
+        for (i, ray) in record.rays.iter().enumerate() {
+            let counts = ray.path.counts();
+            let label = window
+                .get_by_label_contains(&row(&record, i))
+                .accesskit_node()
+                .label()
+                .unwrap();
+            let tests = format!("({} empty), {} test", counts.empty_leaves, counts.tests);
+            assert!(label.contains(&tests), "{label}");
+            let end = match (ray.path.kind, ray.path.hit.is_hit()) {
+                (RayKind::Shadow, true) => "blocked by",
+                (RayKind::Shadow, false) => "reaches the light",
+                (_, true) => "sphere",
+                (_, false) => "background",
+            };
+            assert!(label.contains(end) || label.contains("polygon"), "{label}");
+            press(&mut window, Modifiers::NONE, Key::PageDown);
+        }
+        assert!(has(&window, "sums as in the counted pass"));
+        for (kind, t) in RayKind::ALL.into_iter().zip(record.tallies()) {
+            assert!(has(
+                &window,
+                &format!(
+                    "Total of {}: {} rays, {} hits, {} tests, {} inner nodes, {} leaves, {} empty \
+                     leaves",
+                    kind.name(),
+                    t.rays,
+                    t.hits,
+                    t.tests,
+                    t.inner_nodes,
+                    t.leaves,
+                    t.empty_leaves
+                )
+            ));
+        }
+    }
+}
+
+/// A whole number in groups of three digits; nodes have no more than six here.
+fn grouped(node: u32) -> String {
+    match (node / 1000, node % 1000) {
+        (0, rest) => rest.to_string(),
+        (thousands, rest) => format!("{thousands} {rest:03}"),
+    }
+}
+
+#[test]
+fn a_shadow_ray_shows_its_own_walk() {
+    let mut window = picked(false);
+    let record = expected();
+    let shadow = record
+        .rays
+        .iter()
+        .position(|ray| ray.path.kind == RayKind::Shadow)
+        .expect("a shadow ray");
+    let before = record.rays[0].path.steps.len();
+    assert!(at_step(&window, 1, before));
+    window.get_by_label_contains(&row(&record, shadow)).click();
+    window.run_steps(3);
+    let path = &record.rays[shadow].path;
+    assert_ne!(path.steps.len(), before);
+    assert!(at_step(&window, 1, path.steps.len()));
+    assert!(has(&window, &format!("ray {} of", shadow + 1)));
+    assert!(has(&window, "The shadow ray visits"));
+    // Its list has its nodes.
+    for (i, step) in path.steps.iter().enumerate().take(5) {
+        let what = match step {
+            Step::Inner(_) => "inner node",
+            Step::Leaf(_) => "leaf",
+        };
+        let text = format!("Step {}: {what} {}, depth", i + 1, grouped(step.node()));
+        assert!(has(&window, &text), "{text}");
+    }
+}
+
+#[test]
+fn buttons_and_keys_step_to_the_end_and_back() {
+    let mut window = picked(false);
+    let record = expected();
+    let path = &record.rays[0].path;
+    let n = path.steps.len();
+    assert!(is_disabled(&window, "First") && is_disabled(&window, "Previous"));
+    for step in 2..=n {
+        if step % 2 == 0 {
+            click(&mut window, "Next");
+        } else {
+            press(&mut window, Modifiers::NONE, Key::Period);
+        }
+        assert!(at_step(&window, step, n), "step {step}");
+        // The current step is told, and its row is the one that is selected.
+        let selected = window
+            .query_all_by_label_contains(&format!("Step {step}: "))
+            .any(|node| node.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True));
+        assert!(selected, "row of step {step}");
+        let waiting = path.waiting(step - 1).len();
+        assert!(has(&window, &format!("Stack: {waiting} node")));
+    }
+    assert!(is_disabled(&window, "Next") && is_disabled(&window, "Last"));
+    press(&mut window, Modifiers::NONE, Key::Period);
+    assert!(at_step(&window, n, n));
+    assert!(has(&window, "the hit lies before any other leaf: done"));
+    click(&mut window, "Previous");
+    press(&mut window, Modifiers::NONE, Key::Comma);
+    assert!(at_step(&window, n - 2, n));
+    click(&mut window, "First");
+    assert!(at_step(&window, 1, n));
+    press(&mut window, Modifiers::SHIFT, Key::End);
+    assert!(at_step(&window, n, n));
+    press(&mut window, Modifiers::SHIFT, Key::Home);
+    assert!(at_step(&window, 1, n));
+    click(&mut window, "Last");
+    assert!(at_step(&window, n, n));
+}
+
+#[test]
+fn leaves_only_passes_over_inner_nodes() {
+    let mut window = picked(false);
+    let record = expected();
+    let path = &record.rays[0].path;
+    let (n, leaves) = (path.steps.len(), path.leaves().count());
+    click(&mut window, "Leaves only");
+    let first = path
+        .steps
+        .iter()
+        .position(|step| matches!(step, Step::Leaf(_)))
+        .expect("a leaf");
+    let text = format!("step {} of {n} (leaf 1 of {leaves})", first + 1);
+    assert!(has(&window, &text), "{text}");
+    for _ in 1..leaves {
+        click(&mut window, "Next");
+    }
+    let text = format!("step {n} of {n} (leaf {leaves} of {leaves})");
+    assert!(has(&window, &text), "{text}");
+    assert!(is_disabled(&window, "Next"));
+    press(&mut window, Modifiers::NONE, Key::K);
+    assert!(at_step(&window, n, n));
+}
+
+#[test]
+fn playing_goes_on_by_itself_and_stops_at_the_end() {
+    let mut window = picked(false);
+    let n = expected().rays[0].path.steps.len();
+    press(&mut window, Modifiers::NONE, Key::Space);
+    assert!(has(&window, "Pause"));
+    // Two steps a second; a frame of the test lasts a quarter of one.
+    window.run_steps(3);
+    let step = (2..6)
+        .find(|&step| at_step(&window, step, n))
+        .expect("it goes on");
+    click(&mut window, "Pause");
+    let paused = (step..step + 3)
+        .find(|&step| at_step(&window, step, n))
+        .expect("it paused");
+    window.run_steps(10);
+    assert!(at_step(&window, paused, n), "a pause is a pause");
+    click(&mut window, "Play");
+    window.run_steps(2 * n + 4);
+    assert!(at_step(&window, n, n));
+    assert!(window.query_by_label("Play").is_some(), "it stopped");
+    // Once more from the beginning.
+    click(&mut window, "Play");
+    assert!(!at_step(&window, n, n));
+}
+
+#[test]
+fn a_pixel_keeps_its_ray_in_another_tree() {
+    let mut window = picked(false);
+    let rays = expected().rays.len();
+    press(&mut window, Modifiers::NONE, Key::PageDown);
+    press(&mut window, Modifiers::COMMAND, Key::M);
+    wait(&mut window, "the method", |w| has(w, "balls:1 · sah-cut"));
+    let text = format!("ray 2 of {rays} of pixel {MIDDLE}, {MIDDLE}");
+    wait(&mut window, "the ray", |w| has(w, &text));
+}

@@ -1,0 +1,210 @@
+//! The sweep in the window: the rows of `bspscope sweep`, as curves and as a map, broken off and gone
+//! on with, loaded and saved.
+
+use crate::harness::{Window, click, finish, has, open, press, small, wait};
+use bspscope::measure::sweep::{Form, Plan, answers, read_rows, rule_depth};
+use bspscope::measure::{Class, PARAMETERS, parameter};
+use bspscope::progress::Progress;
+use bspscope::scene::{Scene, load};
+use bspscope::structure::{BuildSettings, MaxDepth, Method};
+use bspscope::trace::RenderSettings;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+const SCENE: &str = "balls:1";
+
+/// A window on the pane, with a finished picture.
+fn on_sweep<'a>(scene: &str, size: u32) -> Window<'a> {
+    let mut start = small(scene);
+    start.render.width = size;
+    start.render.height = size;
+    let mut window = open(start);
+    finish(&mut window);
+    click(&mut window, "Sweep");
+    window
+}
+
+/// Types into the field with this name, in place of what is there.
+fn type_into(window: &mut Window<'_>, name: &str, text: &str) {
+    window.get_by_label(name).focus();
+    window.run_steps(2);
+    press(window, egui::Modifiers::COMMAND, egui::Key::A);
+    window.get_by_label(name).type_text(text);
+    window.run_steps(2);
+    press(window, egui::Modifiers::NONE, egui::Key::Enter);
+}
+
+/// Waits until a sweep is taken to its end, with so many points.
+fn wait_for_sweep(window: &mut Window<'_>, points: usize) {
+    wait(window, "the sweep", |w| {
+        has(w, &format!("{points} of {points} points")) && w.query_by_label("Run sweep").is_some()
+    });
+}
+
+/// What the pane sweeps over by default, but for these leaf sizes.
+fn plan(scene: &Scene, size: u32, n_oilf: &[u32]) -> Plan {
+    let start = small(SCENE);
+    let render = RenderSettings {
+        camera: *scene.camera(),
+        width: size,
+        height: size,
+        ..start.render
+    };
+    let methods = Method::of_the_paper();
+    let methods: Vec<_> = methods.into_iter().map(BuildSettings::for_method).collect();
+    let depths: Vec<_> = (6..=24).map(MaxDepth::Fixed).collect();
+    Plan::new(&start.scene, &methods, &depths, n_oilf, &render)
+}
+
+/// The points of the map, by their names.
+fn cells(window: &Window<'_>) -> Vec<String> {
+    let nodes = window.query_all_by_label_contains("Load ");
+    let names = nodes.map(|node| node.accesskit_node().label().unwrap_or_default());
+    names.filter(|name| name.contains("N_OILF")).collect()
+}
+
+#[test]
+fn a_sweep_has_the_rows_of_the_command_line_as_curves_and_as_a_map() {
+    let mut window = on_sweep(SCENE, 24);
+    type_into(&mut window, "Leaf sizes of the sweep", "1, 3");
+    click(&mut window, "Run sweep");
+    wait_for_sweep(&mut window, 76);
+    window.get_by_label("Plot of T_TR against D_MAX, 76 points");
+    // There is not room for both.
+    click(&mut window, "Map");
+    assert_eq!(cells(&window).len(), 76);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows.csv");
+    let name = path.to_str().unwrap();
+    // The rows take the place of what was there once they are complete.
+    let before = folder.path().join("before.csv");
+    std::fs::write(&path, "before").unwrap();
+    std::fs::hard_link(&path, &before).unwrap();
+    type_into(&mut window, "File for the rows", name);
+    click(&mut window, "Save rows");
+    wait(&mut window, "the file", |w| has(w, "76 rows in "));
+    assert_eq!(std::fs::read_to_string(&before).unwrap(), "before");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let (rows, complete) = read_rows(&text, Form::Csv).unwrap();
+    assert_eq!(complete, text.len());
+    let progress = Progress::new();
+    let scene = load(&small(SCENE).scene, &progress).unwrap();
+    let plan = plan(&scene, 24, &[1, 3]);
+    assert_eq!(rows.len(), plan.points.len());
+    for point in [0, 20, 75] {
+        let expected = plan.row(&scene, point, &progress).unwrap();
+        assert_eq!(rows[point].key, expected.key);
+        for (place, p) in PARAMETERS
+            .iter()
+            .enumerate()
+            .filter(|(_, p)| p.class != Class::T)
+        {
+            assert_eq!(
+                rows[point].values[place], expected.values[place],
+                "{}",
+                p.symbol
+            );
+        }
+    }
+    // The answer, the rule and the mark are those of the rows.
+    let answers = answers(&rows, parameter("T_TR"));
+    assert_eq!(answers.len(), 2);
+    for answer in answers {
+        assert!(has(&window, &answer.sentence(parameter("T_TR"))));
+        let best = format!("Load {}, D_MAX ", answer.best.key.method);
+        let marked = cells(&window);
+        let marked: Vec<_> = marked
+            .iter()
+            .filter(|name| name.starts_with(&best) && name.ends_with("(least)"))
+            .collect();
+        assert_eq!(marked.len(), 1, "{marked:?}");
+        let place = format!("N_OILF {}: T_TR ", answer.best.key.n_oilf);
+        assert!(marked[0].contains(&place), "{marked:?}");
+    }
+    let rule = rule_depth(&rows[0]).unwrap();
+    assert!(has(&window, &format!("[{rule}]: the rule 1.2 log2 N + 2")));
+}
+
+#[test]
+fn a_cell_or_a_point_loads_its_settings_and_another_parameter_is_shown() {
+    let mut window = on_sweep(SCENE, 24);
+    type_into(&mut window, "Leaf sizes of the sweep", "1, 3");
+    click(&mut window, "Run sweep");
+    wait_for_sweep(&mut window, 76);
+    click(&mut window, "Map");
+    let on_view = |w: &Window<'_>, text: &str| has(w, &format!("balls:1 · {text} · D_AREC"));
+    let cells = cells(&window);
+    let cell = |words: &str| cells.iter().find(|name| name.contains(words)).unwrap();
+    click(&mut window, cell("midpoint, D_MAX 9, N_OILF 3: "));
+    wait(&mut window, "the cell's settings", |w| {
+        on_view(w, "midpoint · D_MAX 9 · N_OILF 3")
+    });
+    // Out of sight below, but not for assistive programs.
+    let other = cell("sah-cut, D_MAX 7, N_OILF 1: ");
+    window.get_by_label(other).click_accesskit();
+    wait(&mut window, "the other cell's settings", |w| {
+        on_view(w, "sah-cut · D_MAX 7 · N_OILF 1")
+    });
+    finish(&mut window);
+    click(&mut window, "Curves");
+    let pane = window.get_by_label("Plot of T_TR against D_MAX, 76 points");
+    let pane = pane.rect().center();
+    window.hover_at(pane);
+    window.run_steps(2);
+    press(&mut window, egui::Modifiers::SHIFT, egui::Key::E);
+    let plot = "Plot of N_AT against D_MAX, 76 points";
+    wait(&mut window, "the parameter before", |w| {
+        w.query_by_label(plot).is_some()
+    });
+    // A point of a curve is as good as a cell.
+    let point = window.get_by_label_contains("Load midpoint, D_MAX 24, N_OILF 1: N_AT ");
+    point.click_accesskit();
+    wait(&mut window, "the point's settings", |w| {
+        on_view(w, "midpoint · D_MAX 24 · N_OILF 1")
+    });
+}
+
+#[test]
+fn a_sweep_that_was_cancelled_goes_on_after_its_last_row() {
+    let mut window = on_sweep("balls:2", 200);
+    click(&mut window, "Run sweep");
+    wait(&mut window, "some rows", |w| {
+        has(w, "of 152 points") && !has(w, "0 of 152 points")
+    });
+    press(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
+    wait(&mut window, "the end", |w| {
+        has(w, "cancelled: the rows stay")
+    });
+    let taken = |w: &Window<'_>| -> usize {
+        let node = w.get_by_label_contains(" of 152 points");
+        let text = node
+            .accesskit_node()
+            .value()
+            .or(node.accesskit_node().label());
+        text.unwrap().split(' ').next().unwrap().parse().unwrap()
+    };
+    let before = taken(&window);
+    assert!(before > 0 && before < 152);
+    click(&mut window, "Map");
+    let first = cells(&window)[0].clone();
+    click(&mut window, "Run sweep");
+    assert!(taken(&window) >= before, "rows stay");
+    wait(&mut window, "one more row", |w| taken(w) > before);
+    // The time of the first row is that of the run that measured it.
+    let unmarked = first.trim_end_matches(" (least)");
+    assert!(has(&window, unmarked));
+    // Other settings are another sweep.
+    press(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
+    wait(&mut window, "the end", |w| {
+        has(w, "cancelled: the rows stay")
+    });
+    type_into(&mut window, "Leaf sizes of the sweep", "none");
+    assert!(
+        window
+            .get_by_label("Run sweep")
+            .accesskit_node()
+            .is_disabled()
+    );
+    type_into(&mut window, "Leaf sizes of the sweep", "5");
+    click(&mut window, "Run sweep");
+    wait(&mut window, "the other sweep", |w| has(w, " of 38 points"));
+}

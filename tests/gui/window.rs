@@ -1,0 +1,404 @@
+//! The window without a window: widgets found by their labels, pictures through a software adapter.
+
+use crate::harness::{
+    PATIENCE, Window, click, finish, has, is_finished, open, open_sized, open_with_graphics, press,
+    small, wait,
+};
+use egui_kittest::SnapshotOptions;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use std::time::Instant;
+
+/// The figure beside a name in the panels.
+fn figure(window: &Window<'_>, name: &str) -> String {
+    let row = window
+        .get_all_by_label(name)
+        .next()
+        .expect("a figure")
+        .rect();
+    let mut values: Vec<(f32, String)> = window
+        .query_all_by_label_contains("")
+        .filter(|node| {
+            let rect = node.rect();
+            (rect.center().y - row.center().y).abs() < 3.0 && rect.left() > row.right()
+        })
+        .filter_map(|node| {
+            let text = node.accesskit_node().label().or(node.value())?;
+            Some((node.rect().left(), text))
+        })
+        .collect();
+    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    values.first().expect("a value").1.clone()
+}
+
+/// Covers what depends on the machine.
+fn masked(window: &mut Window<'_>) -> SnapshotOptions {
+    for name in ["build time", "render time", "traversal share"] {
+        let rect = window.get_by_label(name).rect();
+        let mut numbers = rect.expand(2.0);
+        (numbers.min.x, numbers.max.x) = (rect.right() + 4.0, window.ctx.content_rect().right());
+        window.mask(numbers);
+    }
+    for text in ["rays/s", " MiB"] {
+        let rects: Vec<_> = window
+            .query_all_by_label_contains(text)
+            .map(|node| node.rect().expand(12.0))
+            .filter(|rect| rect.bottom() > 980.0)
+            .collect();
+        for rect in rects {
+            window.mask(rect);
+        }
+    }
+    // Other versions of the software driver draw edges a little differently.
+    SnapshotOptions::new()
+        .threshold(2.0)
+        .max_failed_pixels(3000_usize)
+}
+
+#[test]
+fn opens_a_small_scene_and_finishes() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    assert!(has(&window, "balls:1 · midpoint · D_MAX 20 · N_OILF 1"));
+    assert!(has(&window, "spheres: 10"));
+    for symbol in bspscope::measure::DELTA {
+        assert!(window.query_by_label(symbol).is_some(), "{symbol}");
+    }
+    assert_ne!(figure(&window, "leaves"), "–");
+    assert!(figure(&window, "build time").ends_with(" s"));
+    assert!(has(&window, "rays/s"));
+}
+
+#[test]
+fn another_method_changes_figures_and_picture_as_one() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    let before = figure(&window, "leaves");
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::M);
+    let start = Instant::now();
+    loop {
+        // Figures, and the settings named over the picture, always belong to the same method.
+        let leaves = figure(&window, "leaves");
+        if has(&window, "balls:1 · midpoint") {
+            assert_eq!(leaves, before);
+            assert!(has(&window, "previous settings"));
+        } else {
+            assert!(has(&window, "balls:1 · sah-cut"));
+            assert_ne!(leaves, before);
+        }
+        if is_finished(&window) {
+            break;
+        }
+        assert!(start.elapsed() < PATIENCE);
+        window.run_steps(1);
+    }
+    assert!(has(&window, "balls:1 · sah-cut"));
+    assert!(window.query_by_label("gap-fraction").is_some());
+}
+
+#[test]
+fn a_method_is_chosen_by_its_list() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    let combo = |window: &Window<'_>| {
+        window
+            .query_all_by_role(egui::accesskit::Role::ComboBox)
+            .find(|node| node.value().is_some_and(|v| v.starts_with("Method")))
+            .expect("the list of methods")
+            .click();
+    };
+    combo(&window);
+    window.run_steps(3);
+    let title = bspscope::structure::Method::named("object-median")
+        .unwrap()
+        .title;
+    window.get_by_label(title).click();
+    wait(&mut window, "the method", |w| has(w, "· object-median ·"));
+    finish(&mut window);
+}
+
+#[test]
+fn the_kernel_is_chosen_by_its_list_and_named_beside_the_times() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    assert!(has(&window, "Timed kernel: plain"));
+    let tests = figure(&window, "tests per hit");
+    window
+        .query_all_by_role(egui::accesskit::Role::ComboBox)
+        .find(|node| node.value().is_some_and(|v| v == "plain"))
+        .expect("the list of kernels")
+        .click();
+    window.run_steps(3);
+    click(&mut window, "lanes");
+    wait(&mut window, "the other kernel's times", |w| {
+        is_finished(w) && has(w, "Timed kernel: lanes")
+    });
+    assert_eq!(figure(&window, "tests per hit"), tests);
+}
+
+#[test]
+fn depth_and_leaf_size_follow_their_keys() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    let before = figure(&window, "leaves");
+    for _ in 0..14 {
+        press(&mut window, egui::Modifiers::COMMAND, egui::Key::ArrowDown);
+    }
+    wait(&mut window, "D_MAX 6", |w| has(w, "· D_MAX 6 ·"));
+    finish(&mut window);
+    assert_ne!(figure(&window, "leaves"), before);
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::ArrowRight);
+    wait(&mut window, "N_OILF 2", |w| has(w, "· N_OILF 2 ·"));
+    window.get_by_label("auto").click();
+    wait(&mut window, "automatic", |w| has(w, "(automatic)"));
+    finish(&mut window);
+}
+
+#[test]
+fn a_load_that_fails_keeps_the_scene_and_says_why() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    let before = figure(&window, "leaves");
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::L);
+    let field = window.get_by_role_and_label(egui::accesskit::Role::TextInput, "Path of a scene");
+    field.focus();
+    field.type_text("/there/is/no.nff");
+    window.run_steps(2);
+    window.key_press(egui::Key::Enter);
+    wait(&mut window, "the message", |w| {
+        has(w, "could not be opened")
+    });
+    assert!(has(&window, "Reason: /there/is/no.nff"));
+    finish(&mut window);
+    assert!(has(&window, "balls:1 · midpoint"));
+    assert_eq!(figure(&window, "leaves"), before);
+    window.get_by_label("Dismiss").click();
+    window.run_steps(3);
+    assert!(!has(&window, "could not be opened"));
+    // Later changes are changes of the scene that stayed.
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::M);
+    wait(&mut window, "the method", |w| has(w, "balls:1 · sah-cut"));
+}
+
+#[test]
+fn a_file_with_a_mistake_is_told_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("wrong.nff");
+    std::fs::write(&file, "b 0 0 0\nnonsense\n").unwrap();
+    let mut window = open(small(file.to_str().unwrap()));
+    wait(&mut window, "the message", |w| {
+        has(w, "could not be opened")
+    });
+    assert!(has(&window, "wrong.nff:2"));
+    assert!(has(&window, "No picture yet"));
+}
+
+/// A file as the window system drops it.
+#[derive(Debug)]
+struct Dropped(std::path::PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn a_dropped_file_is_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("one-ball.nff");
+    let text = "v\nfrom 0 -4 0\nat 0 0 0\nup 0 0 1\nangle 45\nhither 1\nresolution 32 32\n\
+                b 0 0 0\nl 5 -5 5\nf 1 0 0 1 0 0 0 1\ns 0 0 0 1\n";
+    std::fs::write(&file, text).unwrap();
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    let dropped = std::sync::Arc::new(Dropped(file));
+    window.input_mut().dropped_files.push(dropped);
+    wait(&mut window, "the file's scene", |w| {
+        has(w, "one-ball · midpoint")
+    });
+    finish(&mut window);
+    assert!(has(&window, "spheres: 1"));
+}
+
+#[test]
+fn a_click_names_the_object_and_lists_the_leaves() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    assert!(has(&window, "Click a pixel of the picture"));
+    window.get_by_label("Traced picture").click();
+    wait(&mut window, "the object", |w| has(w, "Hits sphere "));
+    assert!(has(&window, "at a distance of"));
+    assert!(has(&window, "Kd "));
+    assert!(has(&window, "The primary ray visits"));
+    // Arrow keys go on to other pixels while the pointer is over the picture.
+    assert!(has(&window, "Pixel 24, 24"));
+    press(&mut window, egui::Modifiers::NONE, egui::Key::ArrowLeft);
+    wait(&mut window, "the pixel beside", |w| has(w, "Pixel 23, 24"));
+    // The pixel stays picked in another tree.
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::M);
+    wait(&mut window, "the method", |w| has(w, "balls:1 · sah-cut"));
+    assert!(has(&window, "Pixel 23, 24"));
+}
+
+#[test]
+fn changes_of_settings_are_undone_and_redone() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    let before = figure(&window, "leaves");
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::M);
+    finish(&mut window);
+    let after = figure(&window, "leaves");
+    assert_ne!(before, after);
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Z);
+    finish(&mut window);
+    assert_eq!(figure(&window, "leaves"), before);
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Y);
+    finish(&mut window);
+    assert_eq!(figure(&window, "leaves"), after);
+}
+
+#[test]
+fn the_list_of_shortcuts_opens_and_closes() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    window.key_press(egui::Key::Questionmark);
+    window.run_steps(4);
+    assert!(has(&window, "Frame the selection"));
+    window.key_press(egui::Key::Escape);
+    window.run_steps(4);
+    assert!(!has(&window, "Frame the selection"));
+}
+
+#[test]
+fn cancelling_stops_and_resuming_finishes() {
+    let mut start = small("balls:4");
+    start.render.width = 1024;
+    start.render.height = 1024;
+    start.render.samples = 500;
+    let mut window = open(start);
+    wait(&mut window, "a picture", |w| has(w, "balls:4 · midpoint"));
+    window.key_press(egui::Key::Escape);
+    wait(&mut window, "the stop", |w| has(w, "cancelled"));
+    assert!(has(&window, "balls:4 · midpoint"), "what is shown stays");
+    assert!(!is_finished(&window));
+    window.get_by_label("Resume").click();
+    wait(&mut window, "new work", |w| !has(w, "cancelled"));
+}
+
+#[test]
+fn filters_say_how_many_leaves_are_shown() {
+    let mut window = open_with_graphics(small("balls:1"));
+    finish(&mut window);
+    let leaves = figure(&window, "leaves");
+    assert!(has(&window, &format!("{leaves} of {leaves} leaves shown")));
+    click(&mut window, "Show …");
+    window.get_by_label("Empty (dashed)").click();
+    window.run_steps(3);
+    assert!(!has(&window, &format!("{leaves} of {leaves} leaves shown")));
+    assert!(has(&window, &format!("of {leaves} leaves shown")));
+    window.get_by_label("Full (solid)").click();
+    window.run_steps(3);
+    assert!(has(&window, &format!("0 of {leaves} leaves shown")));
+    window.get_by_label("Leaf boxes").click();
+    window.run_steps(3);
+    assert!(has(&window, "Leaf boxes are not shown"));
+}
+
+#[test]
+fn in_a_small_view_the_legend_is_folded_until_it_is_asked_for() {
+    let mut window = open_sized(small("balls:1"), [1280.0, 720.0], true);
+    finish(&mut window);
+    window.get_by_label("Traced picture").click();
+    wait(&mut window, "the colours", |w| has(w, "Depth (levels"));
+    let unfolded = |w: &Window<'_>| has(w, "leaves shown") && has(w, "Lines of the rays");
+    assert!(!unfolded(&window));
+    click(&mut window, "Unfold the legend");
+    assert!(unfolded(&window));
+    let view = window.get_by_label("3D view of scene and tree").rect();
+    let top = window.get_by_label("Fold the legend").rect();
+    assert!(view.contains_rect(top), "{top} in {view}");
+    window.hover_at(view.right_top() + egui::vec2(-20.0, 20.0));
+    window.run_steps(2);
+    press(&mut window, egui::Modifiers::NONE, egui::Key::I);
+    assert!(!unfolded(&window) && has(&window, "Depth (levels"));
+}
+
+#[test]
+fn orbiting_moves_the_linked_pictures_camera() {
+    let mut window = open_with_graphics(small("balls:1"));
+    finish(&mut window);
+    let view = window.get_by_label("3D view of scene and tree").rect();
+    window.drag_at(view.center());
+    window.run_steps(2);
+    window.hover_at(view.center() + egui::vec2(60.0, 10.0));
+    window.run_steps(2);
+    window.drop_at(view.center() + egui::vec2(60.0, 10.0));
+    finish(&mut window);
+    // Only a camera of its own can be given back.
+    let button = window.get_by_label("Scene's own camera");
+    assert!(!button.accesskit_node().is_disabled());
+    button.click();
+    finish(&mut window);
+    let button = window.get_by_label("Scene's own camera");
+    assert!(button.accesskit_node().is_disabled());
+}
+
+#[test]
+fn without_graphics_all_but_the_3d_view_works() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    assert!(window.query_by_label("3D view of scene and tree").is_some());
+}
+
+#[test]
+fn keys_of_the_3d_view_count_while_the_pointer_is_over_it() {
+    let mut window = open_with_graphics(small("balls:1"));
+    finish(&mut window);
+    // Elsewhere they do nothing.
+    press(&mut window, egui::Modifiers::NONE, egui::Key::B);
+    assert!(!has(&window, "Leaf boxes are not shown"));
+    let view = window.get_by_label("3D view of scene and tree").rect();
+    window.hover_at(view.center());
+    window.run_steps(2);
+    press(&mut window, egui::Modifiers::NONE, egui::Key::B);
+    assert!(has(&window, "Leaf boxes are not shown"));
+    press(&mut window, egui::Modifiers::NONE, egui::Key::B);
+    press(&mut window, egui::Modifiers::NONE, egui::Key::C);
+    assert!(has(&window, "Objects (objects in a leaf)"));
+    press(&mut window, egui::Modifiers::NONE, egui::Key::C);
+    assert!(has(&window, "Leaves by emptiness"));
+    press(&mut window, egui::Modifiers::NONE, egui::Key::L);
+    assert!(has(&window, "the picture's camera"));
+    for key in [egui::Key::Num7, egui::Key::Num5, egui::Key::Home] {
+        press(&mut window, egui::Modifiers::NONE, key);
+    }
+    // Unlinked, the picture stays as it is.
+    assert!(is_finished(&window));
+    wait(&mut window, "the judge", |w| {
+        has(w, "faults") && !has(w, "of the sample")
+    });
+    let options = masked(&mut window);
+    window.snapshot_options("from_above", &options);
+}
+
+/// How the whole window looks, with boxes and the leaves of one ray. Numbers that depend on the
+/// machine are covered.
+#[test]
+fn the_window_looks_as_it_did() {
+    let mut window = open_with_graphics(small("balls:1"));
+    finish(&mut window);
+    window.get_by_label("Traced picture").click();
+    wait(&mut window, "the object", |w| has(w, "Hits sphere "));
+    wait(&mut window, "the boxes", |w| has(w, "leaves shown"));
+    window.remove_cursor();
+    window.run_steps(5);
+    wait(&mut window, "the judge", |w| {
+        has(w, "faults") && !has(w, "of the sample")
+    });
+    let options = masked(&mut window);
+    window.snapshot_options("window", &options);
+}

@@ -1,0 +1,6 @@
+//! What several test binaries share.
+#![allow(dead_code)] // Each binary uses its part of this.
+
+pub mod closed_meshes;
+pub mod glb;
+pub mod tough;
