@@ -136,14 +136,6 @@ impl Measurement {
     pub fn all_rays(&self) -> Option<Tally> {
         Some(self.counted.as_ref()?.tallies.iter().copied().sum())
     }
-
-    /// `D_MAX` in words, with how it was chosen.
-    pub fn depth_in_words(&self) -> String {
-        match self.build.d_max {
-            MaxDepth::Fixed(depth) => depth.to_string(),
-            MaxDepth::Automatic => format!("{} (automatic)", self.depth_limit),
-        }
-    }
 }
 
 /// A tree with everything measured of it, and the picture that was timed.
