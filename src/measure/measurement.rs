@@ -4,7 +4,7 @@ use super::heat::PixelCounts;
 use super::{SceneFacts, TreeFacts};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
-use crate::structure::{BuildError, BuildSettings, MaxDepth, Tree, build};
+use crate::structure::{BuildError, BuildSettings, Tree, build};
 use crate::trace::{
     ChosenPrecision, CountedPass, CountedTile, Picture, RayKind, RenderError, RenderSettings,
     Tally, TimedPass, counted_pass, thread_pool, timed_pass,

@@ -1,6 +1,6 @@
 //! What a scene requires of a renderer, worked out once when it is made.
 
-use super::SceneParts;
+use super::parts::SceneParts;
 use crate::primitive::PrimitiveKind;
 
 /// What rendering the scene takes. Whatever is absent here is not done at all.

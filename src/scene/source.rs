@@ -1,6 +1,9 @@
 //! Where a scene comes from: a file or a generator's name, and how cylinders are taken.
 
-use super::{Cylinders, Scene, SceneParts, builtin, format};
+use super::model::Scene;
+use super::parts::SceneParts;
+use super::tessellate::Cylinders;
+use super::{builtin, format};
 use crate::progress::{Cancelled, Progress};
 use std::path::PathBuf;
 

@@ -1,6 +1,6 @@
 //! Cylinders and cones taken exactly, or as prisms of polygons as the paper did.
 
-use super::SceneParts;
+use super::parts::SceneParts;
 use crate::primitive::Primitive;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,7 @@
 //! Which format a file is of.
 
-use super::{FORMATS, Format, for_path};
+use super::entry::Format;
+use super::registry::{FORMATS, for_path};
 use std::path::Path;
 
 /// The format of a file, with what there is to say of the choice; `None` if neither extension nor

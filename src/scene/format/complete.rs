@@ -2,7 +2,10 @@
 
 use crate::geometry::{Aabb, Vec3};
 use crate::primitive::{Primitive, Shape};
-use crate::scene::{Camera, Light, Note, NoteKind, SceneParts};
+use crate::scene::camera::Camera;
+use crate::scene::material::Light;
+use crate::scene::note::{Note, NoteKind};
+use crate::scene::parts::SceneParts;
 
 /// Behind scenes whose format has no background: neither dark nor light objects vanish before it.
 pub(super) const BACKGROUND: Vec3 = Vec3::splat(0.18);

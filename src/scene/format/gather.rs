@@ -1,9 +1,14 @@
 //! Gathers what a reader finds; faces become triangles and polygons, what cannot is counted.
 
-use super::{Place, ReadError, complete};
+use super::complete;
+use super::error::ReadError;
+use super::place::Place;
 use crate::geometry::{Aabb, Vec3};
 use crate::primitive::{Polygon, Primitive, PrimitiveKind, ShapeError, Triangle};
-use crate::scene::{Camera, Light, Material, Note, NoteKind, SceneParts};
+use crate::scene::camera::Camera;
+use crate::scene::material::{Light, Material};
+use crate::scene::note::{Note, NoteKind};
+use crate::scene::parts::SceneParts;
 use std::collections::HashMap;
 
 /// The most objects and skipped faces that one file may come to, instances of a mesh included. So

@@ -6,12 +6,15 @@
 //! taken to point along Y. The values are read by `ply-rs-bw`, element by element, so that a header
 //! that claims too many costs nothing.
 
+use super::entry::Format;
+use super::error::ReadError;
 use super::gather::{Gatherer, MOST_VERTICES};
 use super::lines::{Lines, quoted};
-use super::{Format, Place, ReadError};
+use super::place::Place;
 use crate::geometry::Vec3;
 use crate::progress::Progress;
-use crate::scene::{NoteKind, SceneParts};
+use crate::scene::note::NoteKind;
+use crate::scene::parts::SceneParts;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{
     ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,

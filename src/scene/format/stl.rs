@@ -4,12 +4,15 @@
 //! several solids, and facets of more than three vertices, which stay polygons. What is upright
 //! points along Z, as on the machines that STL was made for.
 
+use super::entry::Format;
+use super::error::ReadError;
 use super::gather::Gatherer;
 use super::lines::Lines;
-use super::{Format, Place, ReadError};
+use super::place::Place;
 use crate::geometry::Vec3;
 use crate::progress::Progress;
-use crate::scene::{NoteKind, SceneParts};
+use crate::scene::note::NoteKind;
+use crate::scene::parts::SceneParts;
 
 pub(super) const FORMAT: Format = Format {
     name: "stl",

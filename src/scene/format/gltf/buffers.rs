@@ -1,8 +1,10 @@
 //! The bytes that accessors view: in the file, in data URIs, or in files beside it.
 
 use crate::progress::Progress;
+use crate::scene::format::error::ReadError;
+use crate::scene::format::input::{BesideError, Input, MOST_BYTES};
 use crate::scene::format::lines::quoted;
-use crate::scene::format::{BesideError, Input, MOST_BYTES, Place, ReadError};
+use crate::scene::format::place::Place;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};

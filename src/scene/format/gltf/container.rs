@@ -1,6 +1,7 @@
 //! The parts of a file: JSON, and in a GLB the binary chunk.
 
-use crate::scene::format::{Place, ReadError};
+use crate::scene::format::error::ReadError;
+use crate::scene::format::place::Place;
 
 /// How far into a text the word that names glTF's version is looked for, in bytes.
 const LOOKED_AT: usize = 1 << 16;

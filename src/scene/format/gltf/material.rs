@@ -1,7 +1,7 @@
 //! Materials: base colours, and what of metals and glass the shading knows.
 
 use crate::geometry::Vec3;
-use crate::scene::Material;
+use crate::scene::material::Material;
 use gltf_json::material::AlphaMode;
 use gltf_json::validation::Checked;
 

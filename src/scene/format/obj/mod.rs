@@ -13,12 +13,17 @@
 
 mod mtl;
 
+use super::entry::Format;
+use super::error::ReadError;
 use super::gather::{Gatherer, MOST_VERTICES};
+use super::input::{BesideError, Input};
 use super::lines::{Line, Lines, Words, parse, quoted};
-use super::{BesideError, Format, Input, Place, ReadError};
+use super::place::Place;
 use crate::geometry::Vec3;
 use crate::progress::Progress;
-use crate::scene::{Material, Note, NoteKind, SceneParts};
+use crate::scene::material::Material;
+use crate::scene::note::{Note, NoteKind};
+use crate::scene::parts::SceneParts;
 use std::collections::HashMap;
 
 pub(super) const FORMAT: Format = Format {
