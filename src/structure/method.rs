@@ -15,7 +15,7 @@ pub enum Structure {
 
 impl Structure {
     /// Whether a cell at this depth may become a leaf for holding few objects or for its depth.
-    pub(in crate::structure) fn ends_at(self, depth: u32) -> bool {
+    pub(super) fn ends_at(self, depth: u32) -> bool {
         match self {
             Structure::Bintree => true,
             Structure::Octree => depth.is_multiple_of(3),
@@ -24,7 +24,7 @@ impl Structure {
     }
 
     /// Levels that a cell is split by at once.
-    pub(in crate::structure) fn levels(self) -> u32 {
+    pub(super) fn levels(self) -> u32 {
         match self {
             Structure::Octree => 3,
             Structure::Bintree | Structure::Grid => 1,
@@ -32,7 +32,7 @@ impl Structure {
     }
 
     /// What to do for a smaller tree.
-    pub(in crate::structure) fn made_smaller_by(self) -> &'static str {
+    pub(super) fn made_smaller_by(self) -> &'static str {
         match self {
             Structure::Bintree | Structure::Octree => "lower D_MAX, raise N_OILF",
             Structure::Grid => "lower the density of voxels",

@@ -25,7 +25,7 @@ pub enum ReadError {
 
 impl ReadError {
     /// The mistake that something else was found than expected.
-    pub(in crate::scene) fn at(place: Place, expected: impl Display, found: impl Display) -> Self {
+    pub(super) fn at(place: Place, expected: impl Display, found: impl Display) -> Self {
         ReadError::Syntax {
             place,
             expected: expected.to_string(),
