@@ -78,7 +78,7 @@ fn sampled_planes_lie_at_equal_steps_and_more_of_them_expect_less_work() {
     let full_leaves = |cost_stop| {
         let tree = tree(&balls, "sah-sampled", &[("cost-stop", cost_stop)]);
         leaves(&tree)
-            .filter(|(_, stop, _)| *stop == StopReason::NoSplitPays)
+            .filter(|(_, stop, _)| *stop == StopReason::LeafIsCheaper)
             .count()
     };
     assert!(full_leaves(1.0) > 0);
@@ -146,7 +146,7 @@ fn failed_above(tree: &Tree, ratio: f64, traversal: f64, bonus: f64) -> Vec<u32>
             }
             None => {
                 if let NodeKind::Leaf {
-                    stop: StopReason::NoSplitPays,
+                    stop: StopReason::LeafIsCheaper,
                     ..
                 } = tree.kind(cell.node)
                 {

@@ -25,7 +25,7 @@ fn camera() -> Camera {
         at: Vec3::ZERO,
         up: Vec3::Y,
         angle: 45.0,
-        hither: 0.1,
+        near: 0.1,
         resolution: [64, 64],
     }
 }

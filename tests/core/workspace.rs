@@ -18,7 +18,7 @@ const CAMERA: Camera = Camera {
     at: Vec3::new(0.1, 0.2, 0.3),
     up: Vec3::Z,
     angle: 33.3,
-    hither: 1.0,
+    near: 1.0,
     resolution: [512, 512],
 };
 

@@ -127,7 +127,7 @@ fn scene_of(faces: &[Vec<Vec3>]) -> Scene {
             at: Vec3::Y,
             up: Vec3::Z,
             angle: 45.0,
-            hither: 1.0,
+            near: 1.0,
             resolution: [8, 8],
         },
         notes: Vec::new(),
