@@ -460,7 +460,7 @@ fn names_are_those_that_are_asked_for() {
     assert_eq!(KernelChoice::Scalar.description(), "scalar");
     assert!(
         KernelChoice::Stream
-            .used()
+            .description()
             .contains(InstructionSet::best().name())
     );
 }
