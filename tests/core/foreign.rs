@@ -355,7 +355,7 @@ fn a_mesh_without_camera_and_lights_is_framed_and_lit() {
         };
         let (pool, progress) = (thread_pool(1).unwrap(), Progress::new());
         let picture = std::sync::Mutex::new(bspscope::trace::Picture::new(40, 40));
-        bspscope::trace::timed_pass(&scene, &tree, &settings, 0, &pool, &progress, |tile, c| {
+        bspscope::trace::render_timed(&scene, &tree, &settings, 0, &pool, &progress, |tile, c| {
             picture.lock().unwrap().add_tile(tile, 0, c);
         })
         .unwrap();

@@ -48,7 +48,7 @@ fn changed() -> Workspace {
         d_arec: 2,
         cut_off: 0.1,
         precision: PrecisionChoice::Auto,
-        kernel: KernelChoice::Lanes,
+        kernel: KernelChoice::Stream,
         sampling: Sampling::Corner,
         threads: 3,
     };

@@ -101,7 +101,7 @@ fn settings(run: &Measurement) -> Result<Value> {
         },
         "kernel": {
             "asked": name(&render.kernel)?,
-            "used": render.kernel.used(),
+            "used": render.kernel.description(),
         },
         "sampling": name(&render.sampling)?,
         "threads": render.threads,

@@ -66,7 +66,7 @@ pub fn settings(report: &Report) -> Vec<String> {
             camera.angle
         ));
         lines.push(format!("Precision: {}", run.precision));
-        lines.push(format!("Timed kernel: {}", render.kernel.used()));
+        lines.push(format!("Timed kernel: {}", render.kernel.description()));
     }
     lines.extend(report.runs.iter().map(tree));
     lines
