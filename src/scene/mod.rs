@@ -1,4 +1,5 @@
-//! A scene: objects, materials, lights, a background and a camera, and what it requires.
+//! Scenes: objects, materials, lights, background and camera, and which features rendering them
+//! requires.
 
 pub mod builtin;
 mod camera;

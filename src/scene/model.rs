@@ -9,7 +9,7 @@ use super::requirements::Requirements;
 use crate::geometry::{Aabb, Vec3};
 use crate::primitive::{Precision, Primitive, Shape, Shapes};
 
-/// A scene, complete and immutable: derived facts are worked out once, here.
+/// A complete, immutable scene. Derived facts are computed once, when it is created.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     parts: SceneParts,
@@ -19,8 +19,10 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Creates a scene from its parts.
+    ///
     /// # Panics
-    /// If `material_of` does not name one existing material for every object.
+    /// If `material_of` does not refer to an existing material for every object.
     pub fn new(parts: SceneParts) -> Self {
         assert_eq!(parts.objects.len(), parts.material_of.len());
         assert!(
@@ -46,12 +48,12 @@ impl Scene {
         &self.parts.name
     }
 
-    /// The objects; an object's number is its place.
+    /// Returns the objects; an object's number is its index.
     pub fn objects(&self) -> &[Primitive] {
         &self.parts.objects
     }
 
-    /// The material of an object.
+    /// Returns the material of an object.
     pub fn material(&self, object: u32) -> &Material {
         &self.parts.materials[self.parts.material_of[object as usize] as usize]
     }
@@ -68,28 +70,29 @@ impl Scene {
         &self.parts.camera
     }
 
-    /// The tight box around all objects; empty without objects.
+    /// Returns the tight bounding box of all objects; empty if there are none.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
 
-    /// What rendering this scene takes, and what it does not.
+    /// Returns which features rendering this scene requires.
     pub fn requirements(&self) -> &Requirements {
         &self.requirements
     }
 
-    /// The objects made ready for tracing in a precision: when first asked for, then kept.
+    /// Returns the objects prepared for intersection in a precision. They are prepared on first use
+    /// and then cached.
     pub fn shapes(&self, precision: Precision) -> &Shapes {
         self.prepared
             .get(precision, &self.parts.objects, &self.bounds)
     }
 
-    /// The load report: what the reader had to say about the file.
+    /// Returns the load report.
     pub fn notes(&self) -> &[Note] {
         &self.parts.notes
     }
 
-    /// Everything the scene was made of.
+    /// Returns the parts that the scene was created from.
     pub fn parts(&self) -> &SceneParts {
         &self.parts
     }

@@ -32,7 +32,7 @@ impl Structure {
     }
 
     /// What to do for a smaller tree.
-    pub(super) fn made_smaller_by(self) -> &'static str {
+    pub(super) fn how_to_shrink(self) -> &'static str {
         match self {
             Structure::Bintree | Structure::Octree => "lower D_MAX, raise N_OILF",
             Structure::Grid => "lower the density of voxels",

@@ -68,7 +68,7 @@ pub struct MethodInfo {
 
 impl MethodInfo {
     /// The overlap rule in words, for reports.
-    pub fn overlap_in_words(&self, rule: OverlapRule) -> &'static str {
+    pub fn overlap_text(&self, rule: OverlapRule) -> &'static str {
         match rule {
             OverlapRule::Paper if self.paper_spheres_exactly => {
                 "spheres exactly, all others by bounds"

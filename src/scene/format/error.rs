@@ -4,7 +4,7 @@ use super::place::Place;
 use crate::progress::Cancelled;
 use std::fmt::Display;
 
-/// Why a reader gave up; it knows no path.
+/// Why a reader failed, without the path of the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ReadError {
     #[error("{place}: expected {expected}, found {found}")]
@@ -13,9 +13,9 @@ pub enum ReadError {
         expected: String,
         found: String,
     },
-    /// A mistake in, or the lack of, a file that this one names.
+    /// An error in a file that this file refers to, or the lack of that file.
     #[error("{}", located(.name, .reason))]
-    Beside {
+    InSibling {
         name: String,
         reason: Box<ReadError>,
     },
@@ -24,7 +24,7 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    /// The mistake that something else was found than expected.
+    /// Creates the error that something else was found than expected.
     pub(super) fn at(place: Place, expected: impl Display, found: impl Display) -> Self {
         ReadError::Syntax {
             place,
@@ -34,7 +34,7 @@ impl ReadError {
     }
 }
 
-/// A mistake with its file, `file:line: …` as compilers write it.
+/// Formats an error with its file, `file:line: …`, as compilers do.
 pub(super) fn located(file: impl Display, reason: &ReadError) -> String {
     match reason {
         ReadError::Syntax {

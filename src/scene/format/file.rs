@@ -9,7 +9,7 @@ use crate::scene::note::{Note, NoteKind};
 use crate::scene::parts::SceneParts;
 use std::path::{Path, PathBuf};
 
-/// Why a file gave no scene: `file:line: what was expected, what was found`.
+/// Why a scene file could not be read: `file:line: expected …, found …`.
 #[derive(Debug, thiserror::Error)]
 pub enum FormatError {
     #[error("{}: {reason}", .path.display())]
@@ -19,17 +19,21 @@ pub enum FormatError {
     },
     #[error("{}", located(.path.display(), .reason))]
     Read { path: PathBuf, reason: ReadError },
-    #[error("{}: neither name nor content is that of a scene file ({})", .path.display(), names())]
+    #[error(
+        "{}: unknown file format: neither the extension nor the content is that of a scene file ({})",
+        .path.display(),
+        names()
+    )]
     Unknown { path: PathBuf },
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-/// Reads a scene file of the format that its content shows, or else its extension; the scene is
-/// named after the file's stem. Its notes are the load report.
+/// Reads a scene file. The content determines the format, or else the extension. The scene is named
+/// after the stem of the file name; its notes are the load report.
 ///
 /// # Errors
-/// The file cannot be read, is of no known format, holds a mistake, or the task was cancelled.
+/// The file cannot be read, its format is unknown, it contains an error, or the task was cancelled.
 pub fn read_file(path: &Path, progress: &Progress) -> Result<SceneParts, FormatError> {
     let failed = |reason| FormatError::Io {
         path: path.to_owned(),
@@ -42,7 +46,7 @@ pub fn read_file(path: &Path, progress: &Progress) -> Result<SceneParts, FormatE
     };
     let input = Input {
         bytes: &bytes,
-        // The folder of a bare file name is the current one.
+        // The folder of a bare file name is the current folder.
         folder: path.parent().map(|folder| match folder.as_os_str() {
             empty if empty.is_empty() => Path::new("."),
             _ => folder,

@@ -13,13 +13,13 @@ pub static FORMATS: &[Format] = &[
     stl::FORMAT,
 ];
 
-/// The names of all formats, in capitals.
+/// Returns the names of all formats in capitals, separated by commas.
 pub fn names() -> String {
     let names: Vec<_> = FORMATS.iter().map(|f| f.name.to_uppercase()).collect();
     names.join(", ")
 }
 
-/// The format for a path, by its extension alone.
+/// Returns the format for the extension of a path.
 pub fn for_path(path: &Path) -> Option<&'static Format> {
     let extension = path.extension()?.to_string_lossy().to_ascii_lowercase();
     let has_it = |f: &&Format| f.extensions.contains(&extension.as_str());

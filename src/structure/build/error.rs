@@ -16,7 +16,7 @@ pub enum BuildError {
         "the tree needs more than the memory limit of {} MiB: stopped at depth {depth} after \
          {nodes} nodes and {references} references; {} or raise the limit",
         .limit >> 20,
-        .structure.made_smaller_by()
+        .structure.how_to_shrink()
     )]
     MemoryLimit {
         /// Bytes.

@@ -110,7 +110,7 @@ impl Sah {
     }
 
     /// The cheapest of the limits of bins.
-    fn among_bins(&self, cell: &Cell<'_>) -> Best {
+    fn best_bin_limit(&self, cell: &Cell<'_>) -> Best {
         let bins = Bins::of(cell, self.clip);
         let mut best = Best {
             cost: self.costs.blocks(bins.objects()),
@@ -126,8 +126,8 @@ impl Sah {
     }
 
     /// The cheapest of all planes.
-    fn among_all(&self, cell: &Cell<'_>) -> Best {
-        Extents::with(cell, self.clip, |extents, room| {
+    fn best_plane(&self, cell: &Cell<'_>) -> Best {
+        Extents::with(cell, self.clip, |extents, scratch| {
             let mut best = Best {
                 cost: self.costs.blocks(extents.objects()),
                 plane: None,
@@ -139,7 +139,7 @@ impl Sah {
                 let areas = Areas::new(cell, axis);
                 let ends = cell.local[axis.index()];
                 Search::new(&self.costs, &areas, axis, ends, &mut best)
-                    .run(extents.along(axis), room);
+                    .run(extents.along(axis), scratch);
             }
             best
         })
@@ -149,13 +149,13 @@ impl Sah {
 impl SplitRule for Sah {
     fn decide(&self, cell: &Cell<'_>) -> Decision {
         let best = if cell.object_count() > self.exact {
-            self.among_bins(cell)
+            self.best_bin_limit(cell)
         } else {
-            self.among_all(cell)
+            self.best_plane(cell)
         };
         match best.plane {
             Some((axis, plane)) => Decision::Split { axis, plane },
-            None => Decision::Leaf(StopReason::NoSplitPays),
+            None => Decision::Leaf(StopReason::LeafIsCheaper),
         }
     }
 }

@@ -6,7 +6,7 @@
 //! of the gap at once and counts as one level of depth.
 
 use super::rule::{Cell, Decision, SplitRule};
-use super::sweep::{Areas, Beside, Sweep};
+use super::sweep::{Areas, CandidatePlane, Sweep};
 use crate::geometry::Axis;
 use crate::structure::method::{Constant, Structure};
 use crate::structure::node::StopReason;
@@ -135,7 +135,7 @@ impl SahCut {
         let to = spatial_median.max(object_median) + reach;
 
         let areas = Areas::new(&cell.bounds, axis);
-        for Beside {
+        for CandidatePlane {
             plane,
             world,
             below,
@@ -191,7 +191,7 @@ impl SplitRule for SahCut {
         };
         let leaf_cost = cell.object_count() as f64 * cell.bounds.surface_area();
         if self.cost_stop && best.cost >= leaf_cost {
-            return Decision::Leaf(StopReason::NoSplitPays);
+            return Decision::Leaf(StopReason::LeafIsCheaper);
         }
         if let Some((_, axis, [lower, upper])) = gap {
             let slab = [
