@@ -76,6 +76,7 @@ pub mod files;
 pub mod geometry;
 #[cfg(feature = "gui")]
 pub mod gui;
+pub mod jobs;
 pub mod lesson;
 pub mod measure;
 pub mod present;
