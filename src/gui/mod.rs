@@ -111,7 +111,7 @@ impl Default for StartOptions {
             at: Vec3::Y,
             up: Vec3::Z,
             angle: 45.0,
-            hither: 1.0,
+            near: 1.0,
             resolution: [512, 512],
         };
         StartOptions {

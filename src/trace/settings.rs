@@ -42,7 +42,7 @@ impl RenderSettings {
             d_arec: 4,
             cut_off: 0.0,
             precision: PrecisionChoice::F64,
-            kernel: KernelChoice::Plain,
+            kernel: KernelChoice::Scalar,
             sampling: Sampling::Center,
             samples: 1,
             threads: 0,

@@ -177,7 +177,7 @@ mod tests {
             at: Vec3::ZERO,
             up: Vec3::Z,
             angle: 40.0,
-            hither: 1.0,
+            near: 1.0,
             resolution: [8, 8],
         })
     }
