@@ -7,7 +7,7 @@ use bspscope::measure::paper::SCENES;
 use bspscope::progress::Progress;
 use bspscope::scene::{SceneRequest, load};
 use bspscope::structure::{BuildSettings, Method, build};
-use bspscope::trace::{RenderSettings, counted_pass, thread_pool, timed_pass};
+use bspscope::trace::{RenderSettings, render_counted, render_timed, thread_pool};
 use std::time::Instant;
 
 /// How often each pass runs, in turns.
@@ -26,19 +26,19 @@ fn main() {
         let mut times = [const { Vec::new() }; 3];
         for _ in 0..ROUNDS {
             let start = Instant::now();
-            let pass = timed_pass(&scene, &tree, &render, 0, &pool, &progress, |_, _| ());
+            let pass = render_timed(&scene, &tree, &render, 0, &pool, &progress, |_, _| ());
             pass.expect("it runs to its end");
             times[0].push(start.elapsed().as_secs_f64());
             let start = Instant::now();
-            let pass = counted_pass(&scene, &tree, &render, &pool, &progress, |_| ());
+            let pass = render_counted(&scene, &tree, &render, &pool, &progress, |_| ());
             times[1].push(start.elapsed().as_secs_f64());
-            times[2].push(pass.expect("it runs to its end").walking.as_secs_f64());
+            times[2].push(pass.expect("it runs to its end").traversal.as_secs_f64());
         }
         let ratio = |k: usize| (times[1][k] - times[2][k]) / times[0][k];
         let ratio = median((0..ROUNDS).map(ratio).collect());
-        let [timed, counted, walking] = times.map(median);
+        let [timed, counted, traversal] = times.map(median);
         let name = scene.name();
-        println!("{name:<10} {timed:9.3} {counted:12.3} {walking:15.3} {ratio:20.2}");
+        println!("{name:<10} {timed:9.3} {counted:12.3} {traversal:15.3} {ratio:20.2}");
     }
 }
 

@@ -20,7 +20,7 @@ mod scenes;
 #[path = "peers/terrain.rs"]
 mod terrain;
 
-use bspscope::trace::{Hit, LaneTree};
+use bspscope::trace::{Hit, SimdTree};
 use clap::Parser;
 use kernels::{Found, Kernel, NarrowRay, Rays};
 use rays::{RaySet, ray_sets};
@@ -86,7 +86,7 @@ fn main() {
         std::fs::write(path, text).expect("the file can be written");
     }
     if wrong > 0 {
-        println!("{wrong} answers of our kernels differ from those of the plain one");
+        println!("{wrong} answers of our kernels differ from those of the scalar one");
         std::process::exit(1);
     }
 }
@@ -109,11 +109,11 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
     };
     let start = Instant::now();
     let tree = ours::build(scene);
-    let lanes = LaneTree::of(scene, &tree);
+    let simd_tree = SimdTree::of(scene, &tree);
     let build = start.elapsed();
     println!(
-        "ready for lanes: {:.1} bytes an object",
-        lanes.bytes() as f64 / scene.objects().len() as f64
+        "SIMD tree: {:.1} bytes per object",
+        simd_tree.bytes() as f64 / scene.objects().len() as f64
     );
     println!(
         "our tree: {} nodes, {} references, depth {}",
@@ -141,7 +141,7 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
         }));
     }
     let reference = entrants.len();
-    for (name, kernel) in ours::kernels(scene, &tree, lanes) {
+    for (name, kernel) in ours::kernels(scene, &tree, simd_tree) {
         entrants.push(Entrant {
             name,
             kernel,
@@ -162,12 +162,12 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
             .collect()
     });
     let first = entrants[0].name.clone();
-    let plain = entrants[reference].name.clone();
+    let scalar = entrants[reference].name.clone();
     let (entrants, ours): (Vec<Entrant<'_>>, Vec<bool>) = entrants
         .into_iter()
         .enumerate()
         .map(|(i, entrant)| (entrant, i >= reference))
-        .filter(|(e, _)| wanted(&e.name) || e.name == first || e.name == plain)
+        .filter(|(e, _)| wanted(&e.name) || e.name == first || e.name == scalar)
         .unzip();
 
     let mut wrong = 0;
@@ -193,7 +193,10 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
                     times[k].push(time);
                 }
             }
-            let reference = entrants.iter().position(|e| e.name == plain).expect("kept");
+            let reference = entrants
+                .iter()
+                .position(|e| e.name == scalar)
+                .expect("kept");
             for (k, entrant) in entrants.iter().enumerate() {
                 let mut ratios: Vec<f64> =
                     times[0].iter().zip(&times[k]).map(|(a, b)| a / b).collect();
@@ -201,7 +204,7 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
                 let mut seconds = times[k].clone();
                 let rate = set.rays.len() as f64 / median(&mut seconds) / 1e6;
                 let differing = differing(set, &answers[reference], &answers[k]);
-                // Ours must answer as the plain one does but for what f32 rounds.
+                // Ours must answer as the scalar one does but for what f32 rounds.
                 let allowed = set.rays.len() / if ours[k] { 2000 } else { 100 };
                 if ours[k] && differing > allowed {
                     wrong += differing;

@@ -6,7 +6,7 @@ use bspscope::progress::Progress;
 use bspscope::scene::Scene;
 use bspscope::structure::{BuildSettings, MaxDepth, Method, Tree, build as build_tree};
 use bspscope::trace::{
-    Batch, Hit, InstructionSet, LaneKernel, LaneTree, RayCompany, RayKind, RayTracer, Timed,
+    Batch, Hit, InstructionSet, RayKind, RayTracer, ScalarKernel, SimdKernel, SimdMode, SimdTree,
 };
 
 /// The tree that all our kernels walk, built on one thread as the others' are.
@@ -20,32 +20,35 @@ pub fn build(scene: &Scene) -> Tree {
     pool.expect("a thread").install(build).expect("a tree")
 }
 
-/// All kernels; the first is the plain one in `f64`.
+/// All kernels; the first is the scalar one in `f64`.
 pub fn kernels<'a>(
     scene: &'a Scene,
     tree: &'a Tree,
-    lanes: &'a LaneTree,
+    simd_tree: &'a SimdTree,
 ) -> Vec<(String, Box<dyn Kernel + 'a>)> {
     let mut kernels: Vec<(String, Box<dyn Kernel + 'a>)> = Vec::new();
     for precision in [Precision::F64, Precision::F32] {
         let shapes = scene.shapes(precision);
-        let plain = Plain {
+        let scalar = Scalar {
             tree,
             shapes,
             progress: Progress::new(),
         };
-        kernels.push((format!("plain {}", precision.name()), Box::new(plain)));
-        for instructions in InstructionSet::ALL.into_iter().filter(|set| set.is_here()) {
-            for company in RayCompany::ALL {
-                let kernel = Lanes {
+        kernels.push((format!("scalar {}", precision.name()), Box::new(scalar)));
+        for instructions in InstructionSet::ALL
+            .into_iter()
+            .filter(|set| set.is_available())
+        {
+            for mode in SimdMode::ALL {
+                let kernel = Simd {
                     tree,
-                    lanes,
+                    simd_tree,
                     shapes,
                     instructions,
-                    company,
+                    mode,
                 };
-                let [company, set] = [company.name(), instructions.name()];
-                let name = format!("{company} {set} {}", precision.name());
+                let [mode, set] = [mode.name(), instructions.name()];
+                let name = format!("{mode} {set} {}", precision.name());
                 kernels.push((name, Box::new(kernel)));
             }
         }
@@ -53,22 +56,22 @@ pub fn kernels<'a>(
     kernels
 }
 
-struct Lanes<'a> {
+struct Simd<'a> {
     tree: &'a Tree,
-    lanes: &'a LaneTree,
+    simd_tree: &'a SimdTree,
     shapes: &'a Shapes,
     instructions: InstructionSet,
-    company: RayCompany,
+    mode: SimdMode,
 }
 
-impl Lanes<'_> {
-    fn kernel(&self) -> LaneKernel<'_> {
-        LaneKernel::new(
+impl Simd<'_> {
+    fn kernel(&self) -> SimdKernel<'_> {
+        SimdKernel::new(
             self.tree,
-            self.lanes,
+            self.simd_tree,
             self.shapes,
             self.instructions,
-            self.company,
+            self.mode,
         )
     }
 }
@@ -76,7 +79,7 @@ impl Lanes<'_> {
 /// Rays of a call: a few tiles of a picture.
 const CALL: usize = 8192;
 
-impl Kernel for Lanes<'_> {
+impl Kernel for Simd<'_> {
     fn closest(&self, rays: Rays<'_>, answers: &mut Vec<Found>) {
         let (mut kernel, mut hits) = (self.kernel(), Vec::new());
         for rays in rays.wide.chunks(CALL) {
@@ -96,7 +99,7 @@ impl Kernel for Lanes<'_> {
     }
 }
 
-struct Plain<'a> {
+struct Scalar<'a> {
     tree: &'a Tree,
     shapes: &'a Shapes,
     progress: Progress,
@@ -107,7 +110,7 @@ fn found(hits: &[Hit]) -> impl Iterator<Item = Found> {
         .map(|hit| hit.is_hit().then_some((hit.t, hit.object)))
 }
 
-impl Kernel for Plain<'_> {
+impl Kernel for Scalar<'_> {
     fn closest(&self, rays: Rays<'_>, answers: &mut Vec<Found>) {
         let mut hits = Vec::new();
         let batch = Batch {
@@ -115,7 +118,7 @@ impl Kernel for Plain<'_> {
             rays: rays.wide,
             pixels: &[],
         };
-        Timed::new(self.tree, self.shapes, &self.progress).closest_hits(batch, &mut hits);
+        ScalarKernel::new(self.tree, self.shapes, &self.progress).closest_hits(batch, &mut hits);
         answers.extend(found(&hits));
     }
 
@@ -125,6 +128,6 @@ impl Kernel for Plain<'_> {
             rays: rays.wide,
             pixels: &[],
         };
-        Timed::new(self.tree, self.shapes, &self.progress).any_hits(batch, blocked);
+        ScalarKernel::new(self.tree, self.shapes, &self.progress).any_hits(batch, blocked);
     }
 }

@@ -657,10 +657,10 @@ pub struct TraceArgs {
     /// Numbers that rays are traced in: f32, f64, or auto for f32 where it can hold the scene
     #[arg(long, value_name = "NUMBERS", value_parser = precision_names(), default_value = "f64")]
     pub precision: PrecisionChoice,
-    /// Kernel of the timed pass: plain for one ray after the other, as the paper timed; lanes for
-    /// batches of rays in vectors; packets for rays in vectors that walk together; auto for packets
-    /// where rays keep together, lanes elsewhere, plain where the processor has no wide vectors
-    #[arg(long, value_name = "KERNEL", value_parser = kernel_names(), default_value = "plain")]
+    /// Kernel of timed rendering: scalar for one ray after the other, as the paper timed; stream for
+    /// batches of rays in SIMD; packets for neighboring rays that traverse together in SIMD; auto for
+    /// packets where rays are coherent, stream elsewhere, scalar where the processor has no wide SIMD
+    #[arg(long, value_name = "KERNEL", value_parser = kernel_names(), default_value = "scalar")]
     pub kernel: KernelChoice,
     /// Where the first sample lies: in the pixel's centre, or on a lattice that spans the angle
     #[arg(long, value_name = "WHERE", value_parser = sampling_names(), default_value = "center")]

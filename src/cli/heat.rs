@@ -8,7 +8,7 @@ use crate::present::export::HeatSheet;
 use crate::present::overlay::COLORMAPS;
 use crate::scene::Scene;
 use crate::structure::Tree;
-use crate::trace::{RenderSettings, counted_pass, pixel_times, thread_pool};
+use crate::trace::{RenderSettings, pixel_times, render_counted, thread_pool};
 use anyhow::{Result, bail};
 use image::ImageFormat;
 use std::sync::{Mutex, PoisonError};
@@ -95,7 +95,7 @@ fn counts(
             let stage = format!("{}: counting", scene.name());
             let all = Mutex::new(&mut counts);
             bar::with_bar(&stage, |progress| {
-                counted_pass(scene, tree, settings, &pool, progress, |part| {
+                render_counted(scene, tree, settings, &pool, progress, |part| {
                     all.lock()
                         .unwrap_or_else(PoisonError::into_inner)
                         .add(&part);

@@ -5,7 +5,7 @@ use super::{Outcome, bar, heat, output, resolve};
 use crate::present::export;
 use crate::scene::Scene;
 use crate::structure::{Tree, build};
-use crate::trace::{Picture, RenderSettings, thread_pool, timed_pass};
+use crate::trace::{Picture, RenderSettings, render_timed, thread_pool};
 use anyhow::{Result, bail};
 use image::ImageFormat;
 use std::path::Path;
@@ -62,7 +62,7 @@ pub fn picture(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> Result<
             settings.samples
         );
         bar::with_bar(&stage, |progress| {
-            timed_pass(
+            render_timed(
                 scene,
                 tree,
                 settings,

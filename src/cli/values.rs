@@ -189,7 +189,8 @@ pub fn pixel(text: &str) -> Result<[i64; 2], String> {
 }
 
 pub fn kernel_names() -> impl TypedValueParser<Value = KernelChoice> {
-    PossibleValuesParser::new(KernelChoice::ALL.map(KernelChoice::name))
+    let value = |kernel: KernelChoice| PossibleValue::new(kernel.name()).aliases(kernel.old_name());
+    PossibleValuesParser::new(KernelChoice::ALL.map(value))
         .try_map(|name| KernelChoice::named(&name).ok_or("no such kernel"))
 }
 

@@ -2,7 +2,7 @@
 
 use crate::primitive::Primitive;
 use crate::scene::Scene;
-use crate::trace::{InnerStep, LeafStep, RayKind, RayPath, Step, TestStep, Way};
+use crate::trace::{Children, InnerStep, LeafStep, RayKind, RayPath, Step, TestStep};
 
 use super::symbol::grouped;
 
@@ -43,11 +43,11 @@ pub fn outcome(scene: &Scene, path: &RayPath) -> String {
 }
 
 /// Which children, in a word.
-pub fn way(way: Way) -> &'static str {
+pub fn way(way: Children) -> &'static str {
     match way {
-        Way::Near => "near",
-        Way::Far => "far",
-        Way::Both => "both",
+        Children::Near => "near",
+        Children::Far => "far",
+        Children::Both => "both",
     }
 }
 
@@ -65,31 +65,31 @@ pub fn why(step: &InnerStep) -> String {
     let (axis, plane) = (step.axis.name(), short(step.plane));
     let (near, far) = (grouped(step.near as usize), grouped(step.far as usize));
     let between = format!("{} to {} units", short(step.t_enter), short(step.t_exit));
-    match (step.way, step.t_plane) {
-        (Way::Near, Some(t)) => format!(
+    match (step.children, step.t_plane) {
+        (Children::Near, Some(t)) => format!(
             "the plane {axis} = {plane} lies at t = {} units, beyond the interval's end {}: only \
              the near child, node {near}",
             short(t),
             short(step.t_exit)
         ),
-        (Way::Near, None) => format!(
+        (Children::Near, None) => format!(
             "the ray runs along the plane {axis} = {plane}, on its near side: only node {near}"
         ),
-        (Way::Far, Some(t)) => format!(
+        (Children::Far, Some(t)) => format!(
             "the plane {axis} = {plane} lies at t = {} units, before the interval's begin {}: only \
              the far child, node {far}",
             short(t),
             short(step.t_enter)
         ),
-        (Way::Far, None) => format!(
+        (Children::Far, None) => format!(
             "the ray runs along the plane {axis} = {plane}, on its far side: only node {far}"
         ),
-        (Way::Both, Some(t)) => format!(
+        (Children::Both, Some(t)) => format!(
             "the plane {axis} = {plane} lies at t = {} units, inside the interval {between}: the \
              near child, node {near}, first; the far child, node {far}, waits",
             short(t)
         ),
-        (Way::Both, None) => format!(
+        (Children::Both, None) => format!(
             "the ray runs inside the plane {axis} = {plane}: both children, node {near} first; \
              node {far} waits"
         ),
@@ -99,7 +99,7 @@ pub fn why(step: &InnerStep) -> String {
 /// What happened in a leaf.
 pub fn in_leaf(scene: &Scene, leaf: &LeafStep) -> String {
     if leaf.objects == 0 {
-        return format!("empty ({}); {}", leaf.stop.text(), leaf.after.text());
+        return format!("empty ({}); {}", leaf.stop.text(), leaf.outcome.text());
     }
     let hits: Vec<String> = leaf
         .tests
@@ -126,7 +126,7 @@ pub fn in_leaf(scene: &Scene, leaf: &LeafStep) -> String {
             "intersection test",
             "intersection tests"
         ),
-        leaf.after.text()
+        leaf.outcome.text()
     )
 }
 

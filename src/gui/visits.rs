@@ -4,7 +4,7 @@
 use super::picture_pass::{PicturePass, Standing};
 use super::state::Current;
 use super::symbol::grouped;
-use crate::trace::{Visits, thread_pool, visits_pass};
+use crate::trace::{Visits, count_visits, thread_pool};
 use crate::worker::PIXEL_COUNTS_LIMIT;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -58,7 +58,7 @@ impl VisitsPass {
         let (scene, tree) = (Arc::clone(&shown.scene), Arc::clone(&shown.tree));
         self.get(current, resting, ctx, move |progress| {
             let pool = thread_pool(render.threads)?;
-            let visits = visits_pass(&scene, &tree, &render, &pool, progress)?;
+            let visits = count_visits(&scene, &tree, &render, &pool, progress)?;
             let leaves = visits.leaves_by_visits(&tree);
             Ok(PictureVisits { visits, leaves })
         })

@@ -237,7 +237,7 @@ fn subject(block: &Block, raw: &RawStep, folder: Option<&Path>) -> Result<Subjec
                 at: Vec3::from(raw_camera.at),
                 up: Vec3::from(raw_camera.up),
                 angle: raw_camera.angle,
-                hither: 1.0,
+                near: 1.0,
                 resolution: raw.size,
             };
             camera.frame().map_err(|error| error.to_string())?;

@@ -6,8 +6,8 @@ use crate::progress::{Cancelled, Progress};
 use crate::scene::{Camera, Scene};
 use crate::structure::{BuildError, BuildSettings, MaxDepth, Tree, build};
 use crate::trace::{
-    ChosenPrecision, CountedPass, CountedTile, Picture, RayKind, RenderError, RenderSettings,
-    Tally, TimedPass, counted_pass, thread_pool, timed_pass,
+    ChosenPrecision, CountedRender, CountedTile, Picture, RayKind, RenderError, RenderSettings,
+    Tally, TimedRender, render_counted, render_timed, thread_pool,
 };
 use cpu_time::ThreadTime;
 use rayon::ThreadPool;
@@ -80,9 +80,9 @@ pub struct Measurement {
     /// Construction of the tree.
     pub building: Times,
     /// The timed pass.
-    pub rendering: Option<TimedPass>,
+    pub rendering: Option<TimedRender>,
     /// The counted pass.
-    pub counted: Option<CountedPass>,
+    pub counted: Option<CountedRender>,
 }
 
 impl Measurement {
@@ -208,7 +208,7 @@ fn measure_with(
     let tree = tree?;
     let mut measurement = Measurement::of_tree(scene, &tree, building, render_settings);
     let picture = Mutex::new(Picture::new(render_settings.width, render_settings.height));
-    measurement.rendering = Some(timed_pass(
+    measurement.rendering = Some(render_timed(
         scene,
         &tree,
         render_settings,
@@ -220,7 +220,7 @@ fn measure_with(
             picture.add_tile(tile, 0, colors);
         },
     )?);
-    measurement.counted = Some(counted_pass(
+    measurement.counted = Some(render_counted(
         scene,
         &tree,
         render_settings,

@@ -177,10 +177,10 @@ parameters! {
     "T_TT", "traversal time", Ours T Seconds,
         "CPU time of walking the same rays through the tree to their known ends, without tests and \
          shading.", "",
-        |m| m.counted.map(|c| c.walking.as_secs_f64());
+        |m| m.counted.map(|c| c.traversal.as_secs_f64());
     "T_TT/T_TR", "traversal share", Ours T Percent,
         "Share of the render time that goes into traversing the tree.", "T_TT / T_TR",
-        |m| ratio(m.counted?.walking.as_secs_f64(), m.rendering?.cpu.as_secs_f64());
+        |m| ratio(m.counted?.traversal.as_secs_f64(), m.rendering?.cpu.as_secs_f64());
     "T_CB_WALL", "build time on the wall", Ours T Seconds,
         "Time on the wall clock of building the tree.", "",
         |m| Some(m.building.wall.as_secs_f64());

@@ -2,7 +2,7 @@
 //! ray did. A figure is one entry of [`RAY_FIGURES`].
 
 use super::{Measurement, Unit};
-use crate::trace::{MostOfARay, RayKind, Tally};
+use crate::trace::{RayKind, RayMaxima, Tally};
 
 /// A figure of the rays of one kind.
 pub struct RayFigure {
@@ -13,7 +13,7 @@ pub struct RayFigure {
     pub unit: Unit,
     /// What it means, in a sentence.
     pub meaning: &'static str,
-    value: fn(&Tally, &MostOfARay) -> Option<f64>,
+    value: fn(&Tally, &RayMaxima) -> Option<f64>,
 }
 
 impl RayFigure {
@@ -23,7 +23,7 @@ impl RayFigure {
         let counted = measurement.counted.as_ref()?;
         (self.value)(
             &counted.tallies[kind as usize],
-            &counted.most[kind as usize],
+            &counted.maxima[kind as usize],
         )
     }
 }

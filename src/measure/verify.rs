@@ -8,7 +8,7 @@ use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
 use crate::structure::{BuildError, BuildSettings, Method, Tree, build};
 use crate::trace::{
-    Batch, Hit, RayKind, RayTracer, RenderError, RenderSettings, Shading, Timed, tiles,
+    Batch, Hit, RayKind, RayTracer, RenderError, RenderSettings, ScalarKernel, Shading, tiles,
     trace_samples,
 };
 use rayon::prelude::*;
@@ -80,7 +80,7 @@ const EXAMPLES: usize = 5;
 
 /// Keeps the rays that the renderer asks about.
 struct Recorder<'a> {
-    tracer: Timed<'a>,
+    tracer: ScalarKernel<'a>,
     sample: RaySample,
 }
 
@@ -125,7 +125,7 @@ pub fn sample_rays(
                 .map(|tile| {
                     let pixels: Vec<_> = (0..tile.len() as u32).map(|i| tile.pixel(i)).collect();
                     let mut recorder = Recorder {
-                        tracer: Timed::new(tree, shading.shapes, progress),
+                        tracer: ScalarKernel::new(tree, shading.shapes, progress),
                         sample: RaySample::default(),
                     };
                     trace_samples(&shading, &pixels, sample, &mut recorder, &mut Vec::new());
@@ -178,7 +178,7 @@ pub fn answer(
     pool.install(|| {
         for kind in RayKind::ALL {
             let chunks = sample.rays[kind as usize].par_chunks(CHUNK).map(|rays| {
-                let mut tracer = Timed::new(tree, shapes, progress);
+                let mut tracer = ScalarKernel::new(tree, shapes, progress);
                 let batch = Batch {
                     kind,
                     rays,
@@ -217,7 +217,7 @@ pub fn unsplit(scene: &Scene, progress: &Progress) -> Result<Tree, BuildError> {
 /// What a tree says of one ray, in `f64`.
 pub fn ask(scene: &Scene, tree: &Tree, kind: RayKind, ray: &Ray) -> Answer {
     let (shapes, progress) = (scene.shapes(Precision::F64), Progress::new());
-    let mut tracer = Timed::new(tree, shapes, &progress);
+    let mut tracer = ScalarKernel::new(tree, shapes, &progress);
     let batch = Batch {
         kind,
         rays: std::slice::from_ref(ray),

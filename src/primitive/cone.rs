@@ -244,7 +244,7 @@ impl Shape for Cone {
     }
 
     /// The larger diameter or the length of the side, whichever is less.
-    fn breadth(&self) -> f64 {
+    fn min_width(&self) -> f64 {
         let slant = self.length().hypot(self.apex_radius - self.base_radius);
         slant.min(2.0 * self.base_radius.max(self.apex_radius))
     }

@@ -24,7 +24,7 @@ pub use packed_ray::PackedRay;
 pub use polygon::Polygon;
 pub use precision::Precision;
 pub(crate) use shapes::with_array;
-pub use shapes::{Arrays, Frailest, Shapes};
+pub use shapes::{Arrays, Shapes, ThinnestObject};
 pub use sphere::Sphere;
 pub use triangle::Triangle;
 pub use unit_frame::UnitFrame;
@@ -55,7 +55,7 @@ pub trait Shape: Send + Sync {
 
     /// The surface's least width, a length: numbers must tell it from 0 to tell the object from a
     /// line or a point. 0 for a point.
-    fn breadth(&self) -> f64;
+    fn min_width(&self) -> f64;
 
     /// Bytes that the object takes, with what it points to.
     fn bytes(&self) -> usize
@@ -189,8 +189,8 @@ impl Shape for Primitive {
         each_kind!(self, shape => shape.surface(ray, t))
     }
 
-    fn breadth(&self) -> f64 {
-        each_kind!(self, shape => shape.breadth())
+    fn min_width(&self) -> f64 {
+        each_kind!(self, shape => shape.min_width())
     }
 
     fn bytes(&self) -> usize {

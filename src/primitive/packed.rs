@@ -34,7 +34,7 @@ pub trait Form: Sized + Send + Sync {
 
     /// [`Form::intersect`] without its filter, for a ray that may hit. A packed object's ray is that of
     /// a [`PackedRay`] in `f64`.
-    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64>;
+    fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64>;
 
     /// The largest distance (a length of the frame) between the form and the object, and between a
     /// point of it and the same point as `f32`; 0 where nothing is rounded.
@@ -58,7 +58,7 @@ impl<S: Shape + Clone> Form for S {
     }
 
     #[inline(always)]
-    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+    fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         Shape::intersect(self, ray, t_max)
     }
 
@@ -123,11 +123,11 @@ impl Form for PackedSphere {
         if self.is_missed_by(ray) {
             return None;
         }
-        self.settle(&ray.wide, t_max)
+        self.intersect_exact(&ray.widened, t_max)
     }
 
     #[inline(always)]
-    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+    fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let sphere = Sphere {
             center: self.center.as_dvec3(),
             radius: f64::from(self.radius),
@@ -152,7 +152,7 @@ pub struct PackedTriangle {
 impl PackedTriangle {
     /// Where a ray from `origin` meets a triangle with these vertices, NaN where it does not: for
     /// coordinates in cyclic order with the axis of the direction's largest component last. With
-    /// [`PackedTriangle::settled`] it is [`Form::settle`].
+    /// [`PackedTriangle::round_hit`] it is [`Form::intersect_exact`].
     #[inline(always)]
     pub(crate) fn crossing_turned(
         vertices: [Vec3; 3],
@@ -168,7 +168,7 @@ impl PackedTriangle {
     /// A distance of [`PackedTriangle::crossing_turned`] rounded, if it is at most `t_max` then; NaN if
     /// not. Without branches.
     #[inline(always)]
-    pub(crate) fn settled(crossing: f64, t_max: f64) -> f64 {
+    pub(crate) fn round_hit(crossing: f64, t_max: f64) -> f64 {
         let t = f64::from(crossing as f32);
         let within = (t <= t_max) & (crossing <= t_max * UP);
         select_unpredictable(within, t, f64::NAN)
@@ -206,11 +206,11 @@ impl Form for PackedTriangle {
         if self.is_missed_by(ray) {
             return None;
         }
-        self.settle(&ray.wide, t_max)
+        self.intersect_exact(&ray.widened, t_max)
     }
 
     #[inline(always)]
-    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+    fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let triangle = Triangle {
             vertices: self.vertices.map(|v| v.as_dvec3()),
             normals: None,
@@ -273,11 +273,11 @@ impl Form for PackedPolygon {
         if self.is_missed_by(ray) {
             return None;
         }
-        self.settle(&ray.wide, t_max)
+        self.intersect_exact(&ray.widened, t_max)
     }
 
     #[inline(always)]
-    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+    fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let t = self.crossing(ray).filter(|&t| ray.t_min <= t)?;
         rounded(t, t_max)
     }
@@ -428,11 +428,11 @@ impl Form for PackedCone {
         if self.is_missed_by(ray) {
             return None;
         }
-        self.settle(&ray.wide, t_max)
+        self.intersect_exact(&ray.widened, t_max)
     }
 
     #[inline(always)]
-    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+    fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let side = self.side();
         rounded(side.intersect(ray, t_max * UP)?, t_max)
     }
@@ -485,8 +485,8 @@ impl Form for PackedPrimitive {
     }
 
     #[inline]
-    fn settle(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        each_kind!(self, form => form.settle(ray, t_max))
+    fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+        each_kind!(self, form => form.intersect_exact(ray, t_max))
     }
 
     fn rounding(&self) -> f64 {
@@ -548,7 +548,7 @@ mod tests {
                 let Some(ray) = PackedRay::new(&frame, &ray) else {
                     continue;
                 };
-                let wide = &ray.wide;
+                let wide = &ray.widened;
                 let far = f64::INFINITY;
                 let (hit, missed) = match k {
                     0 => {

@@ -9,7 +9,7 @@ use glam::Vec3 as Point;
 pub struct PackedRay {
     pub(crate) frame: UnitFrame,
     /// The same numbers widened.
-    pub(crate) wide: Ray,
+    pub(crate) widened: Ray,
     pub(super) origin: Point,
     pub(super) direction: Point,
     /// 1 over the square of the direction's length.
@@ -126,7 +126,7 @@ impl PackedRay {
             axis,
             shear: [turned.x / turned.z, turned.y / turned.z],
             reach: 0.5 + framed.origin.abs().max_element(),
-            wide: Ray {
+            widened: Ray {
                 origin: framed.origin.as_dvec3(),
                 direction: direction.as_dvec3(),
                 t_min: f64::from(framed.t_min),

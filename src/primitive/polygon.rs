@@ -377,7 +377,7 @@ impl Shape for Polygon {
     }
 
     /// The area over the bounds' longest edge, which is at most the width.
-    fn breadth(&self) -> f64 {
+    fn min_width(&self) -> f64 {
         let first = self.vertices[0];
         let size = self.bounds.size().max_element();
         let fan = self.vertices.windows(2).map(|edge| {

@@ -16,16 +16,16 @@ pub enum Shapes {
         frame: UnitFrame,
         arrays: Arrays<PackedSphere, PackedTriangle, PackedPolygon, PackedCone, PackedPrimitive>,
         /// `None` without objects that have a width.
-        frailest: Option<Frailest>,
+        thinnest: Option<ThinnestObject>,
     },
 }
 
 /// The object that rounding changes most, by its width.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frailest {
+pub struct ThinnestObject {
     pub object: u32,
-    /// Its width ([`super::Shape::breadth`]) over its rounding ([`Shapes::rounding`]).
-    pub breadth: f64,
+    /// Its width ([`super::Shape::min_width`]) over its rounding ([`Shapes::rounding`]).
+    pub min_width: f64,
 }
 
 /// The array of all objects. A scene of one kind runs without a choice of kind per test.
@@ -111,7 +111,7 @@ impl Shapes {
                 Shapes::F32 {
                     frame,
                     arrays,
-                    frailest: frailest(objects, roundings),
+                    thinnest: thinnest(objects, roundings),
                 }
             }
         }
@@ -151,11 +151,11 @@ impl Shapes {
 
 /// The object with the least width for its rounding. Objects without any width, such as a sphere of
 /// radius 0, lose nothing.
-fn frailest(objects: &[Primitive], roundings: Vec<f64>) -> Option<Frailest> {
+fn thinnest(objects: &[Primitive], roundings: Vec<f64>) -> Option<ThinnestObject> {
     let widths = objects.iter().zip(roundings).zip(0..);
     let frail = widths.filter_map(|((shape, rounding), object)| {
-        let breadth = shape.breadth() / rounding;
-        (breadth > 0.0).then_some(Frailest { object, breadth })
+        let min_width = shape.min_width() / rounding;
+        (min_width > 0.0).then_some(ThinnestObject { object, min_width })
     });
-    frail.min_by(|a, b| a.breadth.total_cmp(&b.breadth))
+    frail.min_by(|a, b| a.min_width.total_cmp(&b.min_width))
 }

@@ -80,7 +80,7 @@ impl Shape for Sphere {
     }
 
     /// The diameter.
-    fn breadth(&self) -> f64 {
+    fn min_width(&self) -> f64 {
         2.0 * self.radius
     }
 

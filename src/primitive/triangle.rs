@@ -181,7 +181,7 @@ impl Shape for Triangle {
     }
 
     /// The height over the longest edge.
-    fn breadth(&self) -> f64 {
+    fn min_width(&self) -> f64 {
         let [a, b, c] = self.vertices;
         let longest = (b - a).length().max((c - b).length()).max((a - c).length());
         self.normal_and_flatness().1 * longest

@@ -27,7 +27,7 @@ impl<F: Form> LeafVisitor for All<'_, F> {
 }
 
 /// The objects that a ray meets, each once and in ascending order; `found` is overwritten.
-pub fn objects_along(
+pub fn objects_on_ray(
     tree: &Tree,
     shapes: &Shapes,
     ray: &Ray,

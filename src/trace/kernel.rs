@@ -1,7 +1,7 @@
 //! Kernels over batches of rays: closest hit and any hit, timed or counted.
 
 use super::space::{Inside, Space, World};
-use super::{LeafVisitor, MostOfARay, PixelTallies, Probe, RayCounts, Scratch, Tally};
+use super::{LeafVisitor, PixelTallies, Probe, RayCounts, RayMaxima, Scratch, Tally};
 use crate::geometry::Ray;
 use crate::primitive::{Form, Shapes};
 use crate::progress::Progress;
@@ -287,7 +287,7 @@ pub fn any_hit<P: Probe>(
 }
 
 /// [`closest_hit`] by testing every object, without a tree.
-pub fn closest_of_all(shapes: &Shapes, ray: &Ray) -> Hit {
+pub fn closest_hit_brute_force(shapes: &Shapes, ray: &Ray) -> Hit {
     with_shapes!(shapes, space, objects => {
         let Some(ray) = space.enter(ray) else {
             return Hit::MISS;
@@ -304,7 +304,7 @@ pub fn closest_of_all(shapes: &Shapes, ray: &Ray) -> Hit {
 }
 
 /// [`any_hit`] by testing every object, without a tree.
-pub fn any_of_all(shapes: &Shapes, ray: &Ray) -> bool {
+pub fn any_hit_brute_force(shapes: &Shapes, ray: &Ray) -> bool {
     with_shapes!(shapes, space, objects => {
         space.enter(ray).is_some_and(|ray| {
             let [_, t_max] = ray.interval();
@@ -314,16 +314,16 @@ pub fn any_of_all(shapes: &Shapes, ray: &Ray) -> bool {
 }
 
 /// The kernel whose time counts: it counts nothing.
-pub struct Timed<'a> {
+pub struct ScalarKernel<'a> {
     tree: &'a Tree,
     shapes: &'a Shapes,
     progress: &'a Progress,
     scratch: Scratch,
 }
 
-impl<'a> Timed<'a> {
+impl<'a> ScalarKernel<'a> {
     pub fn new(tree: &'a Tree, shapes: &'a Shapes, progress: &'a Progress) -> Self {
-        Timed {
+        ScalarKernel {
             tree,
             shapes,
             progress,
@@ -348,7 +348,7 @@ impl<'a> Timed<'a> {
     }
 }
 
-impl RayTracer for Timed<'_> {
+impl RayTracer for ScalarKernel<'_> {
     fn closest_hits(&mut self, batch: Batch<'_>, hits: &mut Vec<Hit>) {
         self.ask_all::<WhatIsNearest>(batch, hits);
     }
@@ -360,7 +360,7 @@ impl RayTracer for Timed<'_> {
 
 /// The kernel whose counts count: its own time means nothing. Between its batches it walks the same
 /// rays through the tree once more, by the timed traversal without tests, and takes that time.
-pub struct Counting<'a> {
+pub struct CountingKernel<'a> {
     tree: &'a Tree,
     shapes: &'a Shapes,
     progress: &'a Progress,
@@ -369,25 +369,25 @@ pub struct Counting<'a> {
     /// What the rays of each kind did, by [`RayKind`].
     pub tallies: [Tally; 4],
     /// The most that a ray of each kind did, by [`RayKind`].
-    pub most: [MostOfARay; 4],
+    pub maxima: [RayMaxima; 4],
     /// CPU time of walking all rays to their known ends, without tests and shading.
-    pub walking: Duration,
+    pub traversal: Duration,
     /// The same for every pixel of the batches.
     pub pixels: Vec<PixelTallies>,
 }
 
-impl<'a> Counting<'a> {
+impl<'a> CountingKernel<'a> {
     /// A kernel for batches of rays that belong to `pixels` pixels.
     pub fn new(tree: &'a Tree, shapes: &'a Shapes, progress: &'a Progress, pixels: usize) -> Self {
-        Counting {
+        CountingKernel {
             tree,
             shapes,
             progress,
             scratch: Scratch::default(),
             counts: Vec::new(),
             tallies: Default::default(),
-            most: Default::default(),
-            walking: Duration::ZERO,
+            maxima: Default::default(),
+            traversal: Duration::ZERO,
             pixels: vec![PixelTallies::default(); pixels],
         }
     }
@@ -413,7 +413,7 @@ impl<'a> Counting<'a> {
         for ((&pixel, counts), &answer) in answered {
             let hit = Q::is_hit(answer);
             self.tallies[batch.kind as usize].add(counts, hit);
-            self.most[batch.kind as usize].add(counts);
+            self.maxima[batch.kind as usize].add(counts);
             self.pixels[pixel as usize][batch.kind as usize].add(counts, hit);
         }
         self.walk(batch.rays);
@@ -439,11 +439,11 @@ impl<'a> Counting<'a> {
             }
             std::hint::black_box(&walk.leaves);
         }
-        self.walking += start.elapsed();
+        self.traversal += start.elapsed();
     }
 }
 
-impl RayTracer for Counting<'_> {
+impl RayTracer for CountingKernel<'_> {
     fn closest_hits(&mut self, batch: Batch<'_>, hits: &mut Vec<Hit>) {
         self.ask_all::<WhatIsNearest>(batch, hits);
     }

@@ -49,7 +49,7 @@ real!(f64, wide);
 
 /// Where a ray meets a plane.
 #[derive(Clone, Copy)]
-pub(crate) struct Meeting<T> {
+pub(crate) struct PlaneCrossing<T> {
     /// Infinite or NaN where it runs along it.
     pub(crate) t: T,
     /// The ray certainly ends before the plane if it ends before this.
@@ -62,17 +62,17 @@ pub(crate) struct Meeting<T> {
 }
 
 /// A ray in the coordinates of a tree's root cell.
-pub(crate) trait Line {
+pub(crate) trait TraversalRay {
     type T: Real;
 
     /// Whether of two far children that wait, what matters of the one that waits longer never lies
     /// nearer. It may where a ray that runs along a plane has both sides of it to visit.
-    const WAITS_IN_ORDER: bool;
+    const PENDING_IN_ORDER: bool;
 
     /// Where the ray is within the root cell and the two distances; `None` where it misses it.
-    fn within_root(&self, interval: [f64; 2]) -> Option<(Self::T, Self::T)>;
+    fn clip_to_root(&self, interval: [f64; 2]) -> Option<(Self::T, Self::T)>;
 
-    fn meet(&self, axis: usize, plane: f32) -> Meeting<Self::T>;
+    fn crossing(&self, axis: usize, plane: f32) -> PlaneCrossing<Self::T>;
 
     /// Whether the ray runs towards lower coordinates.
     fn is_backward(&self, axis: usize) -> bool;
@@ -107,17 +107,17 @@ fn beyond_hit(t: f64) -> f64 {
 }
 
 /// In `f64`: the tree and the objects were decided in the same numbers, only the distance rounds.
-pub(crate) struct WideLine {
+pub(crate) struct TraversalRayF64 {
     origin: [f64; 3],
     direction: [f64; 3],
     inverse: [f64; 3],
 }
 
-impl WideLine {
+impl TraversalRayF64 {
     #[inline(always)]
     pub(crate) fn new(tree: &Tree, ray: &Ray) -> Self {
         let direction = tree.frame().direction_to_local(ray.direction).to_array();
-        WideLine {
+        TraversalRayF64 {
             origin: tree.frame().point_to_local(ray.origin).to_array(),
             direction,
             inverse: direction.map(|d| 1.0 / d),
@@ -131,13 +131,13 @@ impl WideLine {
     }
 }
 
-impl Line for WideLine {
+impl TraversalRay for TraversalRayF64 {
     type T = f64;
     // What a ray meets in a plane is in the leaves of both sides.
-    const WAITS_IN_ORDER: bool = true;
+    const PENDING_IN_ORDER: bool = true;
 
     #[inline(always)]
-    fn within_root(&self, [t_min, t_max]: [f64; 2]) -> Option<(f64, f64)> {
+    fn clip_to_root(&self, [t_min, t_max]: [f64; 2]) -> Option<(f64, f64)> {
         // Ends may lie on hits, and be known no better.
         let (mut t_enter, mut t_exit) = (-beyond_hit(-t_min), beyond_hit(t_max));
         for k in 0..3 {
@@ -155,9 +155,9 @@ impl Line for WideLine {
     }
 
     #[inline(always)]
-    fn meet(&self, axis: usize, plane: f32) -> Meeting<f64> {
+    fn crossing(&self, axis: usize, plane: f32) -> PlaneCrossing<f64> {
         let t = (f64::from(plane) - self.origin[axis]) * self.inverse[axis];
-        Meeting {
+        PlaneCrossing {
             t,
             surely_before: t,
             surely_behind: t,
@@ -186,7 +186,7 @@ impl Line for WideLine {
 /// rounds (origin, plane, difference, inverse and product: less than 4 ε of the coordinates that take
 /// part). After Ize, "Robust BVH ray traversal" (JCGT 2(2), 2013), with absolute in place of relative
 /// bounds.
-pub(super) struct NarrowLine {
+pub(super) struct TraversalRayF32 {
     origin: [f32; 3],
     /// Of at least 10⁻²⁰, so that the inverse is finite: over the few lengths that matter, a ray that
     /// runs along a plane then stays within its thickness, or well off it.
@@ -197,7 +197,7 @@ pub(super) struct NarrowLine {
     thick_along: [f32; 3],
 }
 
-impl NarrowLine {
+impl TraversalRayF32 {
     /// The line of a ray in the coordinates of a frame.
     #[inline(always)]
     pub(super) fn new(tree: &Tree, frame: &UnitFrame, ray: &Ray) -> Self {
@@ -215,7 +215,7 @@ impl NarrowLine {
             .to_array()
             .map(|d| 1.0 / d.abs().max(LEAST).copysign(d));
         let thick = thick.to_array();
-        NarrowLine {
+        TraversalRayF32 {
             origin: origin.to_array(),
             inverse,
             thick,
@@ -224,13 +224,13 @@ impl NarrowLine {
     }
 }
 
-impl Line for NarrowLine {
+impl TraversalRay for TraversalRayF32 {
     type T = f32;
     // What it meets within a plane's thickness may be in the leaf of either side alone.
-    const WAITS_IN_ORDER: bool = false;
+    const PENDING_IN_ORDER: bool = false;
 
     #[inline(always)]
-    fn within_root(&self, [t_min, t_max]: [f64; 2]) -> Option<(f32, f32)> {
+    fn clip_to_root(&self, [t_min, t_max]: [f64; 2]) -> Option<(f32, f32)> {
         let (mut t_enter, mut t_exit) = (t_min as f32, t_max as f32);
         for k in 0..3 {
             let (origin, inverse) = (self.origin[k], self.inverse[k]);
@@ -243,10 +243,10 @@ impl Line for NarrowLine {
     }
 
     #[inline(always)]
-    fn meet(&self, axis: usize, plane: f32) -> Meeting<f32> {
+    fn crossing(&self, axis: usize, plane: f32) -> PlaneCrossing<f32> {
         let t = (plane - self.origin[axis]) * self.inverse[axis];
         let (first, last) = (t - self.thick_along[axis], t + self.thick_along[axis]);
-        Meeting {
+        PlaneCrossing {
             t,
             surely_before: first,
             surely_behind: last,

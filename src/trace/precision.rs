@@ -1,7 +1,7 @@
 //! Which precision a picture is traced in, and whether `f32` can hold the scene as the camera sees it.
 
 use super::RenderSettings;
-use crate::primitive::{Frailest, Precision, Shape, Shapes};
+use crate::primitive::{Precision, Shape, Shapes, ThinnestObject};
 use crate::scene::{Camera, Scene};
 use serde::{Deserialize, Serialize};
 
@@ -46,9 +46,9 @@ const FEWEST_ROUNDINGS: f64 = 16.0;
 pub enum NotInF32 {
     #[error(
         "object {} is {:.1} times as wide as f32 rounds its coordinates, {FEWEST_ROUNDINGS} are needed",
-        .0.object, .0.breadth
+        .0.object, .0.min_width
     )]
-    Object(Frailest),
+    Object(ThinnestObject),
     /// How wide a pixel is, over the rounding of a hit.
     #[error(
         "so near, a pixel is {0:.1} times as wide as f32 rounds a hit, {FEWEST_ROUNDINGS} are needed"
@@ -105,9 +105,9 @@ pub fn fits_f32(scene: &Scene, camera: &Camera, height: u32) -> Result<(), NotIn
 pub fn objects_fit_f32(scene: &Scene) -> Result<(), NotInF32> {
     match scene.shapes(Precision::F32) {
         Shapes::F32 {
-            frailest: Some(frailest),
+            thinnest: Some(thinnest),
             ..
-        } if frailest.breadth < FEWEST_ROUNDINGS => Err(NotInF32::Object(*frailest)),
+        } if thinnest.min_width < FEWEST_ROUNDINGS => Err(NotInF32::Object(*thinnest)),
         _ => Ok(()),
     }
 }

@@ -7,7 +7,7 @@ use std::ops::AddAssign;
 /// Which children of an inner node a ray goes on to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Way {
+pub enum Children {
     /// Only the child that the ray meets first: it ends before the plane.
     Near,
     /// Only the other one: the ray begins behind the plane.
@@ -21,7 +21,7 @@ pub trait Probe {
     /// An inner node is traversed while the ray is between the two distances `within`; it meets the
     /// plane at `t` (infinite or NaN where it runs along it), and the far child, if it goes on to
     /// both, at `t_far`.
-    fn inner(&mut self, node: u32, within: [f64; 2], t: f64, t_far: f64, way: Way);
+    fn inner(&mut self, node: u32, within: [f64; 2], t: f64, t_far: f64, children: Children);
     /// A leaf is visited, while the ray is between the two distances.
     fn leaf(&mut self, node: u32, objects: &[u32], within: [f64; 2]);
     /// An object is tested; `hit` is where the ray meets it before the nearest hit so far.
@@ -31,7 +31,7 @@ pub trait Probe {
 /// Watches nothing: the probe of timed kernels.
 impl Probe for () {
     #[inline(always)]
-    fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Way) {}
+    fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Children) {}
     #[inline(always)]
     fn leaf(&mut self, _: u32, _: &[u32], _: [f64; 2]) {}
     #[inline(always)]
@@ -53,7 +53,7 @@ pub struct RayCounts {
 
 impl Probe for RayCounts {
     #[inline(always)]
-    fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Way) {
+    fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Children) {
         self.inner_nodes += 1;
     }
 
@@ -71,7 +71,7 @@ impl Probe for RayCounts {
 
 /// The most that any one ray did; every count may be that of another ray.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct MostOfARay {
+pub struct RayMaxima {
     /// Inner nodes and leaves traversed.
     pub nodes: u32,
     /// Inner nodes traversed.
@@ -86,10 +86,10 @@ pub struct MostOfARay {
     pub tests: u32,
 }
 
-impl MostOfARay {
+impl RayMaxima {
     /// Takes in another ray.
     pub fn add(&mut self, counts: &RayCounts) {
-        *self = self.merge(MostOfARay {
+        *self = self.merge(RayMaxima {
             nodes: counts.inner_nodes + counts.leaves,
             inner_nodes: counts.inner_nodes,
             leaves: counts.leaves,
@@ -100,8 +100,8 @@ impl MostOfARay {
     }
 
     /// The most of both.
-    pub fn merge(self, other: MostOfARay) -> MostOfARay {
-        MostOfARay {
+    pub fn merge(self, other: RayMaxima) -> RayMaxima {
+        RayMaxima {
             nodes: self.nodes.max(other.nodes),
             inner_nodes: self.inner_nodes.max(other.inner_nodes),
             leaves: self.leaves.max(other.leaves),

@@ -3,8 +3,8 @@
 use super::kernel::{any_hit, closest_hit};
 use super::whitted::spawn;
 use super::{
-    Hit, PixelTallies, Probe, RayCounts, RayKind, RenderError, RenderSettings, Scratch, Shading,
-    Way,
+    Children, Hit, PixelTallies, Probe, RayCounts, RayKind, RenderError, RenderSettings, Scratch,
+    Shading,
 };
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
 use crate::primitive::Shapes;
@@ -28,7 +28,8 @@ pub struct InnerStep {
     pub t_plane: Option<f64>,
     /// Where the far child begins, widened by rounding, if the ray goes on to both.
     pub t_far: f64,
-    pub way: Way,
+    #[serde(rename = "way")]
+    pub children: Children,
     /// The child that the ray meets first, and the other.
     pub near: u32,
     pub far: u32,
@@ -45,7 +46,7 @@ pub struct TestStep {
 /// Why a walk went on after a leaf, or ended there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum After {
+pub enum LeafOutcome {
     /// Nothing is hit so far: on to the next leaf.
     NothingYet,
     /// The nearest hit so far lies beyond this leaf: the next one may hold a nearer.
@@ -58,15 +59,15 @@ pub enum After {
     NoLeafLeft,
 }
 
-impl After {
+impl LeafOutcome {
     /// One short phrase for people.
     pub const fn text(self) -> &'static str {
         match self {
-            After::NothingYet => "no hit yet: on to the next leaf",
-            After::HitBeyond => "the hit lies beyond this leaf: on to the next",
-            After::HitNearer => "the hit lies before any other leaf: done",
-            After::Blocked => "the light is blocked: done",
-            After::NoLeafLeft => "no leaf is left on the ray: done",
+            LeafOutcome::NothingYet => "no hit yet: on to the next leaf",
+            LeafOutcome::HitBeyond => "the hit lies beyond this leaf: on to the next",
+            LeafOutcome::HitNearer => "the hit lies before any other leaf: done",
+            LeafOutcome::Blocked => "the light is blocked: done",
+            LeafOutcome::NoLeafLeft => "no leaf is left on the ray: done",
         }
     }
 }
@@ -87,7 +88,8 @@ pub struct LeafStep {
     pub t_exit: f64,
     /// In order; a shadow ray ends at its first hit.
     pub tests: Vec<TestStep>,
-    pub after: After,
+    #[serde(rename = "after")]
+    pub outcome: LeafOutcome,
 }
 
 /// One step of a walk through the tree.
@@ -331,7 +333,14 @@ impl Recorder<'_> {
 }
 
 impl Probe for Recorder<'_> {
-    fn inner(&mut self, node: u32, [t_enter, t_exit]: [f64; 2], t: f64, t_far: f64, way: Way) {
+    fn inner(
+        &mut self,
+        node: u32,
+        [t_enter, t_exit]: [f64; 2],
+        t: f64,
+        t_far: f64,
+        children: Children,
+    ) {
         let cell = self.tree.cell_of(node);
         let NodeKind::Inner {
             axis, below, above, ..
@@ -349,7 +358,7 @@ impl Probe for Recorder<'_> {
             t_exit,
             t_plane: t.is_finite().then_some(t),
             t_far,
-            way,
+            children,
             // Set by `explain`, once the next step is known.
             near: below,
             far: above,
@@ -370,7 +379,7 @@ impl Probe for Recorder<'_> {
             t_enter,
             t_exit,
             tests: Vec::new(),
-            after: After::NothingYet,
+            outcome: LeafOutcome::NothingYet,
         }));
     }
 
@@ -393,7 +402,7 @@ fn explain(steps: &mut [Step], kind: RayKind) {
                 let entered_above = next == Some(step.far);
                 // `near` holds the child below, `far` the one above; the next step tells which the
                 // ray entered, and the way whether that is its near or its far child.
-                if entered_above == (step.way != Way::Far) {
+                if entered_above == (step.children != Children::Far) {
                     std::mem::swap(&mut step.near, &mut step.far);
                 }
             }
@@ -403,12 +412,12 @@ fn explain(steps: &mut [Step], kind: RayKind) {
                     .iter()
                     .filter_map(|test| test.hit)
                     .fold(nearest, f64::min);
-                leaf.after = match (more_leaves, nearest.is_finite()) {
-                    (false, true) if kind == RayKind::Shadow => After::Blocked,
-                    (false, true) => After::HitNearer,
-                    (false, false) => After::NoLeafLeft,
-                    (true, true) => After::HitBeyond,
-                    (true, false) => After::NothingYet,
+                leaf.outcome = match (more_leaves, nearest.is_finite()) {
+                    (false, true) if kind == RayKind::Shadow => LeafOutcome::Blocked,
+                    (false, true) => LeafOutcome::HitNearer,
+                    (false, false) => LeafOutcome::NoLeafLeft,
+                    (true, true) => LeafOutcome::HitBeyond,
+                    (true, false) => LeafOutcome::NothingYet,
                 };
             }
         }

@@ -1,8 +1,8 @@
 //! Whole passes over a picture: a coarse preview, the timed pass, the counted pass.
 
 use super::{
-    Counting, MostOfARay, PixelTallies, RayKind, RenderSettings, Scratch, Shading, Tally, Tile,
-    Timed, TimedKernel, objects_along, tiles, trace_samples,
+    CountingKernel, PixelTallies, RayKind, RayMaxima, RenderSettings, ScalarKernel, Scratch,
+    Shading, Tally, Tile, TimedKernel, objects_on_ray, tiles, trace_samples,
 };
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
@@ -63,7 +63,7 @@ pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, RenderError> {
 
 /// What one timed pass took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct TimedPass {
+pub struct TimedRender {
     /// CPU time of all threads together, `T_TR`.
     pub cpu: Duration,
     /// Time on the clock on the wall.
@@ -74,13 +74,13 @@ pub struct TimedPass {
 
 /// What one counted pass counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CountedPass {
+pub struct CountedRender {
     /// By [`RayKind`].
     pub tallies: [Tally; 4],
     /// The most that a single ray did, by [`RayKind`].
-    pub most: [MostOfARay; 4],
+    pub maxima: [RayMaxima; 4],
     /// CPU time of walking all rays to their known ends without tests and shading, `T_TT`.
-    pub walking: Duration,
+    pub traversal: Duration,
     /// Objects met by all primary rays together: `D_COMPX` times the number of primary rays.
     pub objects_met: u64,
 }
@@ -89,22 +89,22 @@ pub struct CountedPass {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CountedTile {
     pub tile: Tile,
-    pub sum: CountedPass,
+    pub sum: CountedRender,
     /// Row by row.
     pub pixels: Vec<PixelTallies>,
     /// Objects that each pixel's primary ray meets, row by row.
     pub depth_complexity: Vec<u32>,
 }
 
-impl CountedPass {
+impl CountedRender {
     /// Both together.
-    pub fn merge(mut self, other: CountedPass) -> CountedPass {
+    pub fn merge(mut self, other: CountedRender) -> CountedRender {
         for kind in RayKind::ALL {
             let kind = kind as usize;
             self.tallies[kind] += other.tallies[kind];
-            self.most[kind] = self.most[kind].merge(other.most[kind]);
+            self.maxima[kind] = self.maxima[kind].merge(other.maxima[kind]);
         }
-        self.walking += other.walking;
+        self.traversal += other.traversal;
         self.objects_met += other.objects_met;
         self
     }
@@ -143,7 +143,7 @@ pub(super) fn over_tiles<R: Send>(
 ///
 /// # Errors
 /// A camera without a view, a resolution out of range, or cancellation.
-pub fn timed_pass(
+pub fn render_timed(
     scene: &Scene,
     tree: &Tree,
     settings: &RenderSettings,
@@ -151,7 +151,7 @@ pub fn timed_pass(
     pool: &rayon::ThreadPool,
     progress: &Progress,
     on_tile: impl Fn(&Tile, &[Vec3]) + Sync,
-) -> Result<TimedPass, RenderError> {
+) -> Result<TimedRender, RenderError> {
     let shading = Shading::new(scene, settings)?;
     // Making the tree ready for the kernel, once a tree, is no part of tracing.
     TimedKernel::new(settings.kernel, scene, tree, shading.shapes, progress);
@@ -175,7 +175,7 @@ pub fn timed_pass(
         |a, b| a + b,
         || Duration::ZERO,
     )?;
-    Ok(TimedPass {
+    Ok(TimedRender {
         cpu,
         wall: start.elapsed(),
         threads: pool.current_num_threads(),
@@ -186,22 +186,22 @@ pub fn timed_pass(
 /// finished tile, from any thread and in any order; they sum to the result.
 ///
 /// # Errors
-/// As [`timed_pass`].
-pub fn counted_pass(
+/// As [`render_timed`].
+pub fn render_counted(
     scene: &Scene,
     tree: &Tree,
     settings: &RenderSettings,
     pool: &rayon::ThreadPool,
     progress: &Progress,
     on_tile: impl Fn(CountedTile) + Sync,
-) -> Result<CountedPass, RenderError> {
+) -> Result<CountedRender, RenderError> {
     let shading = Shading::new(scene, settings)?;
     let pass = over_tiles(
         settings,
         pool,
         progress,
         |&tile, pixels| {
-            let mut tracer = Counting::new(tree, shading.shapes, progress, pixels.len());
+            let mut tracer = CountingKernel::new(tree, shading.shapes, progress, pixels.len());
             trace_samples(&shading, pixels, 0, &mut tracer, &mut Vec::new());
             let (mut scratch, mut found) = (Scratch::default(), Vec::new());
             let depth_complexity: Vec<u32> = pixels
@@ -209,14 +209,14 @@ pub fn counted_pass(
                 .take_while(|_| !progress.is_cancelled())
                 .map(|&(x, y)| {
                     let ray = shading.view.primary_ray(x, y, 0);
-                    objects_along(tree, shading.shapes, &ray, &mut scratch, &mut found);
+                    objects_on_ray(tree, shading.shapes, &ray, &mut scratch, &mut found);
                     found.len() as u32
                 })
                 .collect();
-            let sum = CountedPass {
+            let sum = CountedRender {
                 tallies: tracer.tallies,
-                most: tracer.most,
-                walking: tracer.walking,
+                maxima: tracer.maxima,
+                traversal: tracer.traversal,
                 objects_met: depth_complexity.iter().copied().map(u64::from).sum(),
             };
             if !progress.is_cancelled() {
@@ -229,8 +229,8 @@ pub fn counted_pass(
             }
             sum
         },
-        CountedPass::merge,
-        CountedPass::default,
+        CountedRender::merge,
+        CountedRender::default,
     )?;
     Ok(pass)
 }
@@ -247,7 +247,7 @@ const ROUNDS: u32 = 3;
 /// a few rounds over the tile.
 ///
 /// # Errors
-/// As [`timed_pass`].
+/// As [`render_timed`].
 pub fn pixel_times(
     scene: &Scene,
     tree: &Tree,
@@ -265,7 +265,7 @@ pub fn pixel_times(
         pool,
         progress,
         |_, pixels| {
-            let mut tracer = Timed::new(tree, shading.shapes, progress);
+            let mut tracer = ScalarKernel::new(tree, shading.shapes, progress);
             let mut colors = Vec::new();
             let mut least = vec![f32::INFINITY; pixels.len()];
             for _ in 0..ROUNDS {
@@ -299,7 +299,7 @@ pub fn pixel_times(
 /// colour: a coarse first picture. `on_tile` gets the squares, from any thread.
 ///
 /// # Errors
-/// As [`timed_pass`].
+/// As [`render_timed`].
 pub fn preview(
     scene: &Scene,
     tree: &Tree,

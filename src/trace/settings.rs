@@ -50,7 +50,7 @@ impl Default for RenderSettings {
             d_arec: 4,
             min_contribution: 0.0,
             precision: PrecisionChoice::F64,
-            kernel: KernelChoice::Plain,
+            kernel: KernelChoice::Scalar,
             sampling: Sampling::Center,
             samples: 1,
             threads: 0,

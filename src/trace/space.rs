@@ -1,9 +1,9 @@
 //! The numbers a ray is traced in: those of the world, or those of an `f32` near the scene.
 
-use super::line::{Line, NarrowLine, WideLine};
+use super::line::{TraversalRay, TraversalRayF32, TraversalRayF64};
 use super::through_voxels::through_voxels;
 use super::traverse::traverse;
-use super::{LeafVisitor, Probe, Scratch, Way};
+use super::{Children, LeafVisitor, Probe, Scratch};
 use crate::geometry::Ray;
 use crate::primitive::{PackedRay, UnitFrame};
 use crate::structure::Tree;
@@ -37,7 +37,7 @@ pub(super) trait Inside {
 
 /// Walks as the tree's structure has it.
 #[inline(always)]
-fn walk_line<L: Line, V: LeafVisitor, P: Probe>(
+fn walk_line<L: TraversalRay, V: LeafVisitor, P: Probe>(
     tree: &Tree,
     interval: [f64; 2],
     line: &L,
@@ -82,7 +82,7 @@ impl Inside for Ray {
         visitor: &mut V,
         probe: &mut P,
     ) {
-        let line = WideLine::new(tree, self);
+        let line = TraversalRayF64::new(tree, self);
         walk_line(tree, self.interval(), &line, scratch, visitor, probe);
     }
 }
@@ -99,7 +99,7 @@ impl Space for UnitFrame {
 impl Inside for PackedRay {
     #[inline(always)]
     fn interval(&self) -> [f64; 2] {
-        [self.wide.t_min, self.wide.t_max]
+        [self.widened.t_min, self.widened.t_max]
     }
 
     #[inline(always)]
@@ -115,7 +115,7 @@ impl Inside for PackedRay {
         visitor: &mut V,
         probe: &mut P,
     ) {
-        let line = NarrowLine::new(tree, &self.frame, &self.wide);
+        let line = TraversalRayF32::new(tree, &self.frame, &self.widened);
         let mut probe = InWorld { ray: self, probe };
         walk_line(tree, self.interval(), &line, scratch, visitor, &mut probe);
     }
@@ -129,9 +129,17 @@ struct InWorld<'a, P> {
 
 impl<P: Probe> Probe for InWorld<'_, P> {
     #[inline(always)]
-    fn inner(&mut self, node: u32, [t_enter, t_exit]: [f64; 2], t: f64, t_far: f64, way: Way) {
+    fn inner(
+        &mut self,
+        node: u32,
+        [t_enter, t_exit]: [f64; 2],
+        t: f64,
+        t_far: f64,
+        children: Children,
+    ) {
         let [t_enter, t_exit, t, t_far] = [t_enter, t_exit, t, t_far].map(|t| self.ray.to_world(t));
-        self.probe.inner(node, [t_enter, t_exit], t, t_far, way);
+        self.probe
+            .inner(node, [t_enter, t_exit], t, t_far, children);
     }
 
     #[inline(always)]

@@ -6,12 +6,12 @@
 //! a plane for a while, and visits every voxel that they have in common with the slabs of the other
 //! axes. So no voxel that holds a hit is passed by, and none is visited twice.
 
-use super::line::{Line, Real};
+use super::line::{Real, TraversalRay};
 use super::{LeafVisitor, Probe};
 use crate::structure::{Tree, Voxels};
 
 /// The slabs along an axis that a ray may be in, counted in the order in which it meets them.
-struct Slabs<'a, L: Line> {
+struct Slabs<'a, L: TraversalRay> {
     line: &'a L,
     axis: usize,
     planes: &'a [f32],
@@ -21,7 +21,7 @@ struct Slabs<'a, L: Line> {
     next: L::T,
 }
 
-impl<'a, L: Line> Slabs<'a, L> {
+impl<'a, L: TraversalRay> Slabs<'a, L> {
     /// The slabs where the ray begins.
     #[inline(always)]
     fn new(line: &'a L, axis: usize, planes: &'a [f32], t_enter: L::T, t_exit: L::T) -> Self {
@@ -55,7 +55,8 @@ impl<'a, L: Line> Slabs<'a, L> {
         let Some(last) = self.planes.len().checked_sub(1) else {
             return 0;
         };
-        let [from, to] = [0, last].map(|slab| self.line.meet(self.axis, self.plane(slab)).t.wide());
+        let [from, to] =
+            [0, last].map(|slab| self.line.crossing(self.axis, self.plane(slab)).t.wide());
         let steps = (t.wide() - from) / (to - from) * last as f64;
         // NaN, of a ray along the planes, becomes 0.
         (steps.ceil().max(0.0) as usize).min(last + 1)
@@ -74,7 +75,10 @@ impl<'a, L: Line> Slabs<'a, L> {
     /// Whether the ray at `t` is certainly behind the plane behind a slab.
     #[inline(always)]
     fn is_behind(&self, slab: usize, t: L::T) -> bool {
-        self.line.meet(self.axis, self.plane(slab)).surely_behind < t
+        self.line
+            .crossing(self.axis, self.plane(slab))
+            .surely_behind
+            < t
     }
 
     /// Finds where the slab behind the last is entered, not before `now`.
@@ -82,11 +86,11 @@ impl<'a, L: Line> Slabs<'a, L> {
     fn look_ahead(&mut self, now: L::T, t_exit: L::T) {
         self.next = L::T::of(f64::INFINITY);
         if self.last < self.planes.len() {
-            let meeting = self.line.meet(self.axis, self.plane(self.last));
+            let crossing = self.line.crossing(self.axis, self.plane(self.last));
             // Written so that NaN, of a ray within the plane, enters.
-            let ends_before = meeting.surely_before > t_exit;
+            let ends_before = crossing.surely_before > t_exit;
             if !ends_before {
-                self.next = now.greatest(meeting.first);
+                self.next = now.greatest(crossing.first);
             }
         }
     }
@@ -122,7 +126,7 @@ impl<'a, L: Line> Slabs<'a, L> {
 ///
 /// A ray that misses the root cell visits nothing.
 #[inline(never)]
-pub(super) fn through_voxels<L: Line, V: LeafVisitor, P: Probe>(
+pub(super) fn through_voxels<L: TraversalRay, V: LeafVisitor, P: Probe>(
     tree: &Tree,
     voxels: &Voxels,
     interval: [f64; 2],
@@ -130,7 +134,7 @@ pub(super) fn through_voxels<L: Line, V: LeafVisitor, P: Probe>(
     visitor: &mut V,
     probe: &mut P,
 ) {
-    let Some((t_enter, t_exit)) = line.within_root(interval) else {
+    let Some((t_enter, t_exit)) = line.clip_to_root(interval) else {
         return;
     };
     let references = tree.references();

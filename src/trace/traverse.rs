@@ -5,10 +5,10 @@
 //! interval is widened by more than that whenever a plane bounds it, and a comparison that NaN
 //! could reach is written so that NaN visits both children. Objects within rounding of a plane are
 //! in the leaves of both sides ([`crate::structure::Frame::slack`]). What is widened, and by how much, is
-//! the business of the two [`Line`]s, one a precision.
+//! the business of the two [`TraversalRay`]s, one a precision.
 
-use super::line::{Line, Real};
-use super::{Probe, Way};
+use super::line::{Real, TraversalRay};
+use super::{Children, Probe};
 use crate::structure::Tree;
 
 /// What is done in the leaves a ray visits.
@@ -37,7 +37,7 @@ pub(crate) struct Waiting<T> {
 ///
 /// A ray that misses the root cell visits nothing.
 #[inline]
-pub(crate) fn traverse<L: Line, V: LeafVisitor, P: Probe>(
+pub(crate) fn traverse<L: TraversalRay, V: LeafVisitor, P: Probe>(
     tree: &Tree,
     interval: [f64; 2],
     line: &L,
@@ -45,7 +45,7 @@ pub(crate) fn traverse<L: Line, V: LeafVisitor, P: Probe>(
     visitor: &mut V,
     probe: &mut P,
 ) {
-    let Some((mut t_enter, mut t_exit)) = line.within_root(interval) else {
+    let Some((mut t_enter, mut t_exit)) = line.clip_to_root(interval) else {
         return;
     };
     let nodes = tree.nodes();
@@ -57,32 +57,32 @@ pub(crate) fn traverse<L: Line, V: LeafVisitor, P: Probe>(
         let mut node = nodes[at as usize];
         while !node.is_leaf() {
             let (axis, plane, above) = node.as_inner();
-            let meeting = line.meet(axis, plane);
+            let crossing = line.crossing(axis, plane);
             let (near, far) = if line.is_backward(axis) {
                 (above, at + 1)
             } else {
                 (at + 1, above)
             };
-            let t_far = t_enter.greatest(meeting.first);
-            let way = if meeting.surely_before > t_exit {
-                Way::Near
-            } else if meeting.surely_behind < t_enter {
-                Way::Far
+            let t_far = t_enter.greatest(crossing.first);
+            let children = if crossing.surely_before > t_exit {
+                Children::Near
+            } else if crossing.surely_behind < t_enter {
+                Children::Far
             } else {
-                Way::Both
+                Children::Both
             };
             let within = [t_enter.wide(), t_exit.wide()];
-            probe.inner(at, within, meeting.t.wide(), t_far.wide(), way);
-            at = match way {
-                Way::Near => near,
-                Way::Far => far,
-                Way::Both => {
+            probe.inner(at, within, crossing.t.wide(), t_far.wide(), children);
+            at = match children {
+                Children::Near => near,
+                Children::Far => far,
+                Children::Both => {
                     stack.push(Waiting {
                         node: far,
                         t_enter: t_far,
                         t_exit,
                     });
-                    t_exit = t_exit.least(meeting.last);
+                    t_exit = t_exit.least(crossing.last);
                     near
                 }
             };
@@ -98,7 +98,7 @@ pub(crate) fn traverse<L: Line, V: LeafVisitor, P: Probe>(
                     (at, t_enter, t_exit) = (next.node, next.t_enter, next.t_exit);
                     break;
                 }
-                Some(_) if !L::WAITS_IN_ORDER => {}
+                Some(_) if !L::PENDING_IN_ORDER => {}
                 _ => return,
             }
         }

@@ -3,7 +3,8 @@
 use super::kernel::{any_hit, closest_hit};
 use super::render::over_tiles;
 use super::{
-    Batch, Hit, Probe, RayTracer, RenderError, RenderSettings, Scratch, Shading, Way, trace_samples,
+    Batch, Children, Hit, Probe, RayTracer, RenderError, RenderSettings, Scratch, Shading,
+    trace_samples,
 };
 use crate::geometry::Ray;
 use crate::primitive::Shapes;
@@ -82,7 +83,7 @@ impl Visitor<'_> {
 
 impl Probe for Visitor<'_> {
     #[inline(always)]
-    fn inner(&mut self, node: u32, _: [f64; 2], _: f64, _: f64, _: Way) {
+    fn inner(&mut self, node: u32, _: [f64; 2], _: f64, _: f64, _: Children) {
         self.visit(node);
     }
 
@@ -153,12 +154,12 @@ impl RayTracer for Visiting<'_> {
     }
 }
 
-/// Counts the visits of all rays of sample 0, those of [`super::counted_pass`]: closest hits and any
+/// Counts the visits of all rays of sample 0, those of [`super::render_counted`]: closest hits and any
 /// hits as they run. The same for any number of threads.
 ///
 /// # Errors
 /// A camera without a view, a resolution out of range, or cancellation.
-pub fn visits_pass(
+pub fn count_visits(
     scene: &Scene,
     tree: &Tree,
     settings: &RenderSettings,

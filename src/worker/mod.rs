@@ -14,8 +14,8 @@ use crate::scene::{LoadError, Scene, SceneRequest, load};
 use crate::setup::Setup;
 use crate::structure::{BuildError, Tree, build};
 use crate::trace::{
-    Picture, RenderError, RenderSettings, Tile, TimedPass, counted_pass, preview, thread_pool,
-    timed_pass,
+    Picture, RenderError, RenderSettings, Tile, TimedRender, preview, render_counted, render_timed,
+    thread_pool,
 };
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex};
@@ -463,8 +463,8 @@ fn serve(
         measurement: measurement.clone(),
     })));
 
-    let trace = |sample: u32| -> Result<TimedPass, Stop> {
-        Ok(timed_pass(
+    let trace = |sample: u32| -> Result<TimedRender, Stop> {
+        Ok(render_timed(
             &scene,
             tree,
             &render,
@@ -488,7 +488,7 @@ fn serve(
     let every_pixel =
         (pixels <= PIXEL_COUNTS_LIMIT).then(|| PixelCounts::new(render.width, render.height));
     let so_far = Mutex::new((measurement.clone(), every_pixel, Instant::now()));
-    let counted = counted_pass(&scene, tree, &render, &pool, progress, |part| {
+    let counted = render_counted(&scene, tree, &render, &pool, progress, |part| {
         let mut guard = lock(&so_far);
         let (measurement, every_pixel, last) = &mut *guard;
         if let Some(counts) = every_pixel {

@@ -48,7 +48,7 @@ pub fn measure_command(
     line.unless(picture.cut_off == 0.0, "cut-off", picture.cut_off);
     let (precision, kernel) = (picture.precision, picture.kernel);
     line.unless(precision.name() == "f64", "precision", precision.name());
-    line.unless(kernel.name() == "plain", "kernel", kernel.name());
+    line.unless(kernel.name() == "scalar", "kernel", kernel.name());
     let center = picture.sampling == Sampling::Center;
     line.unless(center, "sampling", "corner");
     line.unless(picture.threads == 0, "threads", picture.threads);

@@ -263,8 +263,8 @@ fn the_load_report_is_told_on_standard_error_and_in_the_report() {
     assert_eq!(output.status.code(), Some(0));
     let [text, errors] = [output.stdout, output.stderr].map(|s| String::from_utf8(s).unwrap());
     for line in [
-        "Skipped: polygon without area, at line 6",
-        "Made up: no camera: one taken that frames all objects",
+        "Skipped: polygon with zero area, at line 6",
+        "Default: no camera in the file; using one that frames all objects",
     ] {
         assert!(text.lines().any(|l| l.contains(line)), "{text}");
         let told = format!("bspscope: square.obj: {line}");
@@ -275,7 +275,7 @@ fn the_load_report_is_told_on_standard_error_and_in_the_report() {
     let json = program.run(&format!("{measure} --format json"));
     let report: Value = serde_json::from_slice(&json.stdout).unwrap();
     let notes = report["scene"]["notes"].as_array().unwrap();
-    assert!(notes.iter().any(|note| note["kind"] == "made_up"));
+    assert!(notes.iter().any(|note| note["kind"] == "defaulted"));
     // Converted, it is complete: nothing is made up any more.
     program.run("generate square.obj -o square.nff");
     let text = program.done(&measure.replace(".obj", ".nff"));
@@ -328,7 +328,7 @@ fn every_form_has_every_symbol_for_every_method() {
     };
     assert!(at("Δ") < at("Λ") && at("Λ") < at("Table 1"));
     assert!(at("2/1") < at("N_RPRT"));
-    assert!(text.contains("Left out: no code for spheres"), "{text}");
+    assert!(text.contains("Not needed by this scene: spheres"), "{text}");
     assert!(text.contains(" CPU) on 3 threads"), "{text}");
 
     let markdown = program.done(&format!("{measure} --format markdown"));

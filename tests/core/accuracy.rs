@@ -43,7 +43,7 @@ fn the_reference_has_no_error_and_choices_of_time_alone_neither() {
     let first = &trade.outcomes[0];
     assert_eq!(first.choice.words(), "reference");
     assert_eq!(trade.ratios(first)[1], 1.0);
-    one(&trade, "kernel lanes");
+    one(&trade, "kernel stream");
     let of_time = || trade.outcomes.iter().filter(|o| !o.choice.moves_image);
     assert!(of_time().count() > 5);
     for outcome in of_time() {

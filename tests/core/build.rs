@@ -72,7 +72,7 @@ fn leaves_say_why_they_stopped() {
     assert!(by_bounds.contains(&StopReason::NoCandidate));
     let balls = scene("balls:3");
     let tree = build(&balls, &with("sah-cut", |_| ()), &Progress::new()).unwrap();
-    for stop in [StopReason::CutOut, StopReason::NoSplitPays] {
+    for stop in [StopReason::CutOut, StopReason::LeafIsCheaper] {
         assert!(stops(&tree).contains(&stop), "{stop:?}");
     }
     // Two points in one place, and one that keeps the scene large.

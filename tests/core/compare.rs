@@ -6,7 +6,7 @@ use bspscope::primitive::{Primitive, Sphere};
 use bspscope::progress::Progress;
 use bspscope::scene::{Sampling, Scene, SceneRequest, load};
 use bspscope::structure::{BuildSettings, MaxDepth, Method};
-use bspscope::trace::{MostOfARay, RayCounts, RayKind, RenderSettings, counted_pass, thread_pool};
+use bspscope::trace::{RayCounts, RayKind, RayMaxima, RenderSettings, render_counted, thread_pool};
 
 fn balls() -> Scene {
     load(&SceneRequest::parse("balls:2"), &Progress::new()).unwrap()
@@ -155,10 +155,10 @@ fn figures_of_all_kinds_of_rays_sum_to_the_papers() {
 fn the_most_of_a_ray_is_that_of_the_pixel_with_the_most() {
     let scene = balls();
     let one = measured(&scene, "midpoint", |_, _| ());
-    let most = std::sync::Mutex::new(MostOfARay::default());
+    let most = std::sync::Mutex::new(RayMaxima::default());
     let pool = thread_pool(2).unwrap();
     let render = &one.measurement.render;
-    counted_pass(&scene, &one.tree, render, &pool, &Progress::new(), |tile| {
+    render_counted(&scene, &one.tree, render, &pool, &Progress::new(), |tile| {
         // A pixel has one primary ray.
         for tallies in tile.pixels {
             let tally = tallies[RayKind::Primary as usize];

@@ -7,7 +7,7 @@ use bspscope::progress::Progress;
 use bspscope::scene::{Sampling, Scene, SceneRequest, load};
 use bspscope::structure::{BuildSettings, Method, OverlapRule, Tree, build, validate};
 use bspscope::trace::{
-    CountedPass, Picture, RayKind, RenderSettings, counted_pass, thread_pool, timed_pass,
+    CountedRender, Picture, RayKind, RenderSettings, render_counted, render_timed, thread_pool,
 };
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -58,11 +58,11 @@ fn small_picture(scene: &Scene, threads: usize) -> RenderSettings {
     }
 }
 
-fn count(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> CountedPass {
+fn count(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> CountedRender {
     let pool = thread_pool(settings.threads).unwrap();
-    let pass = counted_pass(scene, tree, settings, &pool, &Progress::new(), |_| ()).unwrap();
-    CountedPass {
-        walking: Duration::ZERO,
+    let pass = render_counted(scene, tree, settings, &pool, &Progress::new(), |_| ()).unwrap();
+    CountedRender {
+        traversal: Duration::ZERO,
         ..pass
     }
 }
@@ -71,7 +71,7 @@ fn picture(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> Picture {
     let pool = thread_pool(settings.threads).unwrap();
     let picture = Mutex::new(Picture::new(settings.width, settings.height));
     for sample in 0..settings.samples {
-        timed_pass(
+        render_timed(
             scene,
             tree,
             settings,

@@ -6,7 +6,7 @@ use bspscope::primitive::{Precision, Primitive, PrimitiveKind};
 use bspscope::progress::{Cancelled, Progress};
 use bspscope::scene::builtin::generate;
 use bspscope::scene::format::{
-    FORMATS, Format, FormatError, Input, MOST_VERTICES, ReadError, nff, read_file,
+    FORMATS, Format, FormatError, Input, MAX_VERTICES, ReadError, nff, read_file,
 };
 use bspscope::scene::{LoadError, NoteKind, Scene, SceneParts, SceneRequest};
 use bspscope::structure::{BuildSettings, Method, Tree, build};
@@ -269,8 +269,8 @@ fn gltf_brings_camera_colours_and_lights() {
     let colors = [0, 1].map(|i| parts.lights[i].color.unwrap());
     assert!(colors[0].max_element() <= 0.5_f64.sqrt() + 1e-12);
     assert!(colors[1].y == 0.0 && colors[1].x > 0.0);
-    let made_up: Vec<_> = texts(&parts, NoteKind::MadeUp);
-    assert_eq!(made_up, ["background: grey"]);
+    let defaulted: Vec<_> = texts(&parts, NoteKind::Defaulted);
+    assert_eq!(defaulted, ["no background color in the file; using gray"]);
 }
 
 /// The texts of the notes of one kind.
@@ -342,9 +342,9 @@ fn what_is_no_scene_is_refused_by_name() {
 fn a_mesh_without_camera_and_lights_is_framed_and_lit() {
     for name in ["meshio.obj", "meshio.ply", "trimesh.stl", "trimesh.glb"] {
         let parts = load(&asset(name));
-        let made_up = texts(&parts, NoteKind::MadeUp).join("; ");
-        for word in ["no camera", "no light", "grey"] {
-            assert!(made_up.contains(word), "{name}: {made_up}");
+        let defaulted = texts(&parts, NoteKind::Defaulted).join("; ");
+        for word in ["no camera", "no light", "using gray"] {
+            assert!(defaulted.contains(word), "{name}: {defaulted}");
         }
         let scene = Scene::new(parts);
         let tree = tree_of(&scene);
@@ -355,7 +355,7 @@ fn a_mesh_without_camera_and_lights_is_framed_and_lit() {
         };
         let (pool, progress) = (thread_pool(1).unwrap(), Progress::new());
         let picture = std::sync::Mutex::new(bspscope::trace::Picture::new(40, 40));
-        bspscope::trace::timed_pass(&scene, &tree, &settings, 0, &pool, &progress, |tile, c| {
+        bspscope::trace::render_timed(&scene, &tree, &settings, 0, &pool, &progress, |tile, c| {
             picture.lock().unwrap().add_tile(tile, 0, c);
         })
         .unwrap();
@@ -386,10 +386,10 @@ fn a_scene_in_nff_without_lights_is_lit_too() {
     std::fs::write(&path, text.replace("l 5 -9 12\n", "")).unwrap();
     let parts = load(&path);
     assert_eq!(parts.lights.len(), 2);
-    assert!(texts(&parts, NoteKind::MadeUp)[0].starts_with("no light"));
+    assert!(texts(&parts, NoteKind::Defaulted)[0].starts_with("no light"));
     let kept = load(&asset("polygons.nff"));
     assert_eq!(
-        (kept.lights.len(), texts(&kept, NoteKind::MadeUp).len()),
+        (kept.lights.len(), texts(&kept, NoteKind::Defaulted).len()),
         (1, 0)
     );
 }
@@ -448,10 +448,10 @@ fn mtl_becomes_our_material() {
         "{skipped}"
     );
     assert!(skipped.contains("illum 2"), "{skipped}");
-    let made_up = texts(&parts, NoteKind::MadeUp).join("; ");
+    let defaulted = texts(&parts, NoteKind::Defaulted).join("; ");
     assert!(
-        made_up.contains("material 'none' is not there"),
-        "{made_up}"
+        defaulted.contains("material 'none' is not defined"),
+        "{defaulted}"
     );
 }
 
@@ -517,9 +517,9 @@ fn what_is_skipped_is_counted_with_its_first_place() {
     assert_eq!(
         texts(&parts, NoteKind::Skipped),
         [
-            "2 × polygon without area, first at line 5",
+            "2 × polygon with zero area, first at line 5",
             "face of fewer than 3 vertices, at line 6",
-            "line, which is no surface, at line 7",
+            "line (not a surface), at line 7",
             "unknown statement 'curv', at line 9",
         ]
     );
@@ -532,7 +532,7 @@ fn what_is_skipped_is_counted_with_its_first_place() {
     assert_eq!(parts.objects.len(), 2);
     assert_eq!(
         texts(&parts, NoteKind::Changed),
-        ["polygon off a common plane split into triangles, at line 5"]
+        ["non-planar polygon split into triangles, at line 5"]
     );
 }
 
@@ -619,11 +619,11 @@ fn a_cancelled_load_is_no_failure() {
 
 #[test]
 fn faces_of_too_many_vertices_are_skipped() {
-    let corners = " 1 2 3 4".repeat(MOST_VERTICES / 4 + 1);
+    let corners = " 1 2 3 4".repeat(MAX_VERTICES / 4 + 1);
     let text = format!("{SQUARE}f{corners}\nf 1 2 3 4\n");
     let parts = read("obj", text.as_bytes()).unwrap();
     assert_eq!(parts.objects.len(), 1);
-    let said = format!("face of more than {MOST_VERTICES} vertices, at line 5");
+    let said = format!("face of more than {MAX_VERTICES} vertices, at line 5");
     assert_eq!(texts(&parts, NoteKind::Skipped), [said]);
 }
 
@@ -636,6 +636,6 @@ fn however_many_reasons_there_are_all_is_counted() {
     assert_eq!(skipped[0], "unknown statement 'x0', at line 1");
     let others: usize = 200 - (skipped.len() - 1);
     assert!(others > 100);
-    let last = format!("{others} × other things, first at line {}", skipped.len());
+    let last = format!("{others} × other reasons, first at line {}", skipped.len());
     assert_eq!(*skipped.last().unwrap(), last);
 }

@@ -12,7 +12,7 @@ use bspscope::progress::Progress;
 use bspscope::scene::{Scene, SceneRequest, load};
 use bspscope::structure::{BuildSettings, Method, Tree, build};
 use bspscope::trace::{
-    RenderSettings, counted_pass, pixel_times, record_pixel, thread_pool, timed_pass,
+    RenderSettings, pixel_times, record_pixel, render_counted, render_timed, thread_pool,
 };
 use std::path::Path;
 use std::sync::Mutex;
@@ -47,7 +47,7 @@ fn counted(scene: &Scene, tree: &Tree) -> (PixelCounts, Measurement) {
     let mut measurement = Measurement::of_tree(scene, tree, Times::default(), &settings);
     let counts = Mutex::new(PixelCounts::new(settings.width, settings.height));
     let pool = thread_pool(0).unwrap();
-    let pass = counted_pass(scene, tree, &settings, &pool, &Progress::new(), |part| {
+    let pass = render_counted(scene, tree, &settings, &pool, &Progress::new(), |part| {
         counts.lock().unwrap().add(&part);
     });
     measurement.counted = Some(pass.unwrap());
@@ -218,7 +218,7 @@ fn time_is_taken_of_every_pixel_and_only_when_asked_for() {
     let total = time.total(&counts, RayFilter::All).unwrap();
     assert!((total - sum * 1e6).abs() < 1e-9 * total, "microseconds");
     // Alone a pixel takes longer than within a tile, but not another order of time.
-    let pass = timed_pass(
+    let pass = render_timed(
         &scene,
         &tree,
         &settings,

@@ -7,8 +7,8 @@ use bspscope::progress::Progress;
 use bspscope::scene::{Camera, Material, Scene, SceneParts, SceneRequest, load};
 use bspscope::structure::{BuildSettings, MaxDepth, Method, OverlapRule, Tree, build};
 use bspscope::trace::{
-    Hit, InstructionSet, KernelChoice, LaneKernel, LaneTree, Picture, RayCompany, RenderSettings,
-    Scratch, any_hit, closest_hit, thread_pool, timed_pass,
+    Hit, InstructionSet, KernelChoice, Picture, RenderSettings, Scratch, SimdKernel, SimdMode,
+    SimdTree, any_hit, closest_hit, render_timed, thread_pool,
 };
 use std::sync::Mutex;
 
@@ -46,7 +46,7 @@ fn scene(name: &str, objects: Vec<Primitive>) -> Scene {
             at: Vec3::ZERO,
             up: Vec3::Z,
             angle: 45.0,
-            hither: 0.0,
+            near: 0.0,
             resolution: [64, 64],
         },
         notes: Vec::new(),
@@ -223,9 +223,11 @@ fn rays(scene: &Scene, tree: &Tree) -> Vec<Ray> {
 }
 
 /// Everything that this processor has.
-fn paths() -> impl Iterator<Item = (InstructionSet, RayCompany)> {
-    let here = InstructionSet::ALL.into_iter().filter(|set| set.is_here());
-    here.flat_map(|set| RayCompany::ALL.map(|company| (set, company)))
+fn paths() -> impl Iterator<Item = (InstructionSet, SimdMode)> {
+    let here = InstructionSet::ALL
+        .into_iter()
+        .filter(|set| set.is_available());
+    here.flat_map(|set| SimdMode::ALL.map(|company| (set, company)))
 }
 
 fn exactly(hit: &Hit) -> (u64, u32) {
@@ -234,7 +236,7 @@ fn exactly(hit: &Hit) -> (u64, u32) {
 
 /// Asserts that all kernels answer as the plain one does; gives the number of hits.
 fn assert_same(scene: &Scene, tree: &Tree, rays: &[Ray], what: &str) -> usize {
-    let lanes = LaneTree::of(scene, tree);
+    let lanes = SimdTree::of(scene, tree);
     let mut hit_count = 0;
     for precision in Precision::ALL {
         let shapes = scene.shapes(precision);
@@ -249,7 +251,7 @@ fn assert_same(scene: &Scene, tree: &Tree, rays: &[Ray], what: &str) -> usize {
             .collect();
         hit_count += expected.iter().filter(|hit| hit.is_hit()).count();
         for (instructions, company) in paths() {
-            let mut kernel = LaneKernel::new(tree, lanes, shapes, instructions, company);
+            let mut kernel = SimdKernel::new(tree, lanes, shapes, instructions, company);
             let [precision, company] = [precision.name(), company.name()];
             let name = format!("{what}, {precision}, {company}, {}", instructions.name());
             // What there was is overwritten.
@@ -362,8 +364,8 @@ fn any_number_of_rays_is_answered() {
     let rays = rays(&scene, &tree);
     let shapes = scene.shapes(Precision::F32);
     for (instructions, company) in paths() {
-        let lanes = LaneTree::of(&scene, &tree);
-        let mut kernel = LaneKernel::new(&tree, lanes, shapes, instructions, company);
+        let lanes = SimdTree::of(&scene, &tree);
+        let mut kernel = SimdKernel::new(&tree, lanes, shapes, instructions, company);
         let mut all = vec![Hit::MISS; rays.len()];
         kernel.closest_hits(&rays, &mut all);
         for n in [
@@ -399,7 +401,7 @@ fn however_many_candidates_wait_there_is_room() {
     let rays: Vec<Ray> = (0..15)
         .map(|x| Ray::new(Vec3::new(f64::from(x), 0.0, 20.0), down))
         .collect();
-    let lanes = LaneTree::of(&scene, &tree);
+    let lanes = SimdTree::of(&scene, &tree);
     let shapes = scene.shapes(Precision::F32);
     let mut scratch = Scratch::default();
     let expected: Vec<bool> = rays
@@ -407,7 +409,7 @@ fn however_many_candidates_wait_there_is_room() {
         .map(|ray| any_hit(&tree, shapes, ray, &mut scratch, &mut ()))
         .collect();
     for (instructions, company) in paths() {
-        let mut kernel = LaneKernel::new(&tree, lanes, shapes, instructions, company);
+        let mut kernel = SimdKernel::new(&tree, lanes, shapes, instructions, company);
         let mut blocked = vec![false; rays.len()];
         kernel.any_hits(&rays, &mut blocked);
         assert_eq!(blocked, expected, "{instructions:?}, {company:?}");
@@ -429,7 +431,7 @@ fn every_kernel_gives_the_same_picture() {
                 ..RenderSettings::for_camera(*scene.camera())
             };
             let picture = Mutex::new(Picture::new(render.width, render.height));
-            timed_pass(
+            render_timed(
                 &scene,
                 &tree,
                 &render,
@@ -451,11 +453,14 @@ fn every_kernel_gives_the_same_picture() {
 fn names_are_those_that_are_asked_for() {
     for choice in KernelChoice::ALL {
         assert_eq!(KernelChoice::named(choice.name()), Some(choice));
+        if let Some(name) = choice.old_name() {
+            assert_eq!(KernelChoice::named(name), Some(choice));
+        }
     }
-    assert_eq!(KernelChoice::Plain.used(), "plain");
+    assert_eq!(KernelChoice::Scalar.description(), "scalar");
     assert!(
-        KernelChoice::Lanes
-            .used()
+        KernelChoice::Stream
+            .description()
             .contains(InstructionSet::best().name())
     );
 }

@@ -66,7 +66,7 @@ fn each_mistake_after_a_view_is_named_with_its_line() {
             "s",
             10,
             &[
-                "expected x of the sphere's centre",
+                "expected x of the sphere's center",
                 "found the end of the file",
             ],
         ),
@@ -152,18 +152,18 @@ fn each_mistake_after_a_view_is_named_with_its_line() {
         (
             "s 0 zero 0 1\n",
             10,
-            &["y of the sphere's centre (a finite number)", "found 'zero'"],
+            &["y of the sphere's center (a finite number)", "found 'zero'"],
         ),
         ("s 0 0 0 1,5\n", 10, &["the sphere's radius", "found '1,5'"]),
         (
             "s 0 0 NaN 1\n",
             10,
-            &["z of the sphere's centre (a finite number)", "found 'NaN'"],
+            &["z of the sphere's center (a finite number)", "found 'NaN'"],
         ),
         (
             "s inf 0 0 1\n",
             10,
-            &["x of the sphere's centre (a finite number)", "found 'inf'"],
+            &["x of the sphere's center (a finite number)", "found 'inf'"],
         ),
         (
             "s 0 0 0 -infinity\n",
@@ -174,7 +174,7 @@ fn each_mistake_after_a_view_is_named_with_its_line() {
             "s 0\n1e999 0 1\n",
             11,
             &[
-                "y of the sphere's centre (a finite number)",
+                "y of the sphere's center (a finite number)",
                 "found '1e999'",
             ],
         ),
@@ -193,17 +193,20 @@ fn each_mistake_after_a_view_is_named_with_its_line() {
         (
             "s 0 0 0 -1\n",
             10,
-            &["the sphere's radius, 0 or more", "found '-1'"],
+            &["the sphere's radius, 0 or larger", "found '-1'"],
         ),
         (
             "c 0 0 0 -0.5 0 0 1 1\n",
             10,
-            &["the cone's radius at its base, 0 or more", "found '-0.5'"],
+            &["the cone's radius at its base, 0 or larger", "found '-0.5'"],
         ),
         (
             "c 0 0 0 1\n0 0 1 -1e-9\n",
             11,
-            &["the cone's radius at its apex, 0 or more", "found '-1e-9'"],
+            &[
+                "the cone's radius at its apex, 0 or larger",
+                "found '-1e-9'",
+            ],
         ),
         // A second view is checked like the first.
         (
@@ -377,7 +380,7 @@ fn binary_garbage_is_quoted_short_and_without_control_characters() {
     }
     let (line, message) = mistake(&[VIEW.as_bytes(), b"s 0 0 \xc3\x28 1\n"].concat());
     assert_eq!(line, 10);
-    assert!(message.contains("z of the sphere's centre"), "{message}");
+    assert!(message.contains("z of the sphere's center"), "{message}");
 }
 
 #[test]
@@ -427,7 +430,7 @@ fn check_answer(answer: Result<SceneParts, ReadError>, lines: usize) {
                 assert!((1..=lines).contains(&line));
             }
         }
-        Err(ReadError::Beside { name, .. }) => panic!("nothing is beside it, not even {name}"),
+        Err(ReadError::InSibling { name, .. }) => panic!("nothing is beside it, not even {name}"),
         Err(ReadError::Cancelled(_)) => panic!("nobody cancelled"),
     }
 }

@@ -9,7 +9,7 @@ use bspscope::scene::{Scene, SceneRequest, load};
 use bspscope::structure::{
     BuildSettings, CellOfNode, Constants, MaxDepth, Method, NodeKind, StopReason, Tree, build,
 };
-use bspscope::trace::{Probe, RenderSettings, Scratch, Way, closest_hit};
+use bspscope::trace::{Children, Probe, RenderSettings, Scratch, closest_hit};
 
 fn scene(source: &str) -> Scene {
     load(&SceneRequest::parse(source), &Progress::new()).unwrap()
@@ -78,7 +78,7 @@ fn sampled_planes_lie_at_equal_steps_and_more_of_them_expect_less_work() {
     let full_leaves = |cost_stop| {
         let tree = tree(&balls, "sah-sampled", &[("cost-stop", cost_stop)]);
         leaves(&tree)
-            .filter(|(_, stop, _)| *stop == StopReason::NoSplitPays)
+            .filter(|(_, stop, _)| *stop == StopReason::LeafIsCheaper)
             .count()
     };
     assert!(full_leaves(1.0) > 0);
@@ -146,7 +146,7 @@ fn failed_above(tree: &Tree, ratio: f64, traversal: f64, bonus: f64) -> Vec<u32>
             }
             None => {
                 if let NodeKind::Leaf {
-                    stop: StopReason::NoSplitPays,
+                    stop: StopReason::LeafIsCheaper,
                     ..
                 } = tree.kind(cell.node)
                 {
@@ -281,7 +281,7 @@ fn a_grid_is_equal_voxels_as_many_as_its_density_asks() {
 struct Visited(Vec<(u32, [f64; 2])>);
 
 impl Probe for Visited {
-    fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Way) {
+    fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Children) {
         panic!("a grid has no inner nodes to traverse");
     }
     fn leaf(&mut self, node: u32, _: &[u32], within: [f64; 2]) {

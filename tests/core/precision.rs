@@ -6,8 +6,8 @@ use bspscope::progress::Progress;
 use bspscope::scene::{Camera, Light, Material, Scene, SceneParts, SceneRequest, load};
 use bspscope::structure::{BuildSettings, Method, Tree, build};
 use bspscope::trace::{
-    Hit, PrecisionChoice, RayKind, RenderSettings, Scratch, closest_hit, closest_of_all, fits_f32,
-    record_pixel,
+    Hit, PrecisionChoice, RayKind, RenderSettings, Scratch, closest_hit, closest_hit_brute_force,
+    fits_f32, record_pixel,
 };
 
 fn builtin(name: &str) -> Scene {
@@ -25,7 +25,7 @@ fn camera() -> Camera {
         at: Vec3::ZERO,
         up: Vec3::Y,
         angle: 45.0,
-        hither: 0.1,
+        near: 0.1,
         resolution: [64, 64],
     }
 }
@@ -75,7 +75,11 @@ fn ball(center: Vec3, size: f64) -> Vec<Primitive> {
 fn hit(scene: &Scene, tree: &Tree, precision: Precision, ray: &Ray) -> Hit {
     let shapes = scene.shapes(precision);
     let found = closest_hit(tree, shapes, ray, &mut Scratch::default(), &mut ());
-    assert_eq!(found, closest_of_all(shapes, ray), "{precision:?} {ray:?}");
+    assert_eq!(
+        found,
+        closest_hit_brute_force(shapes, ray),
+        "{precision:?} {ray:?}"
+    );
     found
 }
 

@@ -7,7 +7,7 @@ use bspscope::measure::{RaySample, answer, compare, unsplit};
 use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
 use bspscope::structure::{BuildSettings, MaxDepth, Method, OverlapRule, build, validate};
-use bspscope::trace::{Batch, RayKind, RayTracer, Timed, thread_pool};
+use bspscope::trace::{Batch, RayKind, RayTracer, ScalarKernel, thread_pool};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::sync::OnceLock;
@@ -92,7 +92,7 @@ proptest! {
         for precision in Precision::ALL {
             let batch = Batch { kind: RayKind::Primary, rays: &rays, pixels: &[] };
             let mut hits = Vec::new();
-            Timed::new(&naive, scene.shapes(precision), &progress).closest_hits(batch, &mut hits);
+            ScalarKernel::new(&naive, scene.shapes(precision), &progress).closest_hits(batch, &mut hits);
             let to_hits = rays.iter().zip(&hits).map(|(ray, hit)| Ray { t_max: hit.t, ..*ray });
             let mut sample = RaySample::default();
             sample.rays[RayKind::Shadow as usize] = to_hits.collect();

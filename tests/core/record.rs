@@ -5,8 +5,8 @@ use bspscope::progress::Progress;
 use bspscope::scene::{Scene, SceneRequest, load};
 use bspscope::structure::{BuildSettings, Method, NodeKind, Tree, build};
 use bspscope::trace::{
-    After, PixelTallies, RayKind, RenderSettings, Step, Waiting, Way, counted_pass, record_pixel,
-    record_pixel_within, thread_pool, timed_pass,
+    Children, LeafOutcome, PendingNode, PixelTallies, RayKind, RenderSettings, Step, record_pixel,
+    record_pixel_within, render_counted, render_timed, thread_pool,
 };
 use std::collections::HashMap;
 use std::path::Path;
@@ -45,7 +45,7 @@ fn a_pixels_record_sums_to_what_the_counting_kernel_counted() {
         for method in ["midpoint", "sah-cut"] {
             let tree = tree_of(&scene, method);
             let counted: Mutex<HashMap<(u32, u32), PixelTallies>> = Mutex::default();
-            counted_pass(&scene, &tree, &settings, &pool, &Progress::new(), |part| {
+            render_counted(&scene, &tree, &settings, &pool, &Progress::new(), |part| {
                 let mut counted = counted.lock().unwrap();
                 for (i, tallies) in part.pixels.iter().enumerate() {
                     counted.insert(part.tile.pixel(i as u32), *tallies);
@@ -54,7 +54,7 @@ fn a_pixels_record_sums_to_what_the_counting_kernel_counted() {
             .unwrap();
             let counted = counted.into_inner().unwrap();
             let colors: Mutex<HashMap<(u32, u32), _>> = Mutex::default();
-            timed_pass(
+            render_timed(
                 &scene,
                 &tree,
                 &settings,
@@ -107,7 +107,7 @@ fn a_walk_is_a_path_through_the_tree() {
                 let Step::Inner(inner) = step else {
                     continue;
                 };
-                ways[inner.way as usize] += 1;
+                ways[inner.children as usize] += 1;
                 let NodeKind::Inner { below, above, .. } = tree.kind(inner.node) else {
                     panic!("a leaf was recorded as an inner node");
                 };
@@ -119,7 +119,7 @@ fn a_walk_is_a_path_through_the_tree() {
                 };
                 assert_eq!(inner.near, near);
                 assert_eq!(inner.far, above + below - near);
-                let expected = if inner.way == Way::Far {
+                let expected = if inner.children == Children::Far {
                     inner.far
                 } else {
                     inner.near
@@ -135,19 +135,23 @@ fn a_walk_is_a_path_through_the_tree() {
                     Step::Inner(inner) => (inner.t_enter, inner.t_exit),
                     Step::Leaf(leaf) => (leaf.t_enter, leaf.t_exit),
                 };
-                let expected = Waiting {
+                let expected = PendingNode {
                     node: steps[i].node(),
                     t_enter,
                     t_exit,
                 };
-                assert_eq!(ray.path.waiting(i - 1).last(), Some(&expected));
+                assert_eq!(ray.path.pending(i - 1).last(), Some(&expected));
                 popped += 1;
             }
-            let last = ray.path.leaves().last().map(|leaf| leaf.after);
-            let done = [After::HitNearer, After::Blocked, After::NoLeafLeft];
+            let last = ray.path.leaves().last().map(|leaf| leaf.outcome);
+            let done = [
+                LeafOutcome::HitNearer,
+                LeafOutcome::Blocked,
+                LeafOutcome::NoLeafLeft,
+            ];
             assert!(last.is_none_or(|after| done.contains(&after)));
             for leaf in ray.path.leaves().all_but_last() {
-                assert!(!done.contains(&leaf.after));
+                assert!(!done.contains(&leaf.outcome));
             }
         }
     }

@@ -4,7 +4,7 @@ use bspscope::progress::Progress;
 use bspscope::scene::{Scene, SceneRequest, load};
 use bspscope::structure::{BuildSettings, Method, NodeKind, Tree, build};
 use bspscope::trace::{
-    RenderSettings, Tally, Visits, counted_pass, record_pixel, thread_pool, visits_pass,
+    RenderSettings, Tally, Visits, count_visits, record_pixel, render_counted, thread_pool,
 };
 
 const SIDE: u32 = 40;
@@ -24,7 +24,7 @@ fn small(scene: &str, method: &str) -> (Scene, Tree, RenderSettings) {
 
 fn visits(scene: &Scene, tree: &Tree, render: &RenderSettings, threads: usize) -> Visits {
     let pool = thread_pool(threads).unwrap();
-    visits_pass(scene, tree, render, &pool, &Progress::new()).unwrap()
+    count_visits(scene, tree, render, &pool, &Progress::new()).unwrap()
 }
 
 #[test]
@@ -35,7 +35,7 @@ fn visits_sum_to_the_counts_of_the_counting_kernel() {
             let visits = visits(&scene, &tree, &render, 2);
             let pool = thread_pool(2).unwrap();
             let counted =
-                counted_pass(&scene, &tree, &render, &pool, &Progress::new(), |_| ()).unwrap();
+                render_counted(&scene, &tree, &render, &pool, &Progress::new(), |_| ()).unwrap();
             let all: Tally = counted.tallies.into_iter().sum();
             let [mut inner, mut leaves, mut empty] = [0; 3];
             for (node, &n) in visits.by_node.iter().enumerate() {
@@ -109,5 +109,5 @@ fn a_cancelled_pass_counts_nothing() {
     let progress = Progress::new();
     progress.cancel();
     let pool = thread_pool(1).unwrap();
-    assert!(visits_pass(&scene, &tree, &render, &pool, &progress).is_err());
+    assert!(count_visits(&scene, &tree, &render, &pool, &progress).is_err());
 }

@@ -18,7 +18,7 @@ const CAMERA: Camera = Camera {
     at: Vec3::new(0.1, 0.2, 0.3),
     up: Vec3::Z,
     angle: 33.3,
-    hither: 1.0,
+    near: 1.0,
     resolution: [512, 512],
 };
 
@@ -48,7 +48,7 @@ fn changed() -> Workspace {
         d_arec: 2,
         cut_off: 0.1,
         precision: PrecisionChoice::Auto,
-        kernel: KernelChoice::Lanes,
+        kernel: KernelChoice::Stream,
         sampling: Sampling::Corner,
         threads: 3,
     };

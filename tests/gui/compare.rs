@@ -8,7 +8,7 @@ use bspscope::measure::{DELTA, Measured, RAY_FIGURES, change, measure, parameter
 use bspscope::progress::Progress;
 use bspscope::scene::{SceneRequest, load};
 use bspscope::structure::{BuildSettings, Method, build};
-use bspscope::trace::{RayKind, RenderSettings, counted_pass, thread_pool};
+use bspscope::trace::{RayKind, RenderSettings, render_counted, thread_pool};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use std::sync::Mutex;
@@ -52,7 +52,7 @@ fn nodes(method: &str) -> HeatImage {
     let tree = build(&scene, &settings_of(method), &progress).unwrap();
     let counts = Mutex::new(PixelCounts::new(SIZE, SIZE));
     let pool = thread_pool(2).unwrap();
-    counted_pass(&scene, &tree, &render(), &pool, &progress, |part| {
+    render_counted(&scene, &tree, &render(), &pool, &progress, |part| {
         counts.lock().unwrap().add(&part);
     })
     .unwrap();

@@ -5,7 +5,7 @@ use bspscope::measure::heat::{HEATMAPS, HeatImage, Heatmap, PixelCounts, RayFilt
 use bspscope::progress::Progress;
 use bspscope::scene::SceneRequest;
 use bspscope::structure::{BuildSettings, Method, build};
-use bspscope::trace::{RenderSettings, counted_pass, thread_pool};
+use bspscope::trace::{RenderSettings, render_counted, thread_pool};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::sync::Mutex;
 
@@ -65,7 +65,7 @@ fn library_counts(method: &str) -> PixelCounts {
     };
     let counts = Mutex::new(PixelCounts::new(SIZE, SIZE));
     let pool = thread_pool(2).unwrap();
-    counted_pass(&scene, &tree, &render, &pool, &progress, |part| {
+    render_counted(&scene, &tree, &render, &pool, &progress, |part| {
         counts.lock().unwrap().add(&part);
     })
     .unwrap();

@@ -158,7 +158,7 @@ fn buttons_and_keys_step_to_the_end_and_back() {
             .query_all_by_label_contains(&format!("Step {step}: "))
             .any(|node| node.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True));
         assert!(selected, "row of step {step}");
-        let waiting = path.waiting(step - 1).len();
+        let waiting = path.pending(step - 1).len();
         assert!(has(&window, &format!("Stack: {waiting} node")));
     }
     assert!(is_disabled(&window, "Next") && is_disabled(&window, "Last"));

@@ -5,7 +5,7 @@ use crate::harness::{Window, click, finish, grouped, has, open_sized, small, wai
 use bspscope::progress::Progress;
 use bspscope::scene::load;
 use bspscope::structure::{BuildSettings, Method, Tree, build};
-use bspscope::trace::{RenderSettings, Visits, thread_pool, visits_pass};
+use bspscope::trace::{RenderSettings, Visits, count_visits, thread_pool};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
@@ -179,7 +179,7 @@ fn expected_visits(scene: &str, method: &str) -> (Tree, Visits) {
         ..start.setup.render
     };
     let pool = thread_pool(2).unwrap();
-    let visits = visits_pass(&scene, &tree, &render, &pool, &progress).unwrap();
+    let visits = count_visits(&scene, &tree, &render, &pool, &progress).unwrap();
     (tree, visits)
 }
 

@@ -120,17 +120,17 @@ fn a_method_is_chosen_by_its_list() {
 fn the_kernel_is_chosen_by_its_list_and_named_beside_the_times() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
-    assert!(has(&window, "Timed kernel: plain"));
+    assert!(has(&window, "Timed kernel: scalar"));
     let tests = figure(&window, "tests per hit");
     window
         .query_all_by_role(egui::accesskit::Role::ComboBox)
-        .find(|node| node.value().is_some_and(|v| v == "plain"))
+        .find(|node| node.value().is_some_and(|v| v == "scalar"))
         .expect("the list of kernels")
         .click();
     window.run_steps(3);
-    click(&mut window, "lanes");
+    click(&mut window, "stream");
     wait(&mut window, "the other kernel's times", |w| {
-        is_finished(w) && has(w, "Timed kernel: lanes")
+        is_finished(w) && has(w, "Timed kernel: stream")
     });
     assert_eq!(figure(&window, "tests per hit"), tests);
 }

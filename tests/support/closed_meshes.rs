@@ -6,7 +6,7 @@ use bspscope::primitive::{Polygon, Primitive, Triangle};
 use bspscope::progress::Progress;
 use bspscope::scene::{Camera, Material, Scene, SceneParts};
 use bspscope::structure::{BuildSettings, Method, build};
-use bspscope::trace::{Batch, Hit, RayKind, RayTracer, Timed};
+use bspscope::trace::{Batch, Hit, RayKind, RayTracer, ScalarKernel};
 use rayon::prelude::*;
 
 /// A mesh by its faces, with points inside from which every face can be seen or something before it.
@@ -49,7 +49,7 @@ pub fn leaks(count: u64) -> Vec<Leaks> {
                     rays: &rays,
                     pixels: &[],
                 };
-                Timed::new(&tree, scene.shapes(precision), &progress)
+                ScalarKernel::new(&tree, scene.shapes(precision), &progress)
                     .closest_hits(batch, &mut hits);
                 let all = rays.into_iter().zip(hits);
                 let leaking = all.filter(|(_, hit)| !hit.is_hit());
@@ -127,7 +127,7 @@ fn scene_of(faces: &[Vec<Vec3>]) -> Scene {
             at: Vec3::Y,
             up: Vec3::Z,
             angle: 45.0,
-            hither: 1.0,
+            near: 1.0,
             resolution: [8, 8],
         },
         notes: Vec::new(),

@@ -49,7 +49,7 @@ pub fn scene_of(objects: Vec<Primitive>) -> Scene {
             at: Vec3::ZERO,
             up: Vec3::Z,
             angle: 45.0,
-            hither: 1.0,
+            near: 1.0,
             resolution: [8, 8],
         },
         notes: Vec::new(),

@@ -86,10 +86,10 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         row(
             ui,
             "Kernel",
-            "How timed passes walk rays through the tree: plain, one after the other through exactly the \
-             nodes that are counted, as in the paper; lanes, batches in the lanes of vectors; packets, \
-             rays in vectors that walk together; auto, packets where rays keep together, lanes \
-             elsewhere, plain where the processor has no wide vectors. Hits are the same.",
+            "How timed rendering traces rays: scalar, one after the other through exactly the nodes that \
+             are counted, as in the paper; stream, batches of rays in SIMD; packets, neighboring rays \
+             that traverse together in SIMD; auto, packets where rays are coherent, stream elsewhere, \
+             scalar where the processor has no wide SIMD. All give the same hits.",
             |ui| {
                 let asked = &mut render.kernel;
                 egui::ComboBox::from_id_salt("kernel")
@@ -100,7 +100,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
                         }
                     })
                     .response
-                    .on_hover_text(format!("On this processor: {}.", asked.used()));
+                    .on_hover_text(format!("On this processor: {}.", asked.description()));
             },
         );
         row(

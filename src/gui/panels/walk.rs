@@ -126,7 +126,7 @@ fn row(scene: &Scene, i: usize, step: &Step) -> Row {
                 "{} = {}, {}",
                 inner.axis.name(),
                 step_text::short(inner.plane),
-                step_text::way(inner.way)
+                step_text::way(inner.children)
             ),
         ],
         Step::Leaf(leaf) => {
@@ -225,7 +225,7 @@ fn detail(ui: &mut egui::Ui, scene: &Scene, picked: &Picked) {
                             leaf.stop.text()
                         ),
                     );
-                    label(ui, format!("Then: {}.", leaf.after.text()));
+                    label(ui, format!("Then: {}.", leaf.outcome.text()));
                     tests(ui, scene, picked.path(), &leaf.tests);
                 }
             }
@@ -247,7 +247,7 @@ fn tests(ui: &mut egui::Ui, scene: &Scene, path: &RayPath, tests: &[crate::trace
 /// The nodes that wait, the next one first.
 fn stack(ui: &mut egui::Ui, picked: &Picked) {
     const HEIGHT: f32 = 58.0;
-    let waiting = picked.path().waiting(picked.step);
+    let waiting = picked.path().pending(picked.step);
     ui.strong(format!(
         "Stack: {} waiting",
         step_text::count(waiting.len() as u32, "node", "nodes")

@@ -25,7 +25,7 @@ impl Default for ViewCamera {
                 at: Vec3::Y,
                 up: Vec3::Z,
                 angle: 45.0,
-                hither: 1.0,
+                near: 1.0,
                 resolution: [512, 512],
             },
             orthographic: false,
@@ -188,7 +188,7 @@ mod tests {
                 at: Vec3::ZERO,
                 up: Vec3::Z,
                 angle: 40.0,
-                hither: 1.0,
+                near: 1.0,
                 resolution: [8, 8],
             },
             ..ViewCamera::default()

@@ -57,7 +57,7 @@ pub static KNOBS: &[Knob] = &[
     },
     Knob {
         name: "kernel",
-        about: "how rays are walked through the tree: one by one, in the lanes of vectors, or in packets",
+        about: "how rays traverse the tree: one by one, as a SIMD stream, or in SIMD packets",
         moves_image: false,
         values: kernel,
     },
@@ -197,12 +197,12 @@ fn resolution(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
 
 fn kernel(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
     [
-        KernelChoice::Plain,
-        KernelChoice::Lanes,
+        KernelChoice::Scalar,
+        KernelChoice::Stream,
         KernelChoice::Packets,
     ]
     .into_iter()
-    .filter(|kernel| kernel.in_vectors() != at.render.kernel.in_vectors())
+    .filter(|kernel| kernel.simd() != at.render.kernel.simd())
     .map(|kernel| {
         let render = RenderSettings {
             kernel,

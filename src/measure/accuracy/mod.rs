@@ -23,8 +23,8 @@ use crate::scene::{Cylinders, Scene, SceneRequest};
 use crate::setup::Setup;
 use crate::structure::{BuildSettings, Tree, build};
 use crate::trace::{
-    Picture, PrecisionChoice, RenderError, RenderSettings, Scratch, closest_hit, thread_pool,
-    timed_pass,
+    Picture, PrecisionChoice, RenderError, RenderSettings, Scratch, closest_hit, render_timed,
+    thread_pool,
 };
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -343,7 +343,7 @@ fn traced(
     for sample in 0..render.samples {
         let done = f64::from(sample) / samples;
         let part = progress.part(done, done + 1.0 / samples);
-        let pass = timed_pass(scene, tree, render, sample, pool, &part, |tile, colors| {
+        let pass = render_timed(scene, tree, render, sample, pool, &part, |tile, colors| {
             let mut picture = picture.lock().unwrap_or_else(PoisonError::into_inner);
             picture.add_tile(tile, sample, colors);
         })?;

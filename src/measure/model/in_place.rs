@@ -9,7 +9,7 @@ use crate::primitive::{PrimitiveKind, Shape};
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::structure::{BuildSettings, build};
-use crate::trace::{RayKind, RenderSettings, counted_pass, thread_pool};
+use crate::trace::{RayKind, RenderSettings, render_counted, thread_pool};
 use cpu_time::ThreadTime;
 use std::hint::black_box;
 
@@ -64,14 +64,14 @@ pub fn time_in_place(
 ) -> Result<InPlace, MeasureError> {
     let tree = build(scene, settings, progress)?;
     let pool = thread_pool(render.threads)?;
-    let counted = counted_pass(scene, &tree, render, &pool, progress, |_| ())?;
+    let counted = render_counted(scene, &tree, render, &pool, progress, |_| ())?;
     let nodes: u64 = counted
         .tallies
         .iter()
         .map(|t| t.inner_nodes + t.leaves)
         .sum();
     let mut times = InPlace {
-        node: (nodes > 0).then(|| counted.walking.as_secs_f64() / nodes as f64),
+        node: (nodes > 0).then(|| counted.traversal.as_secs_f64() / nodes as f64),
         ..InPlace::default()
     };
     let kinds = PrimitiveKind::ALL.len();

@@ -7,8 +7,8 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::structure::{BuildSettings, Tree, build};
 use crate::trace::{
-    Batch, Hit, Probe, RayKind, RayTracer, RenderError, RenderSettings, Scratch, Shading, Way,
-    any_hit, closest_hit, thread_pool, tiles, timed_pass, trace_samples,
+    Batch, Children, Hit, Probe, RayKind, RayTracer, RenderError, RenderSettings, Scratch, Shading,
+    any_hit, closest_hit, render_timed, thread_pool, tiles, trace_samples,
 };
 
 const KINDS: usize = PrimitiveKind::ALL.len();
@@ -74,7 +74,7 @@ pub fn observe(
     let pool = thread_pool(render.threads)?;
     let mut seconds = f64::INFINITY;
     for _ in 0..rounds.max(1) {
-        let pass = timed_pass(scene, &tree, render, 0, &pool, progress, |_, _| ())?;
+        let pass = render_timed(scene, &tree, render, 0, &pool, progress, |_, _| ())?;
         seconds = seconds.min(pass.cpu.as_secs_f64());
     }
     Ok(Observation {
@@ -130,7 +130,7 @@ pub(super) struct Watcher {
 }
 
 impl Probe for Watcher {
-    fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Way) {
+    fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Children) {
         self.nodes += 1;
     }
 

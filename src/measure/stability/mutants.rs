@@ -7,12 +7,15 @@ use crate::primitive::{Precision, Primitive, Shape};
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::structure::{Method, Tree};
-use crate::trace::{Hit, LeafVisitor, Line, Meeting, Probe, RayKind, Scratch, WideLine, traverse};
+use crate::trace::{
+    Hit, LeafVisitor, PlaneCrossing, Probe, RayKind, Scratch, TraversalRay, TraversalRayF64,
+    traverse,
+};
 use std::marker::PhantomData;
 
 /// What is broken of the decisions about a ray.
 trait Break {
-    fn meeting(right: Meeting<f64>) -> Meeting<f64> {
+    fn crossing(right: PlaneCrossing<f64>) -> PlaneCrossing<f64> {
         right
     }
 
@@ -29,18 +32,18 @@ trait Break {
 }
 
 /// A ray whose decisions are broken.
-struct Broken<B>(WideLine, PhantomData<B>);
+struct Broken<B>(TraversalRayF64, PhantomData<B>);
 
-impl<B: Break> Line for Broken<B> {
+impl<B: Break> TraversalRay for Broken<B> {
     type T = f64;
-    const WAITS_IN_ORDER: bool = WideLine::WAITS_IN_ORDER;
+    const PENDING_IN_ORDER: bool = TraversalRayF64::PENDING_IN_ORDER;
 
-    fn within_root(&self, interval: [f64; 2]) -> Option<(f64, f64)> {
-        self.0.within_root(interval)
+    fn clip_to_root(&self, interval: [f64; 2]) -> Option<(f64, f64)> {
+        self.0.clip_to_root(interval)
     }
 
-    fn meet(&self, axis: usize, plane: f32) -> Meeting<f64> {
-        B::meeting(self.0.meet(axis, plane))
+    fn crossing(&self, axis: usize, plane: f32) -> PlaneCrossing<f64> {
+        B::crossing(self.0.crossing(axis, plane))
     }
 
     fn is_backward(&self, axis: usize) -> bool {
@@ -48,7 +51,7 @@ impl<B: Break> Line for Broken<B> {
     }
 
     fn reaches(t_enter: f64, limit: f64) -> bool {
-        B::reaches(WideLine::reaches(t_enter, limit), limit)
+        B::reaches(TraversalRayF64::reaches(t_enter, limit), limit)
     }
 }
 
@@ -60,8 +63,8 @@ impl Break for Nothing {}
 struct NearOnly;
 
 impl Break for NearOnly {
-    fn meeting(right: Meeting<f64>) -> Meeting<f64> {
-        Meeting {
+    fn crossing(right: PlaneCrossing<f64>) -> PlaneCrossing<f64> {
+        PlaneCrossing {
             surely_before: f64::INFINITY,
             ..right
         }
@@ -72,8 +75,8 @@ impl Break for NearOnly {
 struct FarOnly;
 
 impl Break for FarOnly {
-    fn meeting(right: Meeting<f64>) -> Meeting<f64> {
-        Meeting {
+    fn crossing(right: PlaneCrossing<f64>) -> PlaneCrossing<f64> {
+        PlaneCrossing {
             surely_behind: f64::NEG_INFINITY,
             ..right
         }
@@ -151,7 +154,7 @@ fn ask<B: Break>(
                 },
                 any: kind == RayKind::Shadow,
             };
-            let line = Broken::<B>(WideLine::new(tree, ray), PhantomData);
+            let line = Broken::<B>(TraversalRayF64::new(tree, ray), PhantomData);
             let interval = [ray.t_min, ray.t_max];
             traverse(tree, interval, &line, &mut scratch, &mut nearest, &mut ());
             let hit = Some(nearest.best).filter(Hit::is_hit);

@@ -7,7 +7,7 @@ use crate::measure::unsplit;
 use crate::scene::{Camera, CameraError, Material, Scene, SceneParts};
 use crate::structure::{BuildError, BuildSettings, MaxDepth, Tree, build};
 use crate::trace::{
-    Picture, RenderError, RenderSettings, TimedPass, counted_pass, thread_pool, timed_pass,
+    Picture, RenderError, RenderSettings, TimedRender, render_counted, render_timed, thread_pool,
 };
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -125,7 +125,7 @@ fn traced(
 ) -> Result<Picture, RenderError> {
     let pool = thread_pool(settings.threads)?;
     let picture = Mutex::new(Picture::new(settings.width, settings.height));
-    timed_pass(
+    render_timed(
         scene,
         tree,
         settings,
@@ -227,7 +227,7 @@ fn mirrors(trial: &Trial<'_>) -> Outcome {
             let tree = trial.tree(&scene, &trial.settings())?;
             let failed = |error: RenderError| Outcome::fail(error.to_string());
             let pool = thread_pool(1).map_err(failed)?;
-            let pass = counted_pass(&scene, &tree, &settings, &pool, trial.progress, |_| ());
+            let pass = render_counted(&scene, &tree, &settings, &pool, trial.progress, |_| ());
             let reflected = pass.map_err(failed)?.tallies[2].rays;
             let expected = u64::from(side * side * d_arec);
             Ok(Outcome::check(reflected == expected, || {
@@ -319,8 +319,8 @@ fn large_picture(trial: &Trial<'_>) -> Outcome {
     let memory = || memory_stats::memory_stats().map_or(0, |m| m.physical_mem);
     let (before, most) = (memory(), AtomicUsize::new(0));
     let (pixels, tiles) = (AtomicU64::new(0), AtomicU64::new(0));
-    let pass: Result<TimedPass, RenderError> = thread_pool(1).and_then(|pool| {
-        timed_pass(
+    let pass: Result<TimedRender, RenderError> = thread_pool(1).and_then(|pool| {
+        render_timed(
             &scene,
             &tree,
             &small(&scene, side),

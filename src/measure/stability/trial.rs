@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::structure::split::Structure;
 use crate::structure::{BuildError, BuildSettings, MaxDepth, Method, Tree, build, validate};
-use crate::trace::{Batch, RayKind, RayTracer, Timed, objects_fit_f32};
+use crate::trace::{Batch, RayKind, RayTracer, ScalarKernel, objects_fit_f32};
 use serde::Serialize;
 
 /// What came of a case.
@@ -95,7 +95,7 @@ fn timed(
     rays: &[Ray],
     progress: &Progress,
 ) -> Vec<Answer> {
-    let mut tracer = Timed::new(tree, scene.shapes(precision), progress);
+    let mut tracer = ScalarKernel::new(tree, scene.shapes(precision), progress);
     let batch = Batch {
         kind,
         rays,

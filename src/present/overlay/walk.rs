@@ -42,7 +42,7 @@ pub fn step_lines(tree: &Tree, path: &RayPath, step: usize, center: Vec3) -> Vec
         return Vec::new();
     };
     let mut lines = Vec::new();
-    for waiting in path.waiting(step) {
+    for waiting in path.pending(step) {
         let bounds = tree.cell_of(waiting.node).bounds;
         lines.extend(box_lines(&bounds, center, rgba(WAITING, DASHED), 1.0));
     }

@@ -39,9 +39,9 @@ pub fn scene(report: &Report) -> Vec<String> {
             point(rounded(scene.bounds.hi, size))
         ));
     }
-    let left_out = scene.requirements.left_out();
-    if !left_out.is_empty() {
-        lines.push(format!("Left out: {}", left_out.join("; ")));
+    let unneeded = scene.requirements.unneeded();
+    if !unneeded.is_empty() {
+        lines.push(format!("Not needed by this scene: {}", unneeded.join("; ")));
     }
     lines.extend(scene.notes.iter().map(ToString::to_string));
     lines
@@ -66,7 +66,7 @@ pub fn settings(report: &Report) -> Vec<String> {
             camera.angle
         ));
         lines.push(format!("Precision: {}", run.precision));
-        lines.push(format!("Timed kernel: {}", render.kernel.used()));
+        lines.push(format!("Timed kernel: {}", render.kernel.description()));
     }
     lines.extend(report.runs.iter().map(tree));
     lines
@@ -112,7 +112,7 @@ fn tree(run: &Measurement) -> String {
         build.method.name,
         build.root_margin,
         build.overlap.name(),
-        build.method.overlap_in_words(build.overlap),
+        build.method.overlap_text(build.overlap),
         build.first_axis
     );
     for constant in build.method.constants {

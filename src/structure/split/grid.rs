@@ -10,7 +10,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     title: "Uniform grid",
     about: "Divides the scene into equal, about cubic voxels, through which rays step from one to the \
             next. D_MAX and N_OILF do not apply, and there are no inner nodes to pass: the window's \
-            tree panes show planes between the voxels that only rays in lanes (--kernel lanes) pass.",
+            tree panes show planes between the voxels that only SIMD rays (--kernel stream) traverse.",
     source: "A. Fujimoto, T. Tanaka and K. Iwata, ARTS: accelerated ray-tracing system, 1986; \
              J. G. Cleary and G. Wyvill, Analysis of an algorithm for fast ray tracing using uniform \
              space subdivision, 1988; J. Amanatides and A. Woo, A fast voxel traversal algorithm for \
@@ -33,7 +33,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
 };
 
 /// The most voxels along an axis.
-const MOST: f64 = 1024.0;
+const MAX_VOXELS_PER_AXIS: f64 = 1024.0;
 
 struct UniformGrid {
     density: f64,
@@ -85,7 +85,7 @@ fn about_cubic(size: Vec3, wanted: f64) -> [u32; 3] {
                     } else {
                         1.0
                     };
-                    voxels.round().clamp(1.0, MOST) as u32
+                    voxels.round().clamp(1.0, MAX_VOXELS_PER_AXIS) as u32
                 });
             }
         }

@@ -24,7 +24,7 @@ fn widened(ray: &LaneRay) -> Ray {
 }
 
 /// What a precision makes of a ray.
-pub(super) trait Numbers {
+pub(super) trait RayPrecision {
     /// Whether lanes hold all of a ray but what lies behind its origin.
     const FORWARD_ONLY: bool;
 
@@ -43,9 +43,9 @@ pub(super) trait Numbers {
 }
 
 /// `f32`, in the unit frame.
-pub(super) struct Narrow;
+pub(super) struct InF32;
 
-impl Numbers for Narrow {
+impl RayPrecision for InF32 {
     /// Packed rays begin at 0 at the earliest for the plain kernel, too.
     const FORWARD_ONLY: bool = false;
 
@@ -71,9 +71,9 @@ impl Numbers for Narrow {
 }
 
 /// `f64`, in the world.
-pub(super) struct Wide;
+pub(super) struct InF64;
 
-impl Numbers for Wide {
+impl RayPrecision for InF64 {
     const FORWARD_ONLY: bool = true;
 
     #[inline(always)]
@@ -99,18 +99,18 @@ impl Numbers for Wide {
 
 /// Where the objects are that tests want.
 pub(super) trait Objects {
-    type Numbers: Numbers;
+    type RayPrecision: RayPrecision;
 
     /// Whether tests are computed for several candidates at once; else each for itself.
     const AT_ONCE: bool = false;
 
-    /// What can be computed for several candidates at once, at most [`MANY`]; [`Objects::settle`] asks
+    /// What can be computed for several candidates at once, at most [`MANY`]; [`Objects::test`] asks
     /// for them next.
     fn begin(&mut self, _: &[Candidate], _: &LaneRays) {}
 
-    /// [`Form::settle`] of a candidate up to `t_max`, the one of this number among those that were
+    /// [`Form::intersect_exact`] of a candidate up to `t_max`, the one of this number among those that were
     /// begun, NaN for none; `world` are the rays in the world.
-    fn settle(
+    fn test(
         &self,
         number: usize,
         candidate: &Candidate,
@@ -138,7 +138,7 @@ impl<'a> InTriangles<'a> {
 }
 
 impl Objects for InTriangles<'_> {
-    type Numbers = Narrow;
+    type RayPrecision = InF32;
 
     const AT_ONCE: bool = true;
 
@@ -153,8 +153,8 @@ impl Objects for InTriangles<'_> {
     }
 
     #[inline(always)]
-    fn settle(&self, number: usize, _: &Candidate, _: &LaneRays, _: &[Ray], t_max: f64) -> f64 {
-        PackedTriangle::settled(self.crossings.of(number), t_max)
+    fn test(&self, number: usize, _: &Candidate, _: &LaneRays, _: &[Ray], t_max: f64) -> f64 {
+        PackedTriangle::round_hit(self.crossings.of(number), t_max)
     }
 }
 
@@ -162,20 +162,15 @@ impl Objects for InTriangles<'_> {
 pub(super) struct InSpheres<'a>(pub(super) &'a [Spheres]);
 
 impl Objects for InSpheres<'_> {
-    type Numbers = Narrow;
+    type RayPrecision = InF32;
 
     #[inline(always)]
-    fn settle(
-        &self,
-        _: usize,
-        candidate: &Candidate,
-        rays: &LaneRays,
-        _: &[Ray],
-        t_max: f64,
-    ) -> f64 {
+    fn test(&self, _: usize, candidate: &Candidate, rays: &LaneRays, _: &[Ray], t_max: f64) -> f64 {
         let ray = widened(&rays.rays[candidate.ray as usize]);
         let block = &self.0[candidate.block as usize];
-        let t = block.sphere(candidate.place as usize).settle(&ray, t_max);
+        let t = block
+            .sphere(candidate.place as usize)
+            .intersect_exact(&ray, t_max);
         t.unwrap_or(f64::NAN)
     }
 }
@@ -195,11 +190,11 @@ impl<'a, N, F> InArray<'a, N, F> {
     }
 }
 
-impl<N: Numbers, F: Form> Objects for InArray<'_, N, F> {
-    type Numbers = N;
+impl<N: RayPrecision, F: Form> Objects for InArray<'_, N, F> {
+    type RayPrecision = N;
 
     #[inline(always)]
-    fn settle(
+    fn test(
         &self,
         _: usize,
         candidate: &Candidate,
@@ -208,7 +203,7 @@ impl<N: Numbers, F: Form> Objects for InArray<'_, N, F> {
         t_max: f64,
     ) -> f64 {
         let ray = N::tested(rays, candidate.ray as usize, world);
-        let t = self.objects[candidate.object as usize].settle(&ray, t_max);
+        let t = self.objects[candidate.object as usize].intersect_exact(&ray, t_max);
         t.unwrap_or(f64::NAN)
     }
 }
@@ -239,7 +234,7 @@ impl<O: Objects> Tests for Closest<'_, O> {
 
     fn begin(&mut self, rays: &LaneRays, part: usize) {
         for (slot, number) in rays.of_part(part) {
-            let t = O::Numbers::t_max(rays, slot, self.rays);
+            let t = O::RayPrecision::t_max(rays, slot, self.rays);
             self.hits[number] = Hit { t, ..Hit::MISS };
         }
     }
@@ -247,7 +242,7 @@ impl<O: Objects> Tests for Closest<'_, O> {
     fn end(&mut self, rays: &LaneRays, part: usize) {
         for (slot, number) in rays.of_part(part) {
             let hit = &mut self.hits[number];
-            let t = O::Numbers::to_world(rays, slot, hit.t);
+            let t = O::RayPrecision::to_world(rays, slot, hit.t);
             hit.t = select_unpredictable(hit.is_hit(), t, Hit::MISS.t);
         }
     }
@@ -266,11 +261,12 @@ impl<O: Objects> Tests for Closest<'_, O> {
                 if !O::AT_ONCE && object == best.object {
                     continue;
                 }
-                let t = self.objects.settle(k, candidate, rays, self.rays, best.t);
+                let t = self.objects.test(k, candidate, rays, self.rays, best.t);
                 let nearer = (t < best.t) | (t == best.t) & (object < best.object);
                 *best = select_unpredictable(nearer, Hit { t, object }, *best);
                 let limit = &mut limits[candidate.lane as usize];
-                *limit = select_unpredictable(nearer, O::Numbers::limit(rays, slot, t), *limit);
+                *limit =
+                    select_unpredictable(nearer, O::RayPrecision::limit(rays, slot, t), *limit);
             }
         }
     }
@@ -314,8 +310,8 @@ impl<O: Objects> Tests for Any<'_, O> {
         for candidates in candidates.chunks(MANY) {
             self.objects.begin(candidates, rays);
             for (k, candidate) in candidates.iter().enumerate() {
-                let t_max = O::Numbers::t_max(rays, candidate.ray as usize, self.rays);
-                let t = self.objects.settle(k, candidate, rays, self.rays, t_max);
+                let t_max = O::RayPrecision::t_max(rays, candidate.ray as usize, self.rays);
+                let t = self.objects.test(k, candidate, rays, self.rays, t_max);
                 if !t.is_nan() {
                     self.hit(rays, &[candidate.ray]);
                     limits[candidate.lane as usize] = -1.0;

@@ -31,7 +31,7 @@ use crate::primitive::{PrimitiveKind, Shapes, UnitFrame, with_array};
 use crate::scene::Scene;
 use crate::structure::Tree;
 use block::{Boxes, Spheres, Triangles};
-use exact::{Any, Closest, InArray, InSpheres, InTriangles, Narrow, Numbers, Objects, Wide};
+use exact::{Any, Closest, InArray, InF32, InF64, InSpheres, InTriangles, Objects, RayPrecision};
 use packet::{Aside, walk_packets};
 use prepare::Prepared;
 use ray::{LaneRays, PARTS, Root};
@@ -78,7 +78,7 @@ impl InstructionSet {
     }
 
     /// Whether this processor has it.
-    pub fn is_here(self) -> bool {
+    pub fn is_available(self) -> bool {
         match self {
             InstructionSet::Portable => true,
             #[cfg(target_arch = "x86_64")]
@@ -105,13 +105,15 @@ impl InstructionSet {
 
     /// The widest that this processor has.
     pub fn best() -> InstructionSet {
-        let here = InstructionSet::ALL.into_iter().find(|set| set.is_here());
+        let here = InstructionSet::ALL
+            .into_iter()
+            .find(|set| set.is_available());
         here.unwrap_or(InstructionSet::Portable)
     }
 }
 
 /// A tree made ready for lanes. It holds for one scene and either precision.
-pub struct LaneTree {
+pub struct SimdTree {
     frame: UnitFrame,
     prepared: AnyPrepared,
 }
@@ -122,15 +124,15 @@ enum AnyPrepared {
     Boxes(Prepared<Boxes>),
 }
 
-impl LaneTree {
+impl SimdTree {
     /// The tree of this scene ready for lanes: made when first asked for, then kept with the tree.
-    pub fn of<'a>(scene: &Scene, tree: &'a Tree) -> &'a LaneTree {
-        tree.derived(|| LaneTree::new(scene, tree))
+    pub fn of<'a>(scene: &Scene, tree: &'a Tree) -> &'a SimdTree {
+        tree.derived(|| SimdTree::new(scene, tree))
     }
 
     /// # Panics
     /// If the tree has more nodes than the form for lanes can hold, 2²⁸: 2 GiB of them.
-    fn new(scene: &Scene, tree: &Tree) -> LaneTree {
+    fn new(scene: &Scene, tree: &Tree) -> SimdTree {
         let objects = scene.objects();
         let frame = UnitFrame::around(&scene.bounds());
         let all = |kind| !objects.is_empty() && objects.iter().all(|o| o.kind() == kind);
@@ -141,7 +143,7 @@ impl LaneTree {
         } else {
             AnyPrepared::Boxes(Prepared::new(tree, objects, &frame))
         };
-        LaneTree { frame, prepared }
+        SimdTree { frame, prepared }
     }
 }
 
@@ -170,11 +172,11 @@ macro_rules! with_objects {
                 $body
             }
             (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, all => {
-                let $objects = InArray::<Narrow, _>::new(all);
+                let $objects = InArray::<InF32, _>::new(all);
                 $body
             }),
             (_, Shapes::F64(arrays)) => with_array!(arrays, all => {
-                let $objects = InArray::<Wide, _>::new(all);
+                let $objects = InArray::<InF64, _>::new(all);
                 $body
             }),
         }
@@ -182,13 +184,13 @@ macro_rules! with_objects {
 }
 
 /// Answers batches of rays; one a thread.
-pub struct LaneKernel<'a> {
+pub struct SimdKernel<'a> {
     tree: &'a Tree,
-    lanes: &'a LaneTree,
+    lanes: &'a SimdTree,
     shapes: &'a Shapes,
     instructions: InstructionSet,
     rays: Box<LaneRays>,
-    company: RayCompany,
+    mode: SimdMode,
     /// Whether rays of this call go in packets; `None` until that was tried.
     in_packets: Option<bool>,
     stacks: Stacks,
@@ -201,55 +203,59 @@ pub struct LaneKernel<'a> {
 /// alike. A few packets, which in lanes would be faster by at most half.
 const SAMPLE: usize = 64;
 
-/// How rays keep each other company.
+/// How the rays of a call traverse the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RayCompany {
-    /// Every ray walks on its own, in a lane that goes on with another ray when it is done.
-    Lanes,
-    /// As many neighbours as there are lanes walk together, for rays that take much the same way.
+pub enum SimdMode {
+    /// Every ray traverses the tree on its own, in a lane that takes the next ray when it is done.
+    Stream,
+    /// Neighboring rays, one per lane, traverse the tree together.
     Packets,
-    /// Packets as long as those of a call keep together; then lanes.
+    /// Packets as long as the rays of a call are coherent, then a stream.
     Auto,
 }
 
-impl RayCompany {
-    pub const ALL: [RayCompany; 3] = [RayCompany::Lanes, RayCompany::Packets, RayCompany::Auto];
+impl SimdMode {
+    pub const ALL: [SimdMode; 3] = [SimdMode::Stream, SimdMode::Packets, SimdMode::Auto];
 
-    /// As reports have it.
+    /// The name in reports.
     pub const fn name(self) -> &'static str {
-        ["lanes", "packets", "lanes and packets"][self as usize]
+        ["stream", "packets", "stream and packets"][self as usize]
     }
 
     /// Whether it is packets; `None` where that must be tried.
     fn in_packets(self) -> Option<bool> {
         match self {
-            RayCompany::Lanes => Some(false),
-            RayCompany::Packets => Some(true),
-            RayCompany::Auto => None,
+            SimdMode::Stream => Some(false),
+            SimdMode::Packets => Some(true),
+            SimdMode::Auto => None,
         }
     }
 }
 
-impl<'a> LaneKernel<'a> {
+impl<'a> SimdKernel<'a> {
     /// A kernel for this instruction set; `lanes` is of this tree and `shapes` of its scene.
     ///
     /// # Panics
     /// If the processor does not have the instructions.
     pub fn new(
         tree: &'a Tree,
-        lanes: &'a LaneTree,
+        lanes: &'a SimdTree,
         shapes: &'a Shapes,
         instructions: InstructionSet,
-        company: RayCompany,
+        mode: SimdMode,
     ) -> Self {
-        assert!(instructions.is_here(), "no {} here", instructions.name());
-        LaneKernel {
+        assert!(
+            instructions.is_available(),
+            "no {} here",
+            instructions.name()
+        );
+        SimdKernel {
             tree,
             lanes,
             shapes,
             instructions,
             rays: LaneRays::new(),
-            company,
+            mode,
             in_packets: None,
             stacks: Stacks::default(),
             asides: Vec::new(),
@@ -278,7 +284,7 @@ impl<'a> LaneKernel<'a> {
     }
 
     fn closest_of<O: Objects>(&mut self, objects: O, rays: &[Ray], hits: &mut [Hit]) {
-        self.walk::<O::Numbers>(rays, &mut Closest::new(objects, rays, hits));
+        self.walk::<O::RayPrecision>(rays, &mut Closest::new(objects, rays, hits));
         for &i in &self.rays.others {
             let (i, scratch) = (i as usize, &mut self.scratch);
             hits[i] = closest_hit(self.tree, self.shapes, &rays[i], scratch, &mut ());
@@ -286,7 +292,7 @@ impl<'a> LaneKernel<'a> {
     }
 
     fn any_of<O: Objects>(&mut self, objects: O, rays: &[Ray], blocked: &mut [bool]) {
-        self.walk::<O::Numbers>(rays, &mut Any::new(objects, rays, blocked));
+        self.walk::<O::RayPrecision>(rays, &mut Any::new(objects, rays, blocked));
         for &i in &self.rays.others {
             let (i, scratch) = (i as usize, &mut self.scratch);
             blocked[i] = any_hit(self.tree, self.shapes, &rays[i], scratch, &mut ());
@@ -294,7 +300,7 @@ impl<'a> LaneKernel<'a> {
     }
 
     /// Answers all rays but [`LaneRays::others`], in packets as long as those are chosen and then in lanes.
-    fn walk<N: Numbers>(&mut self, rays: &[Ray], tests: &mut dyn Tests) {
+    fn walk<N: RayPrecision>(&mut self, rays: &[Ray], tests: &mut dyn Tests) {
         let lanes = self.lanes;
         let (thick, corners) = with_prepared!(lanes, tree => (tree.thick, &tree.corners));
         let root = Root {
@@ -305,7 +311,7 @@ impl<'a> LaneKernel<'a> {
         };
         let mut supply = Supply::new(root, rays);
         self.rays.others.clear();
-        self.in_packets = self.company.in_packets();
+        self.in_packets = self.mode.in_packets();
         while !supply.is_empty() {
             let parts = if self.in_packets == Some(true) {
                 PARTS
@@ -401,7 +407,7 @@ impl<'a> LaneKernel<'a> {
                 }
             }
         });
-        if self.company == RayCompany::Auto {
+        if self.mode == SimdMode::Auto {
             // In plain Rust packets of rays that are alike are always the faster (`benches/README.md`).
             let portable = self.instructions == InstructionSet::Portable;
             self.in_packets = Some(portable || together.is_close(self.instructions.lanes()));
@@ -409,7 +415,7 @@ impl<'a> LaneKernel<'a> {
     }
 }
 
-impl LaneTree {
+impl SimdTree {
     /// Bytes that nodes and blocks take.
     pub fn bytes(&self) -> usize {
         with_prepared!(self, prepared => prepared.bytes())

@@ -1,65 +1,80 @@
 //! The kernel that a pass is timed with, and its choice.
 
-use super::{InstructionSet, LaneKernel, LaneTree, RayCompany};
+use super::{InstructionSet, SimdKernel, SimdMode, SimdTree};
 use crate::geometry::Ray;
 use crate::primitive::Shapes;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::structure::Tree;
-use crate::trace::{Batch, Hit, RayTracer, Timed};
+use crate::trace::{Batch, Hit, RayTracer, ScalarKernel};
 use serde::{Deserialize, Serialize};
 
-/// The timed kernel asked for.
+/// The kernel chosen for timed rendering.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum KernelChoice {
     /// One ray after the other, through exactly the nodes that are counted: the paper's method.
     #[default]
-    Plain,
-    /// Batches of rays in the lanes of vectors, in the widest instructions that the processor has.
-    Lanes,
-    /// The same instructions for packets: rays that lie side by side in a batch walk together.
+    #[serde(alias = "plain")]
+    Scalar,
+    /// Streams of rays in SIMD, each ray with its own traversal, in the widest instruction set of
+    /// the processor.
+    #[serde(alias = "lanes")]
+    Stream,
+    /// The same instruction set for packets: neighboring rays of a batch traverse the tree together.
     Packets,
-    /// Packets where rays keep together, else lanes; plain on processors without a path of their own.
+    /// Packets where rays are coherent, else streams; scalar on processors without a SIMD kernel of
+    /// their own.
     Auto,
 }
 
 impl KernelChoice {
     pub const ALL: [KernelChoice; 4] = [
-        KernelChoice::Plain,
-        KernelChoice::Lanes,
+        KernelChoice::Scalar,
+        KernelChoice::Stream,
         KernelChoice::Packets,
         KernelChoice::Auto,
     ];
 
-    /// `plain`, `lanes`, `packets` or `auto`.
+    /// `scalar`, `stream`, `packets` or `auto`.
     pub const fn name(self) -> &'static str {
-        ["plain", "lanes", "packets", "auto"][self as usize]
+        ["scalar", "stream", "packets", "auto"][self as usize]
     }
 
-    /// The choice of this name.
+    /// The name in earlier versions, where it was another.
+    pub const fn old_name(self) -> Option<&'static str> {
+        match self {
+            KernelChoice::Scalar => Some("plain"),
+            KernelChoice::Stream => Some("lanes"),
+            KernelChoice::Packets | KernelChoice::Auto => None,
+        }
+    }
+
+    /// The choice of this name or old name.
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|choice| choice.name() == name)
+        Self::ALL
+            .into_iter()
+            .find(|choice| choice.name() == name || choice.old_name() == Some(name))
     }
 
-    /// How rays go in vectors on this processor, and in which instructions; `None` for the plain kernel.
-    pub fn in_vectors(self) -> Option<(RayCompany, InstructionSet)> {
+    /// The SIMD traversal and instruction set on this processor; `None` for the scalar kernel.
+    pub fn simd(self) -> Option<(SimdMode, InstructionSet)> {
         let best = InstructionSet::best();
         match self {
-            KernelChoice::Plain => None,
-            KernelChoice::Lanes => Some((RayCompany::Lanes, best)),
-            KernelChoice::Packets => Some((RayCompany::Packets, best)),
+            KernelChoice::Scalar => None,
+            KernelChoice::Stream => Some((SimdMode::Stream, best)),
+            KernelChoice::Packets => Some((SimdMode::Packets, best)),
             KernelChoice::Auto => {
-                Some((RayCompany::Auto, best)).filter(|_| best != InstructionSet::Portable)
+                Some((SimdMode::Auto, best)).filter(|_| best != InstructionSet::Portable)
             }
         }
     }
 
-    /// The kernel that times are of, as reports have it.
-    pub fn used(self) -> String {
-        match self.in_vectors() {
-            None => "plain".into(),
-            Some((company, set)) => format!("{}, {}", company.name(), set.name()),
+    /// The kernel that is timed on this processor, for reports.
+    pub fn description(self) -> String {
+        match self.simd() {
+            None => "scalar".into(),
+            Some((mode, set)) => format!("{}, {}", mode.name(), set.name()),
         }
     }
 }
@@ -72,8 +87,8 @@ const RAYS_PER_LOOK: usize = 4096;
 
 /// The kernel whose time counts.
 pub struct TimedKernel<'a> {
-    plain: Timed<'a>,
-    lanes: Option<LaneKernel<'a>>,
+    plain: ScalarKernel<'a>,
+    lanes: Option<SimdKernel<'a>>,
     progress: &'a Progress,
 }
 
@@ -87,12 +102,12 @@ impl<'a> TimedKernel<'a> {
         shapes: &'a Shapes,
         progress: &'a Progress,
     ) -> Self {
-        let lanes = choice.in_vectors().map(|(company, instructions)| {
-            let lanes = LaneTree::of(scene, tree);
-            LaneKernel::new(tree, lanes, shapes, instructions, company)
+        let lanes = choice.simd().map(|(mode, instructions)| {
+            let lanes = SimdTree::of(scene, tree);
+            SimdKernel::new(tree, lanes, shapes, instructions, mode)
         });
         TimedKernel {
-            plain: Timed::new(tree, shapes, progress),
+            plain: ScalarKernel::new(tree, shapes, progress),
             lanes,
             progress,
         }
@@ -104,7 +119,7 @@ impl<'a> TimedKernel<'a> {
         rays: &[Ray],
         miss: A,
         answers: &mut Vec<A>,
-        ask: impl Fn(&mut LaneKernel<'a>, &[Ray], &mut [A]),
+        ask: impl Fn(&mut SimdKernel<'a>, &[Ray], &mut [A]),
     ) -> bool {
         let Some(kernel) = self.lanes.as_mut().filter(|_| rays.len() >= FEWEST_RAYS) else {
             return false;
@@ -126,13 +141,13 @@ impl<'a> TimedKernel<'a> {
 
 impl RayTracer for TimedKernel<'_> {
     fn closest_hits(&mut self, batch: Batch<'_>, hits: &mut Vec<Hit>) {
-        if !self.in_lanes(batch.rays, Hit::MISS, hits, LaneKernel::closest_hits) {
+        if !self.in_lanes(batch.rays, Hit::MISS, hits, SimdKernel::closest_hits) {
             self.plain.closest_hits(batch, hits);
         }
     }
 
     fn any_hits(&mut self, batch: Batch<'_>, blocked: &mut Vec<bool>) {
-        if !self.in_lanes(batch.rays, false, blocked, LaneKernel::any_hits) {
+        if !self.in_lanes(batch.rays, false, blocked, SimdKernel::any_hits) {
             self.plain.any_hits(batch, blocked);
         }
     }

@@ -5,7 +5,7 @@ use crate::geometry::Vec3;
 use crate::present::report::plain_table;
 use crate::scene::Scene;
 use crate::trace::{
-    InnerStep, LeafStep, PixelRecord, RayKind, RecordedRay, Step, Tally, Way, srgb8,
+    Children, InnerStep, LeafStep, PixelRecord, RayKind, RecordedRay, Step, Tally, srgb8,
 };
 use std::io::{Result, Write};
 
@@ -146,10 +146,10 @@ fn inner(step: &InnerStep) -> String {
         Some(t) => format!("meets it at t {}", number_of(t)),
         None => "runs along it".to_owned(),
     };
-    let goes = match step.way {
-        Way::Near => format!("near child {} only", step.near),
-        Way::Far => format!("far child {} only", step.far),
-        Way::Both => format!("near child {}, then far child {}", step.near, step.far),
+    let goes = match step.children {
+        Children::Near => format!("near child {} only", step.near),
+        Children::Far => format!("far child {} only", step.far),
+        Children::Both => format!("near child {}, then far child {}", step.near, step.far),
     };
     format!(
         "node {}, depth {}: plane {} = {}, t {} to {}, {meets}: {goes}",
@@ -195,7 +195,7 @@ fn write_leaf(
             object(scene, test.object)
         )?;
     }
-    writeln!(out, "{indent}      {}", leaf.after.text())
+    writeln!(out, "{indent}      {}", leaf.outcome.text())
 }
 
 fn object(scene: &Scene, object: u32) -> String {
