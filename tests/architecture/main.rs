@@ -33,7 +33,6 @@ const KNOWN_CYCLES: &[&[&str]] = &[
     ],
     &["src/lesson/mod.rs", "src/lesson/read.rs"],
     &[
-        "src/measure/accuracy/knobs.rs",
         "src/measure/accuracy/measures.rs",
         "src/measure/accuracy/mod.rs",
     ],
@@ -94,8 +93,8 @@ const KNOWN_CYCLES: &[&[&str]] = &[
         "src/scene/builtin/tetra.rs",
     ],
     &[
+        "src/scene/format/builder.rs",
         "src/scene/format/choose.rs",
-        "src/scene/format/gather.rs",
         "src/scene/format/gltf/accessor.rs",
         "src/scene/format/gltf/buffers.rs",
         "src/scene/format/gltf/container.rs",
