@@ -19,6 +19,7 @@
 //! | [`structure`] | 8-byte nodes, the one build driver, voxels of grids, moments of the build, validation | |
 //! | [`structure::split`] | where a method splits a cell | a line in [`structure::split::SPLIT_RULES`] |
 //! | [`trace`] | traversal of trees and grids in two precisions, timed and counting kernels, plain or in lanes of vectors, shading, passes over a picture, visits of nodes | |
+//! | [`setup`] | the whole experiment: scene, structure, render settings, camera | |
 //! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ, figures of each kind of ray; trees against testing every object | an entry of [`measure::PARAMETERS`] or [`measure::RAY_FIGURES`] |
 //! | [`measure::model`] | the time model of equation (1): by regression and in place; where the time of a picture goes | |
 //! | [`measure::sweep`] | the parameters over a grid of settings: points, rows, shards, charts | |
@@ -60,7 +61,7 @@
 //! let render = RenderSettings {
 //!     width: 64,
 //!     height: 64,
-//!     ..RenderSettings::for_camera(*scene.camera())
+//!     ..RenderSettings::default()
 //! };
 //! let measured = measure(&scene, &build, &render, &progress)?;
 //! let leaves = (parameter("N_LS").value)(&measured.measurement);
@@ -76,12 +77,14 @@ pub mod files;
 pub mod geometry;
 #[cfg(feature = "gui")]
 pub mod gui;
+pub mod jobs;
 pub mod lesson;
 pub mod measure;
 pub mod present;
 pub mod primitive;
 pub mod progress;
 pub mod scene;
+pub mod setup;
 pub mod structure;
 pub mod trace;
 pub mod worker;

@@ -3,6 +3,7 @@
 
 pub mod builtin;
 mod camera;
+mod camera_override;
 pub mod format;
 mod material;
 mod note;
@@ -12,6 +13,7 @@ mod source;
 mod tessellate;
 
 pub use camera::{Camera, CameraError, Sampling, View};
+pub use camera_override::CameraOverride;
 pub use material::{Light, Material};
 pub use note::{Note, NoteKind};
 pub use requirements::Requirements;
