@@ -3,6 +3,7 @@
 
 pub mod builtin;
 mod camera;
+mod camera_override;
 pub mod format;
 mod material;
 mod model;
@@ -14,6 +15,7 @@ mod source;
 mod tessellate;
 
 pub use camera::{Camera, CameraError, Sampling, View};
+pub use camera_override::CameraOverride;
 pub use material::{Light, Material};
 pub use model::Scene;
 pub use note::{Note, NoteKind};

@@ -321,7 +321,7 @@ fn every_form_has_every_symbol_for_every_method() {
     let program = Program::new();
     let measure = format!("measure tetra:3 {QUICK}");
 
-    let text = program.done(&measure);
+    let text = program.done(&format!("{measure} --threads 3"));
     let at = |part: &str| {
         text.find(part)
             .unwrap_or_else(|| panic!("no {part}: {text}"))
@@ -329,7 +329,7 @@ fn every_form_has_every_symbol_for_every_method() {
     assert!(at("Δ") < at("Λ") && at("Λ") < at("Table 1"));
     assert!(at("2/1") < at("N_RPRT"));
     assert!(text.contains("Not needed by this scene: spheres"), "{text}");
-    assert!(text.contains(" CPU) on 1 thread"), "{text}");
+    assert!(text.contains(" CPU) on 3 threads"), "{text}");
 
     let markdown = program.done(&format!("{measure} --format markdown"));
     let latex = program.done(&format!("{measure} --format latex"));

@@ -3,6 +3,7 @@
 use bspscope::measure::accuracy::{Choice, KNOBS, Outcome, Trade, choices, reference, trade};
 use bspscope::progress::Progress;
 use bspscope::scene::{Scene, SceneRequest, load};
+use bspscope::setup::Setup;
 use bspscope::structure::{BuildSettings, Method};
 use bspscope::trace::RenderSettings;
 
@@ -16,9 +17,14 @@ fn choices_of(scene: &Scene) -> Vec<Choice> {
         width: 64,
         height: 64,
         samples: 8,
-        ..RenderSettings::for_camera(*scene.camera())
+        ..RenderSettings::default()
     };
-    choices(&reference(&build, &render), scene)
+    let setup = Setup {
+        build,
+        render,
+        ..Setup::default()
+    };
+    choices(&reference(&setup), scene)
 }
 
 fn taken(name: &str) -> Trade {
@@ -115,7 +121,7 @@ fn every_knob_is_turned_alone_and_those_of_the_picture_together() {
         .map(|k| k.name)
         .collect();
     assert_eq!(turned, expected);
-    let changed = |c: &Choice| c.turned.is_empty() || c.setting != choices[0].setting;
+    let changed = |c: &Choice| c.turned.is_empty() || c.setup != choices[0].setup;
     assert!(choices.iter().all(changed));
 }
 

@@ -96,7 +96,7 @@ fn each_mistake_after_a_view_is_named_with_its_line() {
         (
             "l 1 2 3 1\n",
             10,
-            &["expected green of the light's colour", "end of the file"],
+            &["expected green of the light's color", "end of the file"],
         ),
         (
             "l 1 2 3 1 1 1 1\n",

@@ -89,7 +89,7 @@ fn f32_sees_the_same_objects_but_at_few_edges() {
         let scene = builtin(name);
         let tree = tree_of(&scene);
         let render = RenderSettings::for_camera(*scene.camera());
-        let view = render.view().unwrap();
+        let view = render.view(&scene).unwrap();
         let (mut wrong, mut farthest, mut hits) = (0, 0.0_f64, 0);
         for i in 0..20_000u32 {
             let ray = view.primary_ray(i * 37 % 512, i * 101 % 512, 0);

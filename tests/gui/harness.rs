@@ -3,6 +3,7 @@
 
 use bspscope::gui::{App, StartOptions};
 use bspscope::scene::SceneRequest;
+use bspscope::setup::Setup;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use std::time::{Duration, Instant};
@@ -18,13 +19,13 @@ pub type Window<'a> = Harness<'a, App>;
 /// A small picture of a scene; leaves the user's own settings folder alone.
 pub fn small(scene: &str) -> StartOptions {
     let mut start = StartOptions {
-        scene: SceneRequest::parse(scene),
+        setup: Setup::new(SceneRequest::parse(scene)),
         remember: false,
         ..StartOptions::default()
     };
-    start.render.width = SIZE;
-    start.render.height = SIZE;
-    start.render.threads = 2;
+    start.setup.render.width = SIZE;
+    start.setup.render.height = SIZE;
+    start.setup.render.threads = 2;
     start
 }
 

@@ -261,9 +261,9 @@ fn the_most_expensive_pixel_is_that_of_the_heatmap_chosen_last() {
 #[test]
 fn without_counts_the_picture_stays_and_a_note_says_why() {
     let mut start = small();
-    start.scene = SceneRequest::parse("balls:4");
-    start.render.width = 2001;
-    start.render.height = 2000;
+    start.setup.scene = SceneRequest::parse("balls:4");
+    start.setup.render.width = 2001;
+    start.setup.render.height = 2000;
     let mut window = open(start);
     // The picture is not there at once, and if it were, it would be too large to be counted.
     choose(&mut window, "Show:", &title(&HEATMAPS[0]));
@@ -277,9 +277,9 @@ fn without_counts_the_picture_stays_and_a_note_says_why() {
 #[test]
 fn what_was_cancelled_before_it_was_counted_says_so() {
     let mut start = small();
-    start.scene = SceneRequest::parse("balls:4");
-    start.render.width = 1900;
-    start.render.height = 1900;
+    start.setup.scene = SceneRequest::parse("balls:4");
+    start.setup.render.width = 1900;
+    start.setup.render.height = 1900;
     let mut window = open(start);
     choose(&mut window, "Show:", &title(&HEATMAPS[0]));
     assert!(has(&window, "counting …"));
@@ -345,9 +345,9 @@ fn colours_ends_of_the_range_and_blending_are_set_in_a_menu() {
 #[test]
 fn taking_times_is_cancelled_and_begun_anew() {
     let mut start = small();
-    start.render.width = 400;
-    start.render.height = 400;
-    start.scene = SceneRequest::parse("balls:3");
+    start.setup.render.width = 400;
+    start.setup.render.height = 400;
+    start.setup.scene = SceneRequest::parse("balls:3");
     let mut window = open(start);
     finish(&mut window);
     choose(&mut window, "Show:", &title(heatmap("T_PIXEL").unwrap()));

@@ -31,12 +31,11 @@ fn measure(window: &mut Window<'_>) {
 /// What the library counts in every pixel.
 fn terms() -> PictureTerms {
     let (start, progress) = (small(SCENE), Progress::new());
-    let scene = load(&start.scene, &progress).unwrap();
+    let scene = load(&start.setup.scene, &progress).unwrap();
     let render = RenderSettings {
-        camera: *scene.camera(),
-        ..start.render
+        ..start.setup.render
     };
-    let tree = build(&scene, &start.build, &progress).unwrap();
+    let tree = build(&scene, &start.setup.build, &progress).unwrap();
     PictureTerms::count(&scene, &tree, &render, &progress).unwrap()
 }
 
@@ -143,8 +142,8 @@ fn a_region_and_a_pixel_have_their_own_time() {
 #[test]
 fn timing_is_cancelled_and_what_was_found_stays() {
     let mut start = small("balls:2");
-    start.render.width = 256;
-    start.render.height = 256;
+    start.setup.render.width = 256;
+    start.setup.render.height = 256;
     let mut window = open(start);
     finish(&mut window);
     click(&mut window, "Time");

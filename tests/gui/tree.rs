@@ -12,7 +12,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 /// A window with a finished picture; with the 3D view where `graphics`.
 fn open<'a>(scene: &str, method: &str, graphics: bool) -> Window<'a> {
     let mut start = small(scene);
-    start.build = BuildSettings::for_method(Method::named(method).unwrap());
+    start.setup.build = BuildSettings::for_method(Method::named(method).unwrap());
     let mut window = open_sized(start, [1500.0, 1000.0], graphics);
     // Until then what is counted comes in and moves what a test clicks at.
     finish(&mut window);
@@ -172,12 +172,11 @@ fn brushing_a_histogram_changes_the_leaves_shown() {
 fn expected_visits(scene: &str, method: &str) -> (Tree, Visits) {
     let start = small(scene);
     let progress = Progress::new();
-    let scene = load(&start.scene, &progress).unwrap();
+    let scene = load(&start.setup.scene, &progress).unwrap();
     let settings = BuildSettings::for_method(Method::named(method).unwrap());
     let tree = build(&scene, &settings, &progress).unwrap();
     let render = RenderSettings {
-        camera: *scene.camera(),
-        ..start.render
+        ..start.setup.render
     };
     let pool = thread_pool(2).unwrap();
     let visits = count_visits(&scene, &tree, &render, &pool, &progress).unwrap();

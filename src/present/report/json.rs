@@ -93,7 +93,7 @@ fn settings(run: &Measurement) -> Result<Value> {
         "memory_limit": build.memory_limit >> 20,
         "resolution": [render.width, render.height],
         "d_arec": render.d_arec,
-        "cut_off": render.cut_off,
+        "min_contribution": render.min_contribution,
         "precision": {
             "asked": name(&render.precision)?,
             "used": run.precision.precision.name(),
@@ -104,8 +104,8 @@ fn settings(run: &Measurement) -> Result<Value> {
             "used": render.kernel.description(),
         },
         "sampling": name(&render.sampling)?,
-        "threads": render.threads,
-        "camera": render.camera,
+        "threads": run.building.threads,
+        "camera": run.camera,
     }))
 }
 
