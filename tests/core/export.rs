@@ -1,5 +1,6 @@
 //! Exports read back by other programs' readers, and the report as a page.
 
+use crate::support::scenes::{scene, tree_by};
 use bspscope::measure::{Class, DELTA, LAMBDA, PARAMETERS, parameter};
 use bspscope::present::export::{LEAF_WRITERS, LeafCells};
 use bspscope::present::overlay::Filter;
@@ -13,11 +14,9 @@ use serde_json::Value;
 use std::collections::HashMap;
 use std::process::Command;
 
-fn tree_of(scene: &str, method: &str) -> (Scene, Tree) {
-    let progress = Progress::new();
-    let scene = load(&SceneRequest::parse(scene), &progress).unwrap();
-    let settings = BuildSettings::for_method(Method::named(method).unwrap());
-    let tree = build(&scene, &settings, &progress).unwrap();
+fn tree_of(source: &str, method: &str) -> (Scene, Tree) {
+    let scene = scene(source);
+    let tree = tree_by(&scene, method);
     (scene, tree)
 }
 
