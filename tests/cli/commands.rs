@@ -5,8 +5,7 @@ use bspscope::measure::{DELTA, LAMBDA, PARAMETERS, Unit};
 use bspscope::structure::Method;
 use serde_json::Value;
 use std::io::Read;
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Stdio;
 
 /// A small measurement; 16 × 16 pixels are enough for every parameter.
 const QUICK: &str = "--resolution 16x16";

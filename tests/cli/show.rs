@@ -4,9 +4,7 @@ use crate::support::program::Program;
 use bspscope::measure::heat::HEATMAPS;
 use exr::prelude::read_first_flat_layer_from_file;
 use image::GenericImageView;
-use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 
 /// Runs what must be refused, without a trace; returns standard error.
 fn refused(program: &Program, arguments: &str) -> String {
@@ -186,7 +184,10 @@ fn what_cannot_be_shown_is_refused() {
             "{errors}"
         );
     }
-    let errors = refused(&program, &format!("render teaching {QUICK} --show N_NODE -o a.png"));
+    let errors = refused(
+        &program,
+        &format!("render teaching {QUICK} --show N_NODE -o a.png"),
+    );
     for heatmap in HEATMAPS {
         assert!(errors.contains(heatmap.symbol), "{errors}");
     }

@@ -2,8 +2,6 @@
 
 use crate::support::program::Program;
 use bspscope::measure::{Class, PARAMETERS};
-use std::path::PathBuf;
-use std::process::{Command, Output};
 
 /// The cells of a file of rows, those that depend on the machine left empty.
 fn counts(program: &Program, name: &str) -> Vec<Vec<String>> {
@@ -61,7 +59,10 @@ fn shards_merge_to_the_whole_and_missing_points_are_told() {
         0,
         "merge part-3.jsonl part-1.jsonl part-2.jsonl -o merged.csv",
     );
-    assert_eq!(counts(&program, "merged.csv"), counts(&program, "whole.csv"));
+    assert_eq!(
+        counts(&program, "merged.csv"),
+        counts(&program, "whole.csv")
+    );
     let text = program.ends(1, "merge part-1.jsonl part-3.jsonl -o two.csv");
     assert!(
         text.contains("missing points, from 0: 1 4 7 10 13"),

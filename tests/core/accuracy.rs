@@ -3,13 +3,12 @@
 use crate::support::scenes::{scene, settings};
 use bspscope::measure::accuracy::{Choice, KNOBS, Outcome, Trade, choices, reference, trade};
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
+use bspscope::scene::Scene;
 use bspscope::setup::Setup;
-use bspscope::structure::{BuildSettings, Method};
 use bspscope::trace::RenderSettings;
 
 fn choices_of(scene: &Scene) -> Vec<Choice> {
-        let render = RenderSettings {
+    let render = RenderSettings {
         width: 64,
         height: 64,
         samples: 8,

@@ -4,7 +4,7 @@ use crate::support::scenes::{self, scene, tree_with};
 use bspscope::geometry::Vec3;
 use bspscope::primitive::{Primitive, Sphere, Triangle};
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
+use bspscope::scene::Scene;
 use bspscope::structure::split::Structure;
 use bspscope::structure::{
     BuildError, BuildSettings, Constants, MaxDepth, Method, NodeKind, OverlapRule, SettingsError,

@@ -5,8 +5,8 @@ use bspscope::geometry::Vec3;
 use bspscope::measure::{Measured, RAY_FIGURES, Unequal, measure, parameter, unequal};
 use bspscope::primitive::{Primitive, Sphere};
 use bspscope::progress::Progress;
-use bspscope::scene::{Sampling, Scene, SceneRequest, load};
-use bspscope::structure::{BuildSettings, MaxDepth, Method};
+use bspscope::scene::{Sampling, Scene};
+use bspscope::structure::{BuildSettings, MaxDepth};
 use bspscope::trace::{RayCounts, RayKind, RayMaxima, RenderSettings, render_counted, thread_pool};
 
 fn measured(

@@ -5,7 +5,7 @@ use crate::support::scenes::{render_sized, scene, scene_file, scene_names, tree_
 use bspscope::measure::{answer, compare, sample_rays, unsplit};
 use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
-use bspscope::scene::{Sampling, Scene, SceneRequest, load};
+use bspscope::scene::{Sampling, Scene};
 use bspscope::structure::{BuildSettings, Method, OverlapRule, Tree, build, validate};
 use bspscope::trace::{
     CountedRender, Picture, RayKind, RenderSettings, render_counted, render_timed, thread_pool,
@@ -122,11 +122,7 @@ fn every_tree_is_valid() {
             for overlap in OverlapRule::ALL {
                 let tree = tree_of(&scene, method, overlap);
                 if let Err(wrong) = validate(&scene, &tree) {
-                    panic!(
-                        "{} by {method:?}, {}: {wrong}",
-                        name,
-                        overlap.name()
-                    );
+                    panic!("{} by {method:?}, {}: {wrong}", name, overlap.name());
                 }
             }
         }

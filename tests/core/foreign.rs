@@ -10,9 +10,8 @@ use bspscope::scene::format::{
     FORMATS, Format, FormatError, Input, MAX_VERTICES, ReadError, nff, read_file,
 };
 use bspscope::scene::{LoadError, NoteKind, Scene, SceneParts, SceneRequest};
-use bspscope::structure::{BuildSettings, Method, Tree, build};
 use bspscope::trace::{RayKind, RenderSettings, thread_pool};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How many rays are compared.

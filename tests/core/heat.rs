@@ -10,13 +10,13 @@ use bspscope::present::overlay::{
     heat_colors, with_legend,
 };
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
-use bspscope::structure::{BuildSettings, Method, Tree, build};
+use bspscope::scene::Scene;
+use bspscope::structure::Tree;
 use bspscope::trace::{
     RenderSettings, pixel_times, record_pixel, render_counted, render_timed, thread_pool,
 };
-use std::path::Path;
 use std::sync::Mutex;
+use std::time::Instant;
 
 const SCENES: [&str; 4] = ["balls", "rings", "tetra", "teaching"];
 
@@ -196,29 +196,17 @@ fn time_is_taken_of_every_pixel_and_only_when_asked_for() {
     assert_eq!(time.value(&counts, 0, RayFilter::All), None);
     assert_eq!(time.image(&counts, RayFilter::All).statistics(), None);
 
+    let start = Instant::now();
     let seconds = pixel_times(&scene, &tree, &settings, &pool, &Progress::new()).unwrap();
+    let whole = start.elapsed().as_secs_f64();
     assert_eq!(seconds.len(), counts.tallies.len());
     assert!(seconds.iter().all(|s| s.is_finite() && *s > 0.0));
     let sum: f64 = seconds.iter().map(|&s| f64::from(s)).sum();
+    // One thread, one pixel after the other, however busy the machine is.
+    assert!(sum <= whole, "{sum} s of {whole} s");
     counts.seconds = Some(seconds);
     let total = time.total(&counts, RayFilter::All).unwrap();
     assert!((total - sum * 1e6).abs() < 1e-9 * total, "microseconds");
-    // Alone a pixel takes longer than within a tile, but not another order of time.
-    let pass = render_timed(
-        &scene,
-        &tree,
-        &settings,
-        0,
-        &pool,
-        &Progress::new(),
-        |_, _| (),
-    );
-    let whole = pass.unwrap().cpu.as_secs_f64();
-    assert!(
-        sum > whole / 20.0 && sum < whole * 20.0,
-        "{sum} s, {whole} s"
-    );
-
     let cancelled = Progress::new();
     cancelled.cancel();
     assert!(pixel_times(&scene, &tree, &settings, &pool, &cancelled).is_err());

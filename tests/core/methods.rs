@@ -6,9 +6,9 @@ use bspscope::geometry::{Aabb, Ray, Vec3};
 use bspscope::measure::{DELTA, LAMBDA, TreeFacts, change, measure, parameter, unequal};
 use bspscope::primitive::{Precision, Primitive, Shape};
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
+use bspscope::scene::Scene;
 use bspscope::structure::{
-    BuildSettings, CellOfNode, Constants, MaxDepth, Method, NodeKind, StopReason, Tree, build,
+    BuildSettings, CellOfNode, Constants, MaxDepth, NodeKind, StopReason, Tree,
 };
 use bspscope::trace::{Children, Probe, RenderSettings, Scratch, closest_hit};
 

@@ -8,8 +8,8 @@ use bspscope::measure::model::{
 use bspscope::measure::{measure, parameter};
 use bspscope::primitive::PrimitiveKind;
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
-use bspscope::structure::{BuildSettings, Method, build};
+use bspscope::scene::Scene;
+use bspscope::structure::BuildSettings;
 use bspscope::trace::RenderSettings;
 
 fn render(scene: &Scene) -> RenderSettings {

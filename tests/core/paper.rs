@@ -5,8 +5,8 @@ use crate::support::scenes::{self, render_sized, scene_path, settings, tree_by};
 use bspscope::measure::{Measurement, PARAMETERS, TreeFacts, measure, parameter};
 use bspscope::progress::Progress;
 use bspscope::scene::{Cylinders, Sampling, Scene, SceneRequest, load};
+use bspscope::structure::Method;
 use bspscope::structure::split::Structure;
-use bspscope::structure::{BuildSettings, Method, build};
 use bspscope::trace::{RayKind, RenderSettings};
 
 const SCENES: [&str; 3] = ["balls", "rings", "tetra"];

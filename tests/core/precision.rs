@@ -3,9 +3,8 @@
 use crate::support::scenes::{scene, tree_by};
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::primitive::{Precision, Primitive, Sphere, Triangle};
-use bspscope::progress::Progress;
-use bspscope::scene::{Camera, Light, Material, Scene, SceneParts, SceneRequest, load};
-use bspscope::structure::{BuildSettings, Method, Tree, build};
+use bspscope::scene::{Camera, Light, Material, Scene, SceneParts};
+use bspscope::structure::Tree;
 use bspscope::trace::{
     Hit, PrecisionChoice, RayKind, RenderSettings, Scratch, closest_hit, closest_hit_brute_force,
     fits_f32, record_pixel,

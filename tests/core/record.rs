@@ -3,14 +3,13 @@
 
 use crate::support::scenes::{render_sized, scene_file, tree_by};
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
-use bspscope::structure::{BuildSettings, Method, NodeKind, Tree, build};
+use bspscope::scene::Scene;
+use bspscope::structure::NodeKind;
 use bspscope::trace::{
     Children, LeafOutcome, PendingNode, PixelTallies, RayKind, RenderSettings, Step, record_pixel,
     record_pixel_within, render_counted, render_timed, thread_pool,
 };
 use std::collections::HashMap;
-use std::path::Path;
 use std::sync::Mutex;
 
 const SIZE: u32 = 64;

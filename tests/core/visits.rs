@@ -2,8 +2,8 @@
 
 use crate::support::scenes::{render_sized, scene, tree_by};
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
-use bspscope::structure::{BuildSettings, Method, NodeKind, Tree, build};
+use bspscope::scene::Scene;
+use bspscope::structure::{NodeKind, Tree};
 use bspscope::trace::{
     RenderSettings, Tally, Visits, count_visits, record_pixel, render_counted, thread_pool,
 };

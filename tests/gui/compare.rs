@@ -1,12 +1,13 @@
 //! Two trees side by side in the window: views of both, the gate, and the three columns.
 
+use crate::harness::{
+    SIZE, Window, click, finish, has, open, open_with_graphics, over_picture, press, small, wait,
+    wait_for,
+};
 use crate::support::scenes::{render_sized, scene, settings, tree_by};
-use crate::harness::{SIZE, Window, click, finish, has, open, open_with_graphics, over_picture, press, small, wait, wait_for};
 use bspscope::measure::heat::{HeatImage, PixelCounts, RayFilter, heatmap};
 use bspscope::measure::{DELTA, Measured, RAY_FIGURES, change, measure, parameter};
 use bspscope::progress::Progress;
-use bspscope::scene::{SceneRequest, load};
-use bspscope::structure::{BuildSettings, Method, build};
 use bspscope::trace::{RayKind, RenderSettings, render_counted, thread_pool};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;

@@ -1,7 +1,7 @@
 //! Scene files of every format in the window, and what the reader says of them.
 
-use crate::support::scenes::asset;
 use crate::harness::{finish, has, open, small, wait};
+use crate::support::scenes::asset;
 use bspscope::scene::format::FORMATS;
 use egui_kittest::kittest::Queryable as _;
 use std::path::Path;

@@ -1,12 +1,11 @@
 //! Heatmaps in the window: found by their labels, compared with the library's values.
 
-use crate::support::scenes::{render_sized, scene, tree_by};
 use crate::harness::{SIZE, Window, finish, has, open, open_sized, over_picture, wait, wait_for};
+use crate::support::scenes::{render_sized, scene, tree_by};
 use bspscope::measure::heat::{HEATMAPS, HeatImage, Heatmap, PixelCounts, RayFilter, heatmap};
 use bspscope::progress::Progress;
 use bspscope::scene::SceneRequest;
-use bspscope::structure::{BuildSettings, Method, build};
-use bspscope::trace::{RenderSettings, render_counted, thread_pool};
+use bspscope::trace::{render_counted, thread_pool};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::sync::Mutex;
 

@@ -9,7 +9,7 @@ use bspscope::progress::Progress;
 use bspscope::scene::load;
 use bspscope::structure::build;
 use bspscope::trace::RenderSettings;
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::kittest::Queryable as _;
 
 const SCENE: &str = "balls:1";
 
