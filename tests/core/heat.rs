@@ -12,9 +12,7 @@ use bspscope::present::overlay::{
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
 use bspscope::structure::Tree;
-use bspscope::trace::{
-    RenderSettings, pixel_times, record_pixel, render_counted, render_timed, thread_pool,
-};
+use bspscope::trace::{RenderSettings, pixel_times, record_pixel, render_counted, thread_pool};
 use std::sync::Mutex;
 use std::time::Instant;
 
