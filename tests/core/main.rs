@@ -12,6 +12,7 @@ mod foreign;
 mod formats;
 mod gltf;
 mod heat;
+mod html;
 mod judge;
 mod lanes;
 mod leaks;
