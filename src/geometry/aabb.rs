@@ -1,6 +1,7 @@
 //! Axis-aligned boxes: bounds of objects and cells of trees.
 
-use super::{Axis, Vec3};
+use super::Axis;
+use glam::DVec3 as Vec3;
 use serde::{Deserialize, Serialize};
 
 /// An axis-aligned closed box. Empty where `lo > hi` on any axis ([`Aabb::EMPTY`]).

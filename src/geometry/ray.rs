@@ -1,6 +1,6 @@
 //! A ray with the stretch of it that counts.
 
-use super::Vec3;
+use glam::DVec3 as Vec3;
 
 /// Points `origin + t · direction` for `t` in the closed interval `[t_min, t_max]`.
 ///

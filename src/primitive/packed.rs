@@ -154,7 +154,7 @@ impl PackedTriangle {
     /// coordinates in cyclic order with the axis of the direction's largest component last. With
     /// [`PackedTriangle::round_hit`] it is [`Form::intersect_exact`].
     #[inline(always)]
-    pub(crate) fn crossing_turned(
+    pub(crate) fn crossing_rotated(
         vertices: [Vec3; 3],
         origin: Vec3,
         direction: Vec3,
@@ -165,7 +165,7 @@ impl PackedTriangle {
         triangle::crossing_or_nan([a - origin, b - origin, c - origin], &shear, t_min)
     }
 
-    /// A distance of [`PackedTriangle::crossing_turned`] rounded, if it is at most `t_max` then; NaN if
+    /// A distance of [`PackedTriangle::crossing_rotated`] rounded, if it is at most `t_max` then; NaN if
     /// not. Without branches.
     #[inline(always)]
     pub(crate) fn round_hit(crossing: f64, t_max: f64) -> f64 {

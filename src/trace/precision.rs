@@ -1,38 +1,8 @@
 //! Which precision a picture is traced in, and whether `f32` can hold the scene as the camera sees it.
 
-use super::RenderSettings;
+use super::{PrecisionChoice, RenderSettings};
 use crate::primitive::{Precision, Shape, Shapes, ThinnestObject};
 use crate::scene::{Camera, Scene};
-use serde::{Deserialize, Serialize};
-
-/// The precision asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum PrecisionChoice {
-    F32,
-    #[default]
-    F64,
-    /// `f32` where it can hold the scene as the camera sees it, else `f64`.
-    Auto,
-}
-
-impl PrecisionChoice {
-    pub const ALL: [PrecisionChoice; 3] = [
-        PrecisionChoice::F32,
-        PrecisionChoice::F64,
-        PrecisionChoice::Auto,
-    ];
-
-    /// `f32`, `f64` or `auto`.
-    pub const fn name(self) -> &'static str {
-        ["f32", "f64", "auto"][self as usize]
-    }
-
-    /// The choice of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|choice| choice.name() == name)
-    }
-}
 
 /// How many times its rounding in `f32` an object must be wide, and a pixel.
 ///

@@ -1,6 +1,6 @@
 //! Everything that the rays of one pixel did: for learning why it costs what it costs.
 
-use super::kernel::{any_hit, closest_hit};
+use super::query::{any_hit, closest_hit};
 use super::whitted::spawn;
 use super::{
     Children, Hit, PixelTallies, Probe, RayCounts, RayKind, RenderError, RenderSettings, Scratch,

@@ -1,52 +1,18 @@
 //! Whole passes over a picture: a coarse preview, the timed pass, the counted pass.
 
 use super::{
-    CountingKernel, PixelTallies, RayKind, RayMaxima, RenderSettings, ScalarKernel, Scratch,
-    Shading, Tally, Tile, TimedKernel, objects_on_ray, tiles, trace_samples,
+    CountingKernel, PixelTallies, RayKind, RayMaxima, RenderError, RenderSettings, ScalarKernel,
+    Scratch, Shading, Tally, Tile, TimedKernel, objects_on_ray, tiles, trace_samples,
 };
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
-use crate::scene::{CameraError, Scene, View};
+use crate::scene::Scene;
 use crate::structure::Tree;
 use cpu_time::ThreadTime;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
-
-/// Why there is no picture.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RenderError {
-    #[error(transparent)]
-    Camera(#[from] CameraError),
-    #[error("a picture of {width} × {height} pixels: both must be from 1 to {limit}")]
-    Resolution { width: u32, height: u32, limit: u32 },
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-    #[error("the threads could not be started: {0}")]
-    Threads(String),
-}
-
-/// The most pixels a picture can have on a side.
-const RESOLUTION_LIMIT: u32 = 16_384;
-
-impl RenderSettings {
-    /// The camera's view for these settings.
-    ///
-    /// # Errors
-    /// A camera without a view or a resolution out of range.
-    pub fn view(&self) -> Result<View, RenderError> {
-        let range = 1..=RESOLUTION_LIMIT;
-        if !range.contains(&self.width) || !range.contains(&self.height) {
-            return Err(RenderError::Resolution {
-                width: self.width,
-                height: self.height,
-                limit: RESOLUTION_LIMIT,
-            });
-        }
-        Ok(self.camera.view(self.width, self.height, self.sampling)?)
-    }
-}
 
 /// Threads to trace on; 0 takes as many as the machine has cores.
 ///

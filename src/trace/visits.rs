@@ -1,6 +1,6 @@
 //! How often the rays of a picture visit every node of the tree.
 
-use super::kernel::{any_hit, closest_hit};
+use super::query::{any_hit, closest_hit};
 use super::render::over_tiles;
 use super::{
     Batch, Children, Hit, Probe, RayTracer, RenderError, RenderSettings, Scratch, Shading,
