@@ -2,10 +2,11 @@
 //! work that is not wanted any more stops, and what an idle window costs. `cargo bench --bench window`.
 
 use bspscope::progress::Progress;
-use bspscope::scene::{Cylinders, SceneRequest, load};
+use bspscope::scene::{CameraOverride, Cylinders, SceneRequest, load};
+use bspscope::setup::Setup;
 use bspscope::structure::{BuildSettings, MaxDepth, Method};
 use bspscope::trace::RenderSettings;
-use bspscope::worker::{Request, Stage, Update, Worker};
+use bspscope::worker::{Stage, Update, Worker};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
@@ -23,18 +24,16 @@ fn main() {
     idle();
 }
 
-fn first_request() -> Request {
+fn first_request() -> Setup {
     let scene = SceneRequest {
         cylinders: Cylinders::Polygons(10),
         ..SceneRequest::parse("rings")
     };
     let loaded = load(&scene, &Progress::new()).expect("the generator works");
-    Request {
+    Setup {
         scene,
         build: BuildSettings::for_method(Method::of_the_paper()[0]),
         render: RenderSettings::for_camera(*loaded.camera()),
-        own_camera: true,
-        reload: 0,
     }
 }
 
@@ -74,9 +73,9 @@ fn until(
 fn changes() {
     let (worker, woken) = start();
     let mut wanted = first_request();
-    let number = worker.request(wanted.clone());
+    let number = worker.request(wanted.clone(), 0);
     until(&worker, &woken, number, |u| matches!(u, Update::Done));
-    type Change = fn(&mut Request, usize);
+    type Change = fn(&mut Setup, usize);
     let kinds: [(&str, Change); 4] = [
         ("method", |request, round| {
             let methods = Method::of_the_paper();
@@ -91,7 +90,8 @@ fn changes() {
             request.build.n_oilf = 2 + round as u32
         }),
         ("camera", |request, round| {
-            request.render.camera.from.x += 0.01 * (round + 1) as f64;
+            let from = request.render.camera.from.get_or_insert_default();
+            from.x += 0.01 * (round + 1) as f64;
         }),
     ];
     for (name, change) in kinds {
@@ -99,7 +99,7 @@ fn changes() {
         for round in 0..ROUNDS {
             change(&mut wanted, round);
             let begun = Instant::now();
-            let number = worker.request(wanted.clone());
+            let number = worker.request(wanted.clone(), 0);
             let shown = until(&worker, &woken, number, |u| matches!(u, Update::Shown(_)));
             first.push(shown - begun);
             let done = until(&worker, &woken, number, |u| matches!(u, Update::Done));
@@ -123,15 +123,15 @@ fn stops() {
         let mut times = Vec::new();
         for _ in 0..ROUNDS {
             let stale = first.clone();
-            let number = worker.request(stale);
+            let number = worker.request(stale, 0);
             let begun = |u: &Update| matches!(u, Update::Stage(s, _) if *s == stage);
             until(&worker, &woken, number, begun);
             std::thread::sleep(Duration::from_millis(5));
             let asked = Instant::now();
             let mut next = first.clone();
             next.scene = SceneRequest::parse("teaching");
-            next.own_camera = false;
-            let number = worker.request(next);
+            next.render.camera = CameraOverride::default();
+            let number = worker.request(next, 0);
             let taken_up = until(&worker, &woken, number, |u| matches!(u, Update::Stage(..)));
             times.push(taken_up - asked);
             until(&worker, &woken, number, |u| matches!(u, Update::Done));

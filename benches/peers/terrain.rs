@@ -36,7 +36,7 @@ pub fn scene(n: usize) -> Scene {
         at: Vec3::new(0.0, 0.0, 0.1),
         up: Vec3::Z,
         angle: 45.0,
-        hither: 0.1,
+        near: 0.1,
         resolution: [512, 512],
     };
     let objects: Vec<Primitive> = objects.collect();

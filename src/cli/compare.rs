@@ -9,8 +9,8 @@ use anyhow::Result;
 pub fn run(args: &CompareArgs) -> Result<Outcome> {
     output::check_place(args.report.output.as_deref())?;
     let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
-    render.view()?;
+    let render = resolve::render(&args.trace, &args.picture);
+    render.view(&scene)?;
     let a = measure::run_of(&scene, &args.a, &render)?;
     let b = measure::run_of(&scene, &args.b, &render)?;
     let reasons = unequal((&a.measurement, &a.picture), (&b.measurement, &b.picture));

@@ -37,7 +37,7 @@ pub fn run(args: &ModelArgs) -> Result<Outcome> {
             threads: 1,
             ..RenderSettings::for_camera(*scene.camera())
         };
-        render.view()?;
+        render.view(&scene)?;
         all.push(found(&scene, &render, args.rounds, args.equation)?);
     }
     output::write_to(args.output.as_deref(), |out| match args.format {

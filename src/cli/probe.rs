@@ -11,9 +11,9 @@ pub fn run(args: &ProbeArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
     let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
     let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
+    let render = resolve::render(&args.trace, &args.picture);
     // A wrong size is told before a tree is built for it.
-    render.view()?;
+    render.view(&scene)?;
     let pixel = pixel_of(args.pixel, args.picture.resolution)?;
     let mut records = Vec::new();
     for settings in &builds {

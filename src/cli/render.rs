@@ -19,10 +19,10 @@ pub fn run(args: &RenderArgs) -> Result<Outcome> {
     let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
     let render = RenderSettings {
         samples: args.samples,
-        ..resolve::render(*scene.camera(), &args.trace, &args.picture)
+        ..resolve::render(&args.trace, &args.picture)
     };
     // A wrong size is told before a tree is built for it.
-    render.view()?;
+    render.view(&scene)?;
     let pool = thread_pool(render.threads)?;
     let tree = bar::with_bar(
         &format!("{}: building the tree", scene.name()),

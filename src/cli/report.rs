@@ -11,8 +11,8 @@ pub fn run(args: &PageArgs) -> Result<Outcome> {
     output::check_place(Some(&args.output))?;
     let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
     let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
-    render.view()?;
+    let render = resolve::render(&args.trace, &args.picture);
+    render.view(&scene)?;
     let (mut runs, mut all_counts, mut picture) = (Vec::new(), Vec::new(), None);
     for build in &builds {
         let method = build.method.name;

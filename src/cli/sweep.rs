@@ -21,8 +21,8 @@ pub fn run(args: &SweepArgs) -> Result<Outcome> {
     check_charts(&args.charts)?;
     let bases = bases(args)?;
     let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
-    render.view()?;
+    let render = resolve::render(&args.trace, &args.picture);
+    render.view(&scene)?;
     let plan = Plan::new(&request, &bases, &args.d_max.0, &args.n_oilf.0, &render);
     let points: Vec<(usize, Key)> = (plan.points.iter().enumerate())
         .filter(|(number, _)| args.shard.contains(*number))

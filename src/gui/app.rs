@@ -20,8 +20,8 @@ use super::walk::Go;
 use super::workspaces::Workspaces;
 use super::{StartOptions, build_bar, help, keep, top_bar, walk_bar};
 use crate::present::overlay::COLORINGS;
-use crate::scene::SceneSource;
 use crate::scene::format::names;
+use crate::scene::{CameraOverride, SceneSource};
 use crate::structure::{BuildSettings, MaxDepth, Method};
 use crate::workspace::{Arrangement, Workspace};
 
@@ -66,15 +66,16 @@ impl App {
         let mut start = start;
         // The screen takes no larger picture.
         let largest = cc.egui_ctx.input(|i| i.max_texture_side) as u32;
-        start.render.width = start.render.width.min(largest);
-        start.render.height = start.render.height.min(largest);
+        let render = &mut start.setup.render;
+        render.width = render.width.min(largest);
+        render.height = render.height.min(largest);
         let first_hint = FirstHint::new(&start);
         let mut app = App {
             state: State::new(&start, &cc.egui_ctx),
             files: Files::new(recent, workspaces),
             panes: Panes {
                 picture: PicturePane::default(),
-                view3d: View3d::new(cc.wgpu_render_state.as_ref(), start.render.camera),
+                view3d: View3d::new(cc.wgpu_render_state.as_ref()),
                 tree: TreePanes::default(),
             },
             layout_is_new: layout.is_none(),
@@ -213,7 +214,7 @@ impl App {
             Action::LeavesOnly => state.set_leaves_only(!state.walking.leaves_only),
             Action::PreviousRay => state.next_ray(-1),
             Action::NextRay => state.next_ray(1),
-            Action::SceneCamera => state.wanted.own_camera = false,
+            Action::SceneCamera => state.wanted.render.camera = CameraOverride::default(),
             action => match Export::of(action) {
                 Some(export) => self.export(|exports, shown| exports.ask(export, shown, ctx)),
                 None => build_bar::act(action, state, ctx.input(|i| i.time)),

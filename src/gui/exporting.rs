@@ -350,7 +350,7 @@ fn report(state: &mut State, ctx: &egui::Context) -> Result<(Report, Counts), St
     }
     let first = shown.first().ok_or("there are no figures yet")?;
     let runs = shown.iter().map(|c| c.shown.measurement.clone()).collect();
-    let report = Report::new(&first.shown.scene, &first.shown.request.scene, runs);
+    let report = Report::new(&first.shown.scene, &first.shown.setup.scene, runs);
     let counts = shown.iter().map(|c| c.pixel_counts.clone()).collect();
     Ok((report, counts))
 }

@@ -99,7 +99,7 @@ fn start(current: &Current, found: &Arc<Mutex<Found>>, ctx: &egui::Context) -> R
     let (scene, tree, render) = (
         Arc::clone(&shown.scene),
         Arc::clone(&shown.tree),
-        shown.render,
+        shown.setup.render,
     );
     let (inside, ctx, found) = (progress.clone(), ctx.clone(), Arc::clone(found));
     let affordable = TESTS / 4 / scene.objects().len().max(1);

@@ -46,8 +46,8 @@ impl Found {
     pub fn is_of(&self, current: &Current) -> bool {
         let (shown, mine) = (&current.shown, &self.render);
         Arc::ptr_eq(&self.scene, &shown.scene)
-            && mine.kernel == shown.render.kernel
-            && mine.precision == shown.render.precision
+            && mine.kernel == shown.setup.render.kernel
+            && mine.precision == shown.setup.render.precision
     }
 
     /// What the terms take by regression; `None` until all trees were timed.
@@ -94,8 +94,8 @@ impl State {
             return;
         };
         let shown = &current.shown;
-        let (scene, render) = (Arc::clone(&shown.scene), reduced(&shown.render));
-        let (build, builds) = (shown.request.build.clone(), trees(&scene));
+        let (scene, render) = (Arc::clone(&shown.scene), reduced(&shown.setup.render));
+        let (build, builds) = (shown.setup.build.clone(), trees(&scene));
         let found = Found {
             scene: Arc::clone(&scene),
             render,

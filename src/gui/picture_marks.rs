@@ -83,7 +83,7 @@ impl PictureMarks {
         if !self.outlines {
             return;
         }
-        let Ok(view) = current.shown.render.view() else {
+        let Ok(view) = current.shown.setup.render.view(&current.shown.scene) else {
             return;
         };
         if let Some(object) = current.selection.object {

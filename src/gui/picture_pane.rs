@@ -184,7 +184,7 @@ impl PicturePane {
         let comparing = state.other.is_some();
         let in_front = part.which == state.which;
         let faded = match (&state.other, in_front) {
-            (Some(other), false) => other.is_previous(),
+            (Some(other), false) => other.is_previous(state.reload),
             _ => state.is_previous() && !state.only_camera_differs(),
         };
         let picked = state.current.as_ref().and_then(|c| c.picked_pixel());

@@ -17,9 +17,10 @@ use super::trading::Trading;
 use super::walk::{Picked, Walking, Wish};
 use crate::measure::heat::PixelCounts;
 use crate::progress::Progress;
-use crate::scene::{SceneRequest, SceneSource};
+use crate::scene::{CameraOverride, SceneRequest, SceneSource};
+use crate::setup::Setup;
 use crate::trace::Tile;
-use crate::worker::{Request, Shown, Stage, Update, Worker};
+use crate::worker::{Shown, Stage, Update, Worker};
 use egui::util::undoer::Undoer;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -27,11 +28,13 @@ use std::sync::Arc;
 /// The window's side of the worker.
 pub struct State {
     /// What the widgets say, of the tree in front.
-    pub wanted: Request,
+    pub wanted: Setup,
+    /// How often the scene's file was to be read again.
+    pub reload: u64,
     /// What was wanted before, and what was undone of it.
     history: Undoer<Wanted>,
     /// The last request about the tree in front, with its number.
-    sent: Option<(u64, Request)>,
+    sent: Option<(u64, Setup)>,
     worker: Worker,
     /// Which tree every request that may still be answered is about.
     asked: BTreeMap<u64, Which>,
@@ -75,25 +78,25 @@ pub struct State {
 
 /// The tree of a comparison that is not in front.
 pub struct Other {
-    pub wanted: Request,
-    sent: Option<(u64, Request)>,
+    pub wanted: Setup,
+    sent: Option<(u64, Setup)>,
     pub current: Option<Current>,
 }
 
 impl Other {
     /// Whether what is shown was made with other settings than are wanted.
-    pub fn is_previous(&self) -> bool {
+    pub fn is_previous(&self, reload: u64) -> bool {
         self.current
             .as_ref()
-            .is_some_and(|current| current.shown.request != self.wanted)
+            .is_some_and(|c| c.shown.setup != self.wanted || c.shown.reload != reload)
     }
 }
 
 /// What is wanted of A and, while two trees are compared, of B.
 #[derive(Clone, PartialEq)]
 pub struct Wanted {
-    pub a: Request,
-    pub b: Option<Request>,
+    pub a: Setup,
+    pub b: Option<Setup>,
 }
 
 /// A request that failed.
@@ -188,13 +191,8 @@ impl State {
     pub fn new(start: &StartOptions, ctx: &egui::Context) -> Self {
         let ctx = ctx.clone();
         State {
-            wanted: Request {
-                scene: start.scene.clone(),
-                build: start.build.clone(),
-                render: start.render,
-                own_camera: start.own_camera,
-                reload: 0,
-            },
+            wanted: start.setup.clone(),
+            reload: 0,
             history: Undoer::default(),
             sent: None,
             worker: Worker::start(move || ctx.request_repaint()),
@@ -348,14 +346,18 @@ impl State {
             source,
             cylinders: self.wanted.scene.cylinders,
         };
-        self.wanted.own_camera = false;
+        self.wanted.render.camera = CameraOverride::default();
         self.failure = None;
         self.sent = None;
     }
 
     /// Reads the scene again.
     pub fn reload(&mut self) {
-        self.wanted.reload += 1;
+        self.reload += 1;
+        self.sent = None;
+        if let Some(other) = &mut self.other {
+            other.sent = None;
+        }
     }
 
     /// Asks once more for what is wanted, after it was stopped or failed.
@@ -406,14 +408,14 @@ impl State {
     pub fn is_previous(&self) -> bool {
         self.current
             .as_ref()
-            .is_some_and(|current| current.shown.request != self.wanted)
+            .is_some_and(|c| c.shown.setup != self.wanted || c.shown.reload != self.reload)
     }
 
     /// Whether what is shown differs from what is wanted in the camera alone.
     pub fn only_camera_differs(&self) -> bool {
         self.current
             .as_ref()
-            .is_some_and(|current| same_but_camera(&current.shown.request, &self.wanted))
+            .is_some_and(|current| same_but_camera(&current.shown.setup, &self.wanted))
     }
 
     /// Takes the worker's news; gives the scenes that came into view.
@@ -439,8 +441,8 @@ impl State {
                     }
                 }
                 Update::Shown(shown) => {
-                    let source = &shown.request.scene.source;
-                    let known = place.as_ref().map(|c| &c.shown.request.scene.source);
+                    let source = &shown.setup.scene.source;
+                    let known = place.as_ref().map(|c| &c.shown.setup.scene.source);
                     if in_front && known != Some(source) {
                         opened.push(source.clone());
                     }
@@ -483,10 +485,10 @@ impl State {
         self.failure = Some(Failure { what, why });
         // The scene that is there stays, and so do the settings that go with it.
         if loading && let Some(current) = &self.current {
-            let before = &current.shown.request;
+            let before = &current.shown.setup;
             self.wanted.scene = before.scene.clone();
-            self.wanted.reload = before.reload;
-            self.wanted.own_camera = before.own_camera;
+            self.wanted.render.camera = before.render.camera;
+            self.reload = current.shown.reload;
             if current.done && *before == self.wanted {
                 self.sent = Some((current.number, before.clone()));
             }
@@ -497,7 +499,7 @@ impl State {
     /// camera move waits until the last request has a picture, else moving the camera would starve it.
     pub fn send(&mut self) {
         self.share();
-        let is_sent = |sent: &Option<(u64, Request)>, wanted: &Request| {
+        let is_sent = |sent: &Option<(u64, Setup)>, wanted: &Setup| {
             sent.as_ref().is_some_and(|(_, sent)| sent == wanted)
         };
         if !is_sent(&self.sent, &self.wanted) {
@@ -535,15 +537,13 @@ impl State {
     fn share(&mut self) {
         if let Some(other) = &mut self.other {
             other.wanted.scene.source = self.wanted.scene.source.clone();
-            other.wanted.reload = self.wanted.reload;
-            other.wanted.own_camera = self.wanted.own_camera;
             other.wanted.render.camera = self.wanted.render.camera;
         }
     }
 
-    fn ask(&mut self, which: Which, wanted: Request) -> u64 {
+    fn ask(&mut self, which: Which, wanted: Setup) -> u64 {
         self.inspect.visits.give_way();
-        let number = self.worker.request(wanted);
+        let number = self.worker.request(wanted, self.reload);
         self.asked.insert(number, which);
         self.stopped = false;
         self.failure = self.failure.take().filter(|_| self.current.is_some());
@@ -572,7 +572,7 @@ fn in_order<T>(in_front: Which, front: T, behind: T) -> [T; 2] {
 }
 
 /// Whether the last request was answered in full.
-fn is_served(sent: &Option<(u64, Request)>, current: &Option<Current>) -> bool {
+fn is_served(sent: &Option<(u64, Setup)>, current: &Option<Current>) -> bool {
     match (sent, current) {
         (Some((number, _)), Some(current)) => current.done && current.number == *number,
         _ => false,
@@ -607,9 +607,8 @@ impl Current {
     }
 }
 
-fn same_but_camera(a: &Request, b: &Request) -> bool {
+fn same_but_camera(a: &Setup, b: &Setup) -> bool {
     let mut a = a.clone();
     a.render.camera = b.render.camera;
-    a.own_camera = b.own_camera;
     a == *b
 }

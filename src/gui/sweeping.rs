@@ -7,8 +7,8 @@ use super::turns::{Doing, Stop, Turns};
 use crate::files::write_whole;
 use crate::measure::sweep::{Form, Plan, Row, done, header, line};
 use crate::scene::Scene;
+use crate::setup::Setup;
 use crate::structure::{BuildSettings, MaxDepth, Method};
-use crate::worker::Request;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -43,8 +43,9 @@ impl Default for Sweeping {
 /// What is known of a sweep; it grows point by point.
 #[derive(Clone)]
 pub struct Found {
-    /// What was on view when the sweep began, with the camera that was used.
-    of: Request,
+    /// What was on view when the sweep began.
+    of: Setup,
+    reload: u64,
     pub plan: Arc<Plan>,
     /// The rows so far, in the order of the points.
     pub rows: Vec<Row>,
@@ -97,21 +98,18 @@ impl State {
         let sweeping = &mut self.sweeping;
         let [from, to] = sweeping.depths;
         let depths: Vec<_> = (from..=to).map(MaxDepth::Fixed).collect();
-        let on_view = &shown.request.build;
+        let on_view = &shown.setup.build;
         let methods: Vec<_> = (sweeping.methods.iter())
             .map(|&method| base(method, on_view))
             .collect();
         let n_oilf = sweeping.n_oilf().unwrap_or_default();
-        let request = &shown.request.scene;
-        let plan = Plan::new(request, &methods, &depths, &n_oilf, &shown.render);
+        let request = &shown.setup.scene;
+        let plan = Plan::new(request, &methods, &depths, &n_oilf, &shown.setup.render);
         let plan = Arc::new(plan);
-        let of = Request {
-            render: shown.render,
-            ..shown.request.clone()
-        };
+        let (of, reload) = (shown.setup.clone(), shown.reload);
         let known = sweeping.turns.found().filter(|found| {
             found.of.scene == of.scene
-                && found.of.reload == of.reload
+                && found.reload == reload
                 && found.of.render == of.render
                 && goes_on(&found.rows, &plan)
         });
@@ -122,6 +120,7 @@ impl State {
         let (scene, first) = (Arc::clone(&shown.scene), rows.len());
         let found = Found {
             of,
+            reload,
             plan: Arc::clone(&plan),
             rows,
         };
@@ -141,9 +140,7 @@ impl State {
         self.sweeping.chosen = Some(place);
         self.show(Which::A);
         let wanted = &mut self.wanted;
-        wanted.scene = found.of.scene.clone();
-        wanted.own_camera = found.of.own_camera;
-        wanted.render = found.of.render;
+        *wanted = found.of.clone();
         wanted.build = found.plan.points[row.point].build.clone();
     }
 }

@@ -5,8 +5,8 @@ use super::turns::{Doing, Stop, Turns};
 use crate::measure::accuracy::{self, Trade, choices, reference};
 use crate::progress::Progress;
 use crate::scene::{Cylinders, Scene, SceneRequest, load};
+use crate::setup::Setup;
 use crate::trace::RenderSettings;
-use crate::worker::Request;
 use std::sync::Arc;
 
 /// The most bytes that the errors of all pixels of all choices may take; in a trade of larger pictures
@@ -43,8 +43,8 @@ impl Default for Trading {
 pub struct Found {
     /// No other trade of the window has it.
     pub number: u64,
-    /// What was on view when the trade began, with the camera that was used.
-    pub of: Request,
+    /// What was on view when the trade began.
+    pub of: Setup,
     /// The outcomes so far, in the order of the choices.
     pub trade: Trade,
     /// By outcome, the error of every pixel of the reference, row by row; none where they would take
@@ -60,7 +60,7 @@ impl Found {
     /// Width and height of the reference; `None` until it was traced.
     pub fn size(&self) -> Option<[u32; 2]> {
         let first = self.trade.outcomes.first()?;
-        let render = &first.choice.setting.render;
+        let render = &first.choice.setup.render;
         Some([render.width, render.height])
     }
 }
@@ -99,12 +99,12 @@ impl State {
         let trading = &mut self.trading;
         trading.begun += 1;
         trading.chosen = None;
-        let of = Request {
+        let of = Setup {
             render: RenderSettings {
                 samples: trading.samples.max(1),
-                ..shown.render
+                ..shown.setup.render
             },
-            ..shown.request.clone()
+            ..shown.setup.clone()
         };
         let found = Found {
             number: trading.begun,
@@ -131,23 +131,14 @@ impl State {
             return;
         };
         self.trading.chosen = Some(place);
-        let setting = &outcome.choice.setting;
-        let wanted = &mut self.wanted;
-        wanted.scene = SceneRequest {
-            source: found.of.scene.source.clone(),
-            cylinders: setting.cylinders,
-        };
-        wanted.own_camera = found.of.own_camera;
-        wanted.build = setting.build.clone();
-        wanted.render = RenderSettings {
-            threads: wanted.render.threads,
-            ..setting.render
-        };
+        let threads = self.wanted.render.threads;
+        self.wanted = outcome.choice.setup.clone();
+        self.wanted.render.threads = threads;
     }
 }
 
 /// Takes the trade of a scene on view; it begins with its cylinders exact.
-fn take(doing: &Doing<Found>, scene: &Arc<Scene>, of: &Request, rounds: u32) -> Result<(), Stop> {
+fn take(doing: &Doing<Found>, scene: &Arc<Scene>, of: &Setup, rounds: u32) -> Result<(), Stop> {
     let scene = if of.scene.cylinders == Cylinders::Exact {
         Arc::clone(scene)
     } else {
@@ -158,7 +149,7 @@ fn take(doing: &Doing<Found>, scene: &Arc<Scene>, of: &Request, rounds: u32) -> 
         Arc::new(load(&exact, &Progress::new())?)
     };
     let render = &of.render;
-    let choices = choices(&reference(&of.build, render), &scene);
+    let choices = choices(&reference(of), &scene);
     let pixels = render.width as usize * render.height as usize;
     let keeps = choices.len() * pixels * size_of::<f32>() <= MOST_BYTES;
     let mut trading = accuracy::Trading::new(&scene, choices, rounds)?;

@@ -51,7 +51,7 @@ impl VisitsPass {
         ctx: &egui::Context,
     ) -> Option<Arc<PictureVisits>> {
         let shown = &current.shown;
-        let render = shown.render;
+        let render = shown.setup.render;
         if is_too_large(current) {
             return None;
         }

@@ -13,14 +13,14 @@ mod formula;
 mod prose;
 mod question;
 mod read;
-mod setup;
+mod subject;
 
 pub use check::{Measurer, check, check_step};
 pub use figures::{Difference, Figures, Name, Side, SideFigures};
 pub use formula::{Condition, Formula, Operator, Relation, Style};
 pub use prose::{Placeholder, Prose};
 pub use question::{Answer, Choice, Prediction, Question, Tolerance, Verdict};
-pub use setup::{Look, Named, Setup, SideSetup};
+pub use subject::{Look, Named, Subject};
 
 use std::path::Path;
 
@@ -70,7 +70,7 @@ pub struct Step {
     pub title: String,
     /// Line that names its scene.
     scene_line: usize,
-    pub setup: Setup,
+    pub subject: Subject,
     /// What to look at.
     pub before: Prose,
     /// `None` where nothing is asked; then nothing is told after it either.

@@ -45,8 +45,8 @@ pub fn unequal(a: (&Measurement, &Picture), b: (&Measurement, &Picture)) -> Vec<
             })
         })
         .collect();
-    let (of_a, of_b) = (&a.0.render, &b.0.render);
-    if of_a.camera != of_b.camera || of_a.sampling != of_b.sampling {
+    let (a_at, b_at) = (a.0.render.sampling, b.0.render.sampling);
+    if a.0.camera != b.0.camera || a_at != b_at {
         found.push(Unequal::Camera);
     }
     if (a.1.width, a.1.height) != (b.1.width, b.1.height) {

@@ -1,55 +1,57 @@
-//! The pinhole camera of NFF and where its samples lie.
+//! The pinhole camera, as NFF describes it, and the primary rays through its pixels.
 
 use crate::geometry::{Ray, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// A pinhole camera as NFF describes it.
+/// A pinhole camera, as NFF describes it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Camera {
-    /// The eye.
+    /// Position of the eye.
     pub from: Vec3,
-    /// A point on the axis of view.
+    /// A point on the line of sight.
     pub at: Vec3,
-    /// Up; need not be perpendicular to the axis of view.
+    /// Up direction; need not be perpendicular to the line of sight.
     pub up: Vec3,
-    /// Full vertical angle of view in degrees, above 0 and below 180; at 1:1 the horizontal one too.
+    /// Full vertical field of view in degrees, above 0 and below 180. The horizontal field of view
+    /// follows from the aspect ratio.
     pub angle: f64,
-    /// Distance of NFF's `hither` plane; kept for writing, ray tracing starts at the eye.
-    pub hither: f64,
-    /// Width and height in pixels that the scene asks for.
+    /// Distance of the near plane (NFF's `hither`). Kept for writing; rays start at the eye.
+    #[serde(alias = "hither")]
+    pub near: f64,
+    /// The scene's own width and height in pixels.
     pub resolution: [u32; 2],
 }
 
-/// Why a camera has no view.
+/// Why a camera is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CameraError {
-    #[error("the camera's numbers are not all finite")]
+    #[error("the camera has a number that is not finite")]
     NotFinite,
-    #[error("the camera looks at the point it stands on")]
+    #[error("the camera looks at its own position")]
     NoDirection,
-    #[error("up is zero or along the line of sight")]
+    #[error("the up vector is zero or parallel to the line of sight")]
     NoUp,
-    #[error("the angle of view is {0} degrees; it must lie above 0 and below 180")]
+    #[error("the angle of view is {0} degrees; it must be above 0 and below 180")]
     Angle(f64),
 }
 
-/// Where in a pixel its first sample lies.
+/// Position of a pixel's first sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Sampling {
-    /// At the pixel's centre; the angle of view spans the outer edges of the outer pixels.
+    /// At the pixel center; the angle of view spans the outer edges of the outermost pixels.
     #[default]
     Center,
-    /// On a lattice whose first and last samples span the angle of view (the SPD's way).
+    /// On a lattice whose first and last samples span the angle of view, as in the SPD.
     Corner,
 }
 
-/// A camera made ready to give rays for a picture of a certain size.
+/// A camera prepared for a picture of a given size; generates primary rays.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     eye: Vec3,
     forward: Vec3,
-    /// Half the picture's width and height at distance 1, as vectors to the right and up.
+    /// Half the picture's width and height at distance 1, as vectors pointing right and up.
     right: Vec3,
     up: Vec3,
     width: u32,
@@ -58,10 +60,11 @@ pub struct View {
 }
 
 impl Camera {
-    /// Direction of view, to the right and up: unit vectors at right angles.
+    /// Returns the forward, right and up directions: orthogonal unit vectors.
     ///
     /// # Errors
-    /// No direction, no up, an angle outside (0, 180), or numbers that are not finite.
+    /// The view or up direction is degenerate, the angle is outside (0, 180), or a number is not
+    /// finite.
     pub fn frame(&self) -> Result<[Vec3; 3], CameraError> {
         if !(self.from.is_finite() && self.at.is_finite() && self.up.is_finite()) {
             return Err(CameraError::NotFinite);
@@ -79,10 +82,10 @@ impl Camera {
         Ok([forward, right, right.cross(forward)])
     }
 
-    /// The camera made ready for a picture of `width` × `height` pixels.
+    /// Prepares the camera for a picture of `width` × `height` pixels.
     ///
     /// # Errors
-    /// As [`Camera::frame`].
+    /// The same as for [`Camera::frame`].
     pub fn view(&self, width: u32, height: u32, sampling: Sampling) -> Result<View, CameraError> {
         let [forward, right, up] = self.frame()?;
         let half_height = libm::tan(self.angle.to_radians() * 0.5);
@@ -105,11 +108,11 @@ impl View {
         [self.width, self.height]
     }
 
-    /// The primary ray of sample number `sample` in pixel (`x`, `y`); (0, 0) is the upper left.
-    /// Its direction has unit length.
+    /// Returns the primary ray of sample number `sample` in pixel (`x`, `y`), where (0, 0) is the
+    /// upper left pixel. Its direction has unit length.
     ///
-    /// Sample 0 lies where [`Sampling`] says; those after it follow the R₂ sequence around it
-    /// (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
+    /// [`Sampling`] defines where sample 0 lies. The samples after it follow the R₂ sequence around
+    /// it (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
     pub fn primary_ray(&self, x: u32, y: u32, sample: u32) -> Ray {
         const G1: f64 = 0.754_877_666_246_692_8;
         const G2: f64 = 0.569_840_290_998_053_2;
@@ -130,12 +133,13 @@ impl View {
 }
 
 impl View {
-    /// Where a line shows in the picture, in pixels from its upper left corner; the centre of pixel
-    /// (0, 0) lies at (0.5, 0.5). What lies behind the eye is cut off; `None` where that is all.
+    /// Projects a line segment into the picture, in pixels from the upper left corner; the center of
+    /// pixel (0, 0) is (0.5, 0.5). The part behind the eye is clipped. Returns `None` if all of the
+    /// segment is behind the eye.
     pub fn project_line(&self, ends: [Vec3; 2]) -> Option<[[f64; 2]; 2]> {
         let [a, b] = ends.map(|end| end - self.eye);
         let [depth_a, depth_b] = [a, b].map(|end| end.dot(self.forward));
-        // In front of the eye by far less than the line is long.
+        // A near plane at a distance that is tiny compared with the segment.
         let near = 1e-6 * (a.length() + b.length());
         if depth_a.max(depth_b) <= near {
             return None;
@@ -151,7 +155,7 @@ impl View {
         Some(visible.map(|end| self.place(end)))
     }
 
-    /// Place in the picture of a point before the eye, given from the eye.
+    /// Projects a point in front of the eye, relative to the eye, into the picture.
     fn place(&self, point: Vec3) -> [f64; 2] {
         let depth = point.dot(self.forward);
         let along = |side: Vec3| point.dot(side) / (side.length_squared() * depth);
@@ -166,7 +170,7 @@ impl View {
     }
 }
 
-/// The unit vector along `v` for any finite length, also where its square over- or underflows.
+/// Returns the unit vector along `v`, even if the square of its length overflows or underflows.
 fn unit(v: Vec3) -> Option<Vec3> {
     let scale = v.abs().max_element();
     if scale > 0.0 && scale.is_finite() {
@@ -186,7 +190,7 @@ mod tests {
             at: Vec3::Y,
             up: Vec3::Z,
             angle: 90.0,
-            hither: 1.0,
+            near: 1.0,
             resolution: [4, 4],
         }
     }
@@ -202,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn points_on_a_pixels_ray_show_at_its_centre() {
+    fn points_on_a_pixels_ray_project_to_its_center() {
         for sampling in [Sampling::Center, Sampling::Corner] {
             let view = camera().view(30, 20, sampling).unwrap();
             for [x, y] in [[0, 0], [29, 19], [7, 13]] {
@@ -217,13 +221,13 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_cut_off_behind_the_eye() {
+    fn lines_are_clipped_behind_the_eye() {
         let view = camera().view(10, 10, Sampling::Center).unwrap();
         let (ahead, behind) = (Vec3::new(1.0, 2.0, 0.0), Vec3::new(1.0, -3.0, 0.0));
         assert_eq!(view.project_line([behind, behind - Vec3::Y]), None);
         let [a, b] = view.project_line([ahead, behind]).unwrap();
         assert!((a[0] - 7.5).abs() < 1e-9 && (a[1] - 5.0).abs() < 1e-9);
-        // It leaves the picture to the right, where it is seen while it comes nearer.
+        // The segment leaves the picture on the right as it approaches the eye.
         assert!(b[0] > 1e3 && (b[1] - 5.0).abs() < 1e-9, "{b:?}");
         let [c, d] = view.project_line([behind, ahead]).unwrap();
         assert_eq!([c, d], [b, a]);

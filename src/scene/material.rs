@@ -1,4 +1,4 @@
-//! How surfaces look and what lights them, as NFF has it.
+//! Materials and lights, with the parameters of NFF.
 
 use crate::geometry::Vec3;
 use serde::{Deserialize, Serialize};
@@ -6,17 +6,17 @@ use serde::{Deserialize, Serialize};
 /// NFF's shading parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Material {
-    /// Linear colour, 0 to 1 a channel.
+    /// Linear color, 0 to 1 per channel.
     pub color: Vec3,
-    /// Diffuse share `Kd`.
+    /// Diffuse fraction, `Kd`.
     pub diffuse: f64,
-    /// Specular share `Ks`: weight of the highlight and of the reflected ray.
+    /// Specular fraction, `Ks`: the weight of the highlight and of the reflected ray.
     pub specular: f64,
-    /// Exponent of the highlight's cosine, `Shine`.
+    /// Exponent of the cosine in the highlight, `Shine`.
     pub shine: f64,
-    /// Share of the refracted ray, `T`; 0 is opaque.
+    /// Weight of the refracted ray, `T`; 0 is opaque.
     pub transmittance: f64,
-    /// Index of refraction of the body behind the surface, relative to the outside.
+    /// Index of refraction inside the object, relative to the outside.
     pub index_of_refraction: f64,
 }
 
@@ -33,10 +33,11 @@ impl Default for Material {
     }
 }
 
-/// A light at a point, without fall-off over distance.
+/// A point light whose intensity does not fall off with distance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Light {
     pub position: Vec3,
-    /// Linear colour and intensity; `None` where the file gives none: white, 1/√`N_L`.
+    /// Linear color times intensity. `None` if the file gives no color: white with intensity
+    /// 1/√`N_L`.
     pub color: Option<Vec3>,
 }

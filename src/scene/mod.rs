@@ -1,7 +1,9 @@
-//! A scene: objects, materials, lights, a background and a camera, and what it requires.
+//! Scenes: objects, materials, lights, background and camera, and which features rendering them
+//! requires.
 
 pub mod builtin;
 mod camera;
+mod camera_override;
 pub mod format;
 mod material;
 mod note;
@@ -11,6 +13,7 @@ mod source;
 mod tessellate;
 
 pub use camera::{Camera, CameraError, Sampling, View};
+pub use camera_override::CameraOverride;
 pub use material::{Light, Material};
 pub use note::{Note, NoteKind};
 pub use requirements::Requirements;
@@ -21,25 +24,25 @@ use crate::geometry::{Aabb, Vec3};
 use crate::primitive::{Precision, Primitive, Shape, Shapes};
 use prepared::Prepared;
 
-/// What a reader or a generator gathers; [`Scene::new`] makes a scene of it.
+/// The parts that a reader or a generator produces; [`Scene::new`] turns them into a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneParts {
-    /// Short name for titles and reports, such as `balls:4` or a file's name.
+    /// Short name for titles and reports, such as `balls:4` or the stem of a file name.
     pub name: String,
-    /// The objects; an object's number is its place here.
+    /// The objects; an object's number is its index in this list.
     pub objects: Vec<Primitive>,
-    /// For every object its material's place in `materials`.
+    /// For each object, the index of its material in `materials`.
     pub material_of: Vec<u32>,
     pub materials: Vec<Material>,
     pub lights: Vec<Light>,
-    /// Linear colour of rays that hit nothing.
+    /// Linear color of rays that hit nothing.
     pub background: Vec3,
     pub camera: Camera,
-    /// The load report: what was read, skipped, changed and made up, and the author's remarks.
+    /// The load report: what was read, skipped, changed and defaulted, and the author's remarks.
     pub notes: Vec<Note>,
 }
 
-/// A scene, complete and immutable: derived facts are worked out once, here.
+/// A complete, immutable scene. Derived facts are computed once, when it is created.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     parts: SceneParts,
@@ -49,8 +52,10 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Creates a scene from its parts.
+    ///
     /// # Panics
-    /// If `material_of` does not name one existing material for every object.
+    /// If `material_of` does not refer to an existing material for every object.
     pub fn new(parts: SceneParts) -> Self {
         assert_eq!(parts.objects.len(), parts.material_of.len());
         assert!(
@@ -76,12 +81,12 @@ impl Scene {
         &self.parts.name
     }
 
-    /// The objects; an object's number is its place.
+    /// Returns the objects; an object's number is its index.
     pub fn objects(&self) -> &[Primitive] {
         &self.parts.objects
     }
 
-    /// The material of an object.
+    /// Returns the material of an object.
     pub fn material(&self, object: u32) -> &Material {
         &self.parts.materials[self.parts.material_of[object as usize] as usize]
     }
@@ -98,28 +103,29 @@ impl Scene {
         &self.parts.camera
     }
 
-    /// The tight box around all objects; empty without objects.
+    /// Returns the tight bounding box of all objects; empty if there are none.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
 
-    /// What rendering this scene takes, and what it does not.
+    /// Returns which features rendering this scene requires.
     pub fn requirements(&self) -> &Requirements {
         &self.requirements
     }
 
-    /// The objects made ready for tracing in a precision: when first asked for, then kept.
+    /// Returns the objects prepared for intersection in a precision. They are prepared on first use
+    /// and then cached.
     pub fn shapes(&self, precision: Precision) -> &Shapes {
         self.prepared
             .get(precision, &self.parts.objects, &self.bounds)
     }
 
-    /// The load report: what the reader had to say about the file.
+    /// Returns the load report.
     pub fn notes(&self) -> &[Note] {
         &self.parts.notes
     }
 
-    /// Everything the scene was made of.
+    /// Returns the parts that the scene was created from.
     pub fn parts(&self) -> &SceneParts {
         &self.parts
     }

@@ -1,46 +1,46 @@
-//! What is to be said of where a scene came from: the load report.
+//! The load report: notes on how a scene file was read.
 
 use std::fmt;
 
-/// What a note is about.
+/// The kind of a note.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NoteKind {
-    /// What was found and taken as it is.
+    /// Content that was read unchanged.
     Read,
-    /// What was left out, and why.
+    /// Content that was skipped, and why.
     Skipped,
-    /// What was repaired or taken for something else.
+    /// Content that was repaired or replaced by something similar.
     Changed,
-    /// What the file lacks and the program put there.
-    MadeUp,
-    /// What the scene's author has to say.
+    /// A default that stands in for something the file does not contain.
+    Defaulted,
+    /// A remark by the scene's author.
     Remark,
 }
 
 impl NoteKind {
-    /// All kinds, in the order in which a report lists them.
+    /// All kinds, in the order of the load report.
     pub const ALL: [NoteKind; 5] = [
         NoteKind::Read,
         NoteKind::Skipped,
         NoteKind::Changed,
-        NoteKind::MadeUp,
+        NoteKind::Defaulted,
         NoteKind::Remark,
     ];
 
-    /// The heading of such notes.
+    /// Returns the heading for notes of this kind.
     pub const fn title(self) -> &'static str {
         match self {
             NoteKind::Read => "Read",
             NoteKind::Skipped => "Skipped",
             NoteKind::Changed => "Changed",
-            NoteKind::MadeUp => "Made up",
+            NoteKind::Defaulted => "Default",
             NoteKind::Remark => "Note",
         }
     }
 }
 
-/// One sentence of the load report.
+/// One entry of the load report.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Note {
     pub kind: NoteKind,
@@ -54,7 +54,7 @@ impl Note {
     }
 }
 
-/// With its kind, as in `Skipped: 2 × face without area, first at line 7`.
+/// Writes the note with its kind, as in `Skipped: 2 × polygon with zero area, first at line 7`.
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.kind.title(), self.text)

@@ -1,11 +1,11 @@
-//! The objects made ready for intersection, kept as long as the scene.
+//! Cache of the objects prepared for intersection, kept as long as the scene.
 
 use crate::geometry::Aabb;
 use crate::primitive::{Precision, Primitive, Shapes};
 use std::sync::OnceLock;
 
-/// One place for every precision, filled when it is first asked for. It follows from the scene, so
-/// that it is no part of what makes two scenes equal.
+/// One slot per precision, filled on first use. The content follows from the scene, so two scenes
+/// are equal regardless of what is cached.
 #[derive(Default)]
 pub(super) struct Prepared([OnceLock<Shapes>; 2]);
 

@@ -1,18 +1,18 @@
-//! What a scene requires of a renderer, worked out once when it is made.
+//! The features that rendering a scene requires, computed once when the scene is created.
 
 use super::SceneParts;
 use crate::primitive::PrimitiveKind;
 
-/// What rendering the scene takes. Whatever is absent here is not done at all.
+/// The features that rendering the scene requires. The renderer skips all others.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Requirements {
-    /// The kinds of primitive present and how many of each.
+    /// The kinds of primitives in the scene, with the number of each.
     pub primitives: Vec<(PrimitiveKind, usize)>,
-    /// Some object in use spawns reflected rays (`Ks` > 0 or `T` > 0).
+    /// Some object spawns reflected rays (`Ks` > 0 or `T` > 0).
     pub reflects: bool,
-    /// Some object in use spawns refracted rays (`T` > 0).
+    /// Some object spawns refracted rays (`T` > 0).
     pub refracts: bool,
-    /// There is a light, and a surface that it can brighten (`Kd` > 0 or `Ks` > 0).
+    /// There is a light, and a surface that it can illuminate (`Kd` > 0 or `Ks` > 0).
     pub casts_shadows: bool,
     /// Some surface is shaded with interpolated normals.
     pub interpolates_normals: bool,
@@ -55,7 +55,7 @@ impl Requirements {
         }
     }
 
-    /// How deep secondary rays can matter when `d_arec` levels are allowed: 0 where none arise.
+    /// Returns the depth of secondary rays for a limit of `d_arec`; 0 if the scene spawns none.
     pub fn secondary_depth(&self, d_arec: u32) -> u32 {
         if self.reflects || self.refracts {
             d_arec
@@ -64,8 +64,8 @@ impl Requirements {
         }
     }
 
-    /// What is left out because the scene does not need it; one short phrase each.
-    pub fn left_out(&self) -> Vec<String> {
+    /// Returns the features that this scene does not need, one short phrase each.
+    pub fn unneeded(&self) -> Vec<String> {
         let mut out = Vec::new();
         let absent: Vec<_> = PrimitiveKind::ALL
             .into_iter()
@@ -73,22 +73,22 @@ impl Requirements {
             .map(PrimitiveKind::plural)
             .collect();
         if !absent.is_empty() {
-            out.push(format!("no code for {}", absent.join(", ")));
+            out.push(absent.join(", "));
         }
         if self.primitives.len() == 1 {
-            out.push("no choice of primitive per intersection test".into());
+            out.push("choosing the kind of primitive per test (all are of one kind)".into());
         }
         if !self.reflects {
-            out.push("no reflected rays (nothing mirrors)".into());
+            out.push("reflected rays (no mirroring surface)".into());
         }
         if !self.refracts {
-            out.push("no refracted rays (nothing is transparent)".into());
+            out.push("refracted rays (no transparent surface)".into());
         }
         if !self.casts_shadows {
-            out.push("no shadow rays (no light, or nothing it could brighten)".into());
+            out.push("shadow rays (no light, or no surface that reflects it)".into());
         }
         if !self.interpolates_normals {
-            out.push("no interpolated normals".into());
+            out.push("interpolated normals".into());
         }
         out
     }

@@ -1,4 +1,4 @@
-//! Where a scene comes from: a file or a generator's name, and how cylinders are taken.
+//! Scene sources: a file or a generator, and how cylinders are represented.
 
 use super::{Cylinders, Scene, SceneParts, builtin, format};
 use crate::progress::{Cancelled, Progress};
@@ -9,21 +9,21 @@ use std::path::PathBuf;
 #[serde(rename_all = "lowercase")]
 pub enum SceneSource {
     File(PathBuf),
-    /// The generator's name and its size; `None` takes the size that the paper used.
+    /// A generator by name, with its size; `None` means the size that the paper used.
     Builtin {
         name: String,
         size: Option<u32>,
     },
 }
 
-/// Everything that decides what scene results.
+/// Everything that determines the resulting scene.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct SceneRequest {
     pub source: SceneSource,
     pub cylinders: Cylinders,
 }
 
-/// Why a scene could not be had.
+/// Why a scene could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     #[error(transparent)]
@@ -44,8 +44,8 @@ impl From<format::FormatError> for LoadError {
 }
 
 impl SceneSource {
-    /// Reads what a user typed: an existing file or a path wins, then a generator's name with an
-    /// optional size (`balls`, `balls:4`).
+    /// Parses user input: the path of an existing file, or else the name of a generator with an
+    /// optional size (`balls`, `balls:4`). Anything else is taken as a path.
     pub fn parse(text: &str) -> Self {
         let path = PathBuf::from(text);
         match SceneSource::generator(text) {
@@ -54,8 +54,8 @@ impl SceneSource {
         }
     }
 
-    /// The generator of this name, with or without a size (`balls`, `balls:4`); `None` where there
-    /// is none.
+    /// Parses the name of a generator, with or without a size (`balls`, `balls:4`). Returns `None`
+    /// if there is no such generator.
     pub fn generator(text: &str) -> Option<Self> {
         let (name, size) = match text.split_once(':') {
             Some((name, size)) => (name, Some(size.parse().ok()?)),
@@ -83,7 +83,7 @@ impl std::fmt::Display for SceneSource {
 }
 
 impl SceneRequest {
-    /// The request for what a user typed, cylinders exact.
+    /// Parses user input as [`SceneSource::parse`] does; cylinders are exact.
     pub fn parse(text: &str) -> Self {
         SceneRequest {
             source: SceneSource::parse(text),
@@ -92,10 +92,10 @@ impl SceneRequest {
     }
 }
 
-/// Reads or generates the scene asked for.
+/// Reads or generates a scene.
 ///
 /// # Errors
-/// The file's or the generator's error, or cancellation. Nothing is half-loaded.
+/// Errors of the reader or generator, or cancellation. A scene is never partially loaded.
 pub fn load(request: &SceneRequest, progress: &Progress) -> Result<Scene, LoadError> {
     let parts: SceneParts = match &request.source {
         SceneSource::File(path) => format::read_file(path, progress)?,

@@ -1,14 +1,14 @@
-//! Cylinders and cones taken exactly, or as prisms of polygons as the paper did.
+//! Exact cylinders and cones, or prisms of polygons in their place, as in the paper.
 
 use super::SceneParts;
 use crate::primitive::Primitive;
 use serde::{Deserialize, Serialize};
 
-/// How cylinders and cones enter the scene.
+/// How cylinders and cones are represented.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Cylinders {
-    /// As the exact surfaces they are.
+    /// As exact surfaces.
     #[default]
     Exact,
     /// As an open regular inscribed prism of this many polygons, at least 3.
@@ -16,9 +16,9 @@ pub enum Cylinders {
 }
 
 impl Cylinders {
-    /// The parts with every cylinder and cone replaced, in place and in its material, where
-    /// polygons are asked for. Parts without any, and all where they are taken exactly, come back
-    /// as they are, nothing copied.
+    /// For [`Cylinders::Polygons`], replaces each cylinder and cone by polygons, at its place in the
+    /// list and with its material. Otherwise, and if there are none, returns the parts unchanged
+    /// without copying.
     pub fn apply(self, mut parts: SceneParts) -> SceneParts {
         let Cylinders::Polygons(sides) = self else {
             return parts;
@@ -76,7 +76,7 @@ mod tests {
     use crate::scene::builtin;
 
     #[test]
-    fn prisms_take_their_cylinders_places_and_materials() {
+    fn prisms_replace_their_cylinders_in_place_with_their_materials() {
         let exact = builtin::generate("rings", Some(1)).unwrap();
         let prisms = Cylinders::Polygons(6).apply(exact.clone());
         let mut rest = prisms.objects.iter().zip(&prisms.material_of);

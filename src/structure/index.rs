@@ -174,21 +174,21 @@ fn sum_up(tree: &Tree, nodes: &mut [NodeFacts]) {
 /// Counts objects once a subtree: an object with leaves on both sides of a node is one too many
 /// there, and neighbours in its list of leaves part at the lowest node that holds both.
 fn count_objects(nodes: &mut [NodeFacts], tree: &Tree, starts: &[u32], leaves: &[u32]) {
-    let mut too_many = vec![0_u32; nodes.len()];
+    let mut duplicates = vec![0_u32; nodes.len()];
     for range in starts.windows(2) {
         for pair in leaves[range[0] as usize..range[1] as usize].windows(2) {
             let mut at = pair[0];
             while nodes[at as usize].end <= pair[1] {
                 at = nodes[at as usize].parent;
             }
-            too_many[at as usize] += 1;
+            duplicates[at as usize] += 1;
         }
     }
     for node in (0..nodes.len()).rev() {
         nodes[node].objects = match tree.kind(node as u32) {
             NodeKind::Leaf { count, .. } => count,
             NodeKind::Inner { below, above, .. } => {
-                nodes[below as usize].objects + nodes[above as usize].objects - too_many[node]
+                nodes[below as usize].objects + nodes[above as usize].objects - duplicates[node]
             }
         };
     }

@@ -48,8 +48,8 @@ pub enum StopReason {
     FewObjects,
     /// It lies at depth `D_MAX`.
     MaxDepth,
-    /// No split costs less than the leaf.
-    NoSplitPays,
+    /// Every split has a higher expected cost than the leaf.
+    LeafIsCheaper,
     /// The method has no plane to offer.
     NoCandidate,
     /// The plane would not divide the cell: it is as thin as planes can be told apart.
@@ -66,7 +66,7 @@ impl StopReason {
         StopReason::CutOut,
         StopReason::FewObjects,
         StopReason::MaxDepth,
-        StopReason::NoSplitPays,
+        StopReason::LeafIsCheaper,
         StopReason::NoCandidate,
         StopReason::TooThin,
         StopReason::NotSplit,
@@ -80,7 +80,7 @@ impl StopReason {
             StopReason::CutOut => "empty slab, cut out",
             StopReason::FewObjects => "at most N_OILF objects",
             StopReason::MaxDepth => "depth D_MAX reached",
-            StopReason::NoSplitPays => "no split pays",
+            StopReason::LeafIsCheaper => "a leaf is cheaper than any split (SAH)",
             StopReason::NoCandidate => "no plane to split at",
             StopReason::TooThin => "too thin to split",
             StopReason::NotSplit => "the method does not split",

@@ -33,6 +33,8 @@ pub struct TimedRender {
     pub cpu: Duration,
     /// Time on the clock on the wall.
     pub wall: Duration,
+    /// Threads that rendered.
+    pub threads: usize,
 }
 
 /// What one counted pass counted.
@@ -141,6 +143,7 @@ pub fn render_timed(
     Ok(TimedRender {
         cpu,
         wall: start.elapsed(),
+        threads: pool.current_num_threads(),
     })
 }
 

@@ -1,17 +1,17 @@
 //! The view of render settings.
 
 use super::{RenderError, RenderSettings};
-use crate::scene::View;
+use crate::scene::{Scene, View};
 
 /// Maximum width and height of an image.
 const RESOLUTION_LIMIT: u32 = 16_384;
 
 impl RenderSettings {
-    /// Returns the camera's view.
+    /// Returns the view of a scene.
     ///
     /// # Errors
     /// A camera without a view or a resolution out of range.
-    pub fn view(&self) -> Result<View, RenderError> {
+    pub fn view(&self, scene: &Scene) -> Result<View, RenderError> {
         let range = 1..=RESOLUTION_LIMIT;
         if !range.contains(&self.width) || !range.contains(&self.height) {
             return Err(RenderError::Resolution {
@@ -20,6 +20,7 @@ impl RenderSettings {
                 limit: RESOLUTION_LIMIT,
             });
         }
-        Ok(self.camera.view(self.width, self.height, self.sampling)?)
+        let camera = self.camera.resolve(scene.camera());
+        Ok(camera.view(self.width, self.height, self.sampling)?)
     }
 }

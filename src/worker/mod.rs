@@ -1,6 +1,6 @@
 //! The background thread between the window and the library. Latest wins.
 //!
-//! The window sends the whole desired state ([`Request`]); there is one waiting slot, and a newer
+//! The window sends the whole desired state ([`Setup`]); there is one waiting slot, and a newer
 //! request cancels what an older one started. The worker redoes only what changed: a camera move
 //! builds no tree, a new `D_MAX` loads no scene. What comes back ([`Update`]) carries the number of
 //! its request. A picture, its tree and its figures arrive together, so that none is ever shown
@@ -10,8 +10,9 @@ use crate::geometry::Vec3;
 use crate::measure::heat::PixelCounts;
 use crate::measure::{Measurement, Times};
 use crate::progress::{Cancelled, Progress};
-use crate::scene::{Camera, LoadError, Scene, SceneRequest, load};
-use crate::structure::{BuildError, BuildSettings, Tree, build};
+use crate::scene::{LoadError, Scene, SceneRequest, load};
+use crate::setup::Setup;
+use crate::structure::{BuildError, Tree, build};
 use crate::trace::{
     Picture, RenderError, RenderSettings, Tile, TimedRender, preview, render_counted, render_timed,
     thread_pool,
@@ -19,19 +20,6 @@ use crate::trace::{
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::{Duration, Instant};
-
-/// Everything the window wants to see.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Request {
-    pub scene: SceneRequest,
-    pub build: BuildSettings,
-    /// Its camera counts only if `own_camera`.
-    pub render: RenderSettings,
-    /// Whether the window moved the camera; if not, the scene's own is used.
-    pub own_camera: bool,
-    /// Raised by one to read the scene's file again.
-    pub reload: u64,
-}
 
 /// What the worker is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,11 +50,11 @@ impl Stage {
 /// A picture with everything that belongs to it.
 #[derive(Clone, Debug)]
 pub struct Shown {
-    pub request: Request,
+    pub setup: Setup,
+    /// How often the scene's file had been read again.
+    pub reload: u64,
     pub scene: Arc<Scene>,
     pub tree: Arc<Tree>,
-    /// The settings with the camera that was used.
-    pub render: RenderSettings,
     /// The coarse first picture.
     pub picture: Arc<Picture>,
     /// What is known so far.
@@ -114,6 +102,12 @@ pub struct Worker {
     thread: Option<std::thread::JoinHandle<()>>,
 }
 
+/// What the thread is asked for.
+struct Request {
+    setup: Setup,
+    reload: u64,
+}
+
 #[derive(Default)]
 struct Slot {
     state: Mutex<SlotState>,
@@ -150,13 +144,14 @@ impl Worker {
         }
     }
 
-    /// Asks for a new state, in place of whatever was asked for before; gives the request's number.
-    pub fn request(&self, request: Request) -> u64 {
+    /// Asks for a new state, in place of whatever was asked for before, and returns the request's
+    /// number. Another `reload` than before reads the scene's file again.
+    pub fn request(&self, setup: Setup, reload: u64) -> u64 {
         let mut state = self.slot.lock();
         state.current.cancel();
         state.last_number += 1;
         let number = state.last_number;
-        state.waiting = Some((number, request));
+        state.waiting = Some((number, Request { setup, reload }));
         self.slot.changed.notify_all();
         number
     }
@@ -308,7 +303,7 @@ impl Kept {
         progress: &Progress,
         reporter: &Reporter<'_>,
     ) -> Result<Arc<Scene>, Stop> {
-        let (wanted, reload) = (&request.scene, request.reload);
+        let (wanted, reload) = (&request.setup.scene, request.reload);
         self.scenes
             .0
             .retain(|known| known.request.source == wanted.source && known.reload == reload);
@@ -335,17 +330,20 @@ impl Kept {
     fn tree(
         &mut self,
         scene: &Arc<Scene>,
-        request: &Request,
-        render: &RenderSettings,
+        setup: &Setup,
         progress: &Progress,
         reporter: &Reporter<'_>,
     ) -> Result<&Built, Stop> {
-        let fits =
-            |built: &Built| Arc::ptr_eq(&built.scene, scene) && built.known.build == request.build;
+        let Setup {
+            build: wanted,
+            render,
+            ..
+        } = setup;
+        let fits = |built: &Built| Arc::ptr_eq(&built.scene, scene) && built.known.build == *wanted;
         if !self.trees.0.iter().any(fits) {
             reporter.stage(Stage::Building, progress);
             let pool = self.pool(render.threads)?;
-            let (tree, building) = Times::of(&pool, || build(scene, &request.build, progress));
+            let (tree, building) = Times::of(&pool, || build(scene, wanted, progress));
             let tree = Arc::new(tree?);
             self.trees.put(Built {
                 scene: Arc::clone(scene),
@@ -433,20 +431,12 @@ fn serve(
     reporter: &Reporter<'_>,
 ) -> Result<(), Stop> {
     let scene = kept.scene(request, progress, reporter)?;
-    let camera: Camera = if request.own_camera {
-        request.render.camera
-    } else {
-        *scene.camera()
-    };
-    let render = RenderSettings {
-        camera,
-        ..request.render
-    };
+    let render: RenderSettings = request.setup.render;
     // A wrong camera or size is told before work is done for it.
-    render.view()?;
+    render.view(&scene)?;
 
     let pool = kept.pool(render.threads)?;
-    let Built { tree, known, .. } = kept.tree(&scene, request, &render, progress, reporter)?;
+    let Built { tree, known, .. } = kept.tree(&scene, &request.setup, progress, reporter)?;
 
     reporter.stage(Stage::Previewing, progress);
     let mut measurement = known.with_render(&scene, &render);
@@ -461,10 +451,10 @@ fn serve(
         |tile, colors| lock(&picture).add_tile(tile, 0, colors),
     )?;
     reporter.send(Update::Shown(Box::new(Shown {
-        request: request.clone(),
+        setup: request.setup.clone(),
+        reload: request.reload,
         scene: Arc::clone(&scene),
         tree: Arc::clone(tree),
-        render,
         picture: Arc::new(
             picture
                 .into_inner()

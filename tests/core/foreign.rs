@@ -1,27 +1,21 @@
 //! Files of other programs: the same hits as the same geometry in NFF, whatever the format.
 
+use crate::support::scenes::{asset, tree_by};
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::measure::{RaySample, answer, sample_rays};
 use bspscope::primitive::{Precision, Primitive, PrimitiveKind};
 use bspscope::progress::{Cancelled, Progress};
 use bspscope::scene::builtin::generate;
 use bspscope::scene::format::{
-    FORMATS, Format, FormatError, Input, MOST_VERTICES, ReadError, nff, read_file,
+    FORMATS, Format, FormatError, Input, MAX_VERTICES, ReadError, nff, read_file,
 };
 use bspscope::scene::{LoadError, NoteKind, Scene, SceneParts, SceneRequest};
-use bspscope::structure::{BuildSettings, Method, Tree, build};
 use bspscope::trace::{RayKind, RenderSettings, thread_pool};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How many rays are compared.
 const RAYS: usize = 10_000;
-
-fn asset(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/assets")
-        .join(name)
-}
 
 fn load(path: &Path) -> SceneParts {
     read_file(path, &Progress::new()).unwrap_or_else(|e| panic!("{e}"))
@@ -33,16 +27,11 @@ fn read(format: &str, bytes: &[u8]) -> Result<SceneParts, ReadError> {
     (format.read)(&Input::from(bytes), &Progress::new())
 }
 
-fn tree_of(scene: &Scene) -> Tree {
-    let settings = BuildSettings::for_method(Method::named("sah-cut").unwrap());
-    build(scene, &settings, &Progress::new()).unwrap()
-}
-
 /// Holds the hits in one scene against those in the other, on rays of the first one's picture.
 fn same_hits(expected: SceneParts, found: SceneParts, what: &str) {
     let (pool, progress) = (thread_pool(1).unwrap(), Progress::new());
     let scenes = [expected, found].map(Scene::new);
-    let trees = [&scenes[0], &scenes[1]].map(tree_of);
+    let trees = [&scenes[0], &scenes[1]].map(|scene| tree_by(scene, "sah-cut"));
     let settings = RenderSettings::for_camera(*scenes[0].camera());
     let sample = sample_rays(&scenes[0], &trees[0], &settings, RAYS, &pool, &progress).unwrap();
     let primary = &sample.rays[RayKind::Primary as usize];
@@ -269,8 +258,8 @@ fn gltf_brings_camera_colours_and_lights() {
     let colors = [0, 1].map(|i| parts.lights[i].color.unwrap());
     assert!(colors[0].max_element() <= 0.5_f64.sqrt() + 1e-12);
     assert!(colors[1].y == 0.0 && colors[1].x > 0.0);
-    let made_up: Vec<_> = texts(&parts, NoteKind::MadeUp);
-    assert_eq!(made_up, ["background: grey"]);
+    let defaulted: Vec<_> = texts(&parts, NoteKind::Defaulted);
+    assert_eq!(defaulted, ["no background color in the file; using gray"]);
 }
 
 /// The texts of the notes of one kind.
@@ -342,12 +331,12 @@ fn what_is_no_scene_is_refused_by_name() {
 fn a_mesh_without_camera_and_lights_is_framed_and_lit() {
     for name in ["meshio.obj", "meshio.ply", "trimesh.stl", "trimesh.glb"] {
         let parts = load(&asset(name));
-        let made_up = texts(&parts, NoteKind::MadeUp).join("; ");
-        for word in ["no camera", "no light", "grey"] {
-            assert!(made_up.contains(word), "{name}: {made_up}");
+        let defaulted = texts(&parts, NoteKind::Defaulted).join("; ");
+        for word in ["no camera", "no light", "using gray"] {
+            assert!(defaulted.contains(word), "{name}: {defaulted}");
         }
         let scene = Scene::new(parts);
-        let tree = tree_of(&scene);
+        let tree = tree_by(&scene, "sah-cut");
         let settings = RenderSettings {
             width: 40,
             height: 40,
@@ -386,10 +375,10 @@ fn a_scene_in_nff_without_lights_is_lit_too() {
     std::fs::write(&path, text.replace("l 5 -9 12\n", "")).unwrap();
     let parts = load(&path);
     assert_eq!(parts.lights.len(), 2);
-    assert!(texts(&parts, NoteKind::MadeUp)[0].starts_with("no light"));
+    assert!(texts(&parts, NoteKind::Defaulted)[0].starts_with("no light"));
     let kept = load(&asset("polygons.nff"));
     assert_eq!(
-        (kept.lights.len(), texts(&kept, NoteKind::MadeUp).len()),
+        (kept.lights.len(), texts(&kept, NoteKind::Defaulted).len()),
         (1, 0)
     );
 }
@@ -448,10 +437,10 @@ fn mtl_becomes_our_material() {
         "{skipped}"
     );
     assert!(skipped.contains("illum 2"), "{skipped}");
-    let made_up = texts(&parts, NoteKind::MadeUp).join("; ");
+    let defaulted = texts(&parts, NoteKind::Defaulted).join("; ");
     assert!(
-        made_up.contains("material 'none' is not there"),
-        "{made_up}"
+        defaulted.contains("material 'none' is not defined"),
+        "{defaulted}"
     );
 }
 
@@ -517,9 +506,9 @@ fn what_is_skipped_is_counted_with_its_first_place() {
     assert_eq!(
         texts(&parts, NoteKind::Skipped),
         [
-            "2 × polygon without area, first at line 5",
+            "2 × polygon with zero area, first at line 5",
             "face of fewer than 3 vertices, at line 6",
-            "line, which is no surface, at line 7",
+            "line (not a surface), at line 7",
             "unknown statement 'curv', at line 9",
         ]
     );
@@ -532,7 +521,7 @@ fn what_is_skipped_is_counted_with_its_first_place() {
     assert_eq!(parts.objects.len(), 2);
     assert_eq!(
         texts(&parts, NoteKind::Changed),
-        ["polygon off a common plane split into triangles, at line 5"]
+        ["non-planar polygon split into triangles, at line 5"]
     );
 }
 
@@ -619,11 +608,11 @@ fn a_cancelled_load_is_no_failure() {
 
 #[test]
 fn faces_of_too_many_vertices_are_skipped() {
-    let corners = " 1 2 3 4".repeat(MOST_VERTICES / 4 + 1);
+    let corners = " 1 2 3 4".repeat(MAX_VERTICES / 4 + 1);
     let text = format!("{SQUARE}f{corners}\nf 1 2 3 4\n");
     let parts = read("obj", text.as_bytes()).unwrap();
     assert_eq!(parts.objects.len(), 1);
-    let said = format!("face of more than {MOST_VERTICES} vertices, at line 5");
+    let said = format!("face of more than {MAX_VERTICES} vertices, at line 5");
     assert_eq!(texts(&parts, NoteKind::Skipped), [said]);
 }
 
@@ -636,6 +625,6 @@ fn however_many_reasons_there_are_all_is_counted() {
     assert_eq!(skipped[0], "unknown statement 'x0', at line 1");
     let others: usize = 200 - (skipped.len() - 1);
     assert!(others > 100);
-    let last = format!("{others} × other things, first at line {}", skipped.len());
+    let last = format!("{others} × other reasons, first at line {}", skipped.len());
     assert_eq!(*skipped.last().unwrap(), last);
 }

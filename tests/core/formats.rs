@@ -144,7 +144,7 @@ fn a_view_is_read_as_it_stands() {
     assert_eq!(camera.from, Vec3::new(0.0, -5.0, 0.0));
     assert_eq!(camera.at, Vec3::ZERO);
     assert_eq!(camera.up, Vec3::Z);
-    assert_eq!((camera.angle, camera.hither), (45.0, 1.0));
+    assert_eq!((camera.angle, camera.near), (45.0, 1.0));
     assert_eq!(camera.resolution, [64, 48]);
 }
 
@@ -203,8 +203,8 @@ fn what_a_file_leaves_out_is_assumed_and_noted() {
     assert_eq!(
         said(&parts),
         [
-            "no background, black taken",
-            "no material before this object, white matt taken, at line 8"
+            "no background color in the file; using black",
+            "no material before this object; using matte white, at line 8"
         ]
     );
     let empty = read_after_view("");
@@ -221,8 +221,8 @@ fn of_two_views_or_backgrounds_the_last_counts() {
     assert_eq!(
         said(&parts)[..2],
         [
-            "view replaced by a later one, at line 9",
-            "background replaced by a later one, at line 16"
+            "view overridden by a later one, at line 9",
+            "background overridden by a later one, at line 16"
         ]
     );
 }
@@ -237,8 +237,8 @@ fn objects_without_extent_are_skipped_and_noted() {
     assert_eq!(
         said(&parts),
         [
-            "2 × polygon without area, first at line 10",
-            "cylinder or cone without length, at line 14"
+            "2 × polygon with zero area, first at line 10",
+            "cylinder or cone with zero length, at line 14"
         ]
     );
 }
@@ -250,8 +250,8 @@ fn many_notes_of_one_kind_are_counted() {
     assert_eq!(
         said(&parts),
         [
-            "no material before this object, white matt taken, at line 9",
-            "1000 × polygon without area, first at line 9"
+            "no material before this object; using matte white, at line 9",
+            "1000 × polygon with zero area, first at line 9"
         ]
     );
 }
@@ -264,7 +264,7 @@ fn a_polygon_off_a_plane_becomes_triangles_with_its_normals() {
     );
     assert_eq!(
         said(&parts),
-        ["polygon off a common plane split into triangles, at line 10"]
+        ["non-planar polygon split into triangles, at line 10"]
     );
     assert_eq!(parts.objects.len(), 2);
     for object in &parts.objects {
@@ -294,7 +294,7 @@ fn a_vertex_normal_without_length_becomes_the_polygons_own() {
     assert_eq!(*normals, [Vec3::X, Vec3::Z, Vec3::Y]);
     assert_eq!(
         said(&parts),
-        ["vertex normal without length, the face's own taken, at line 10"]
+        ["zero-length vertex normal; using the face normal, at line 10"]
     );
 }
 

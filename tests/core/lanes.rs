@@ -46,7 +46,7 @@ fn scene(name: &str, objects: Vec<Primitive>) -> Scene {
             at: Vec3::ZERO,
             up: Vec3::Z,
             angle: 45.0,
-            hither: 0.0,
+            near: 0.0,
             resolution: [64, 64],
         },
         notes: Vec::new(),

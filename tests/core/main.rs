@@ -26,6 +26,7 @@ mod primitives;
 mod properties;
 mod reconstructions;
 mod record;
+mod scheduler;
 mod stability;
 mod visits;
 mod worker;

@@ -1,5 +1,6 @@
 //! Bad scene files: each mistake is named with its line, and nothing is half-loaded.
 
+use crate::support::random::Random;
 use bspscope::progress::Progress;
 use bspscope::scene::format::{
     FORMATS, Format, FormatError, Input, Place, ReadError, nff, read_file,
@@ -66,7 +67,7 @@ fn each_mistake_after_a_view_is_named_with_its_line() {
             "s",
             10,
             &[
-                "expected x of the sphere's centre",
+                "expected x of the sphere's center",
                 "found the end of the file",
             ],
         ),
@@ -96,7 +97,7 @@ fn each_mistake_after_a_view_is_named_with_its_line() {
         (
             "l 1 2 3 1\n",
             10,
-            &["expected green of the light's colour", "end of the file"],
+            &["expected green of the light's color", "end of the file"],
         ),
         (
             "l 1 2 3 1 1 1 1\n",
@@ -152,18 +153,18 @@ fn each_mistake_after_a_view_is_named_with_its_line() {
         (
             "s 0 zero 0 1\n",
             10,
-            &["y of the sphere's centre (a finite number)", "found 'zero'"],
+            &["y of the sphere's center (a finite number)", "found 'zero'"],
         ),
         ("s 0 0 0 1,5\n", 10, &["the sphere's radius", "found '1,5'"]),
         (
             "s 0 0 NaN 1\n",
             10,
-            &["z of the sphere's centre (a finite number)", "found 'NaN'"],
+            &["z of the sphere's center (a finite number)", "found 'NaN'"],
         ),
         (
             "s inf 0 0 1\n",
             10,
-            &["x of the sphere's centre (a finite number)", "found 'inf'"],
+            &["x of the sphere's center (a finite number)", "found 'inf'"],
         ),
         (
             "s 0 0 0 -infinity\n",
@@ -174,7 +175,7 @@ fn each_mistake_after_a_view_is_named_with_its_line() {
             "s 0\n1e999 0 1\n",
             11,
             &[
-                "y of the sphere's centre (a finite number)",
+                "y of the sphere's center (a finite number)",
                 "found '1e999'",
             ],
         ),
@@ -193,17 +194,20 @@ fn each_mistake_after_a_view_is_named_with_its_line() {
         (
             "s 0 0 0 -1\n",
             10,
-            &["the sphere's radius, 0 or more", "found '-1'"],
+            &["the sphere's radius, 0 or larger", "found '-1'"],
         ),
         (
             "c 0 0 0 -0.5 0 0 1 1\n",
             10,
-            &["the cone's radius at its base, 0 or more", "found '-0.5'"],
+            &["the cone's radius at its base, 0 or larger", "found '-0.5'"],
         ),
         (
             "c 0 0 0 1\n0 0 1 -1e-9\n",
             11,
-            &["the cone's radius at its apex, 0 or more", "found '-1e-9'"],
+            &[
+                "the cone's radius at its apex, 0 or larger",
+                "found '-1e-9'",
+            ],
         ),
         // A second view is checked like the first.
         (
@@ -377,7 +381,7 @@ fn binary_garbage_is_quoted_short_and_without_control_characters() {
     }
     let (line, message) = mistake(&[VIEW.as_bytes(), b"s 0 0 \xc3\x28 1\n"].concat());
     assert_eq!(line, 10);
-    assert!(message.contains("z of the sphere's centre"), "{message}");
+    assert!(message.contains("z of the sphere's center"), "{message}");
 }
 
 #[test]
@@ -427,7 +431,7 @@ fn check_answer(answer: Result<SceneParts, ReadError>, lines: usize) {
                 assert!((1..=lines).contains(&line));
             }
         }
-        Err(ReadError::Beside { name, .. }) => panic!("nothing is beside it, not even {name}"),
+        Err(ReadError::InSibling { name, .. }) => panic!("nothing is beside it, not even {name}"),
         Err(ReadError::Cancelled(_)) => panic!("nobody cancelled"),
     }
 }
@@ -475,14 +479,8 @@ fn damaged_bytes_never_panic() {
     // Characters that mean something to a reader are tried more often than others.
     const TELLING: &[u8] = b"\n\r\t #.-+e0123456789vblfcspN\x00\xff";
     for (format, bytes) in good_files() {
-        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-        let mut random = |below: usize| {
-            // xorshift64 (G. Marsaglia, "Xorshift RNGs", 2003): the same bytes on every run.
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            (state >> 16) as usize % below
-        };
+        let mut numbers = Random(1);
+        let mut random = |below: usize| numbers.below(below);
         for _ in 0..4000 {
             let mut damaged = bytes.clone();
             for _ in 0..=random(4) {

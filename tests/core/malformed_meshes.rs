@@ -39,13 +39,19 @@ fn mistakes_in_obj_are_named_with_their_line() {
         ),
         ("v 1 2 nan\n", &["line 4", "a finite number", "'nan'"]),
         ("vn 1 x 2\n", &["line 4", "y of the normal", "'x'"]),
-        ("f 1 2 4\n", &["line 4", "a vertex from 1 to 3", "'4'"]),
+        (
+            "f 1 2 4\n",
+            &["line 4", "a vertex index from 1 to 3", "'4'"],
+        ),
         ("f 1 2 0\n", &["line 4", "found '0'"]),
         ("f 1 2 -4\n", &["line 4", "from -3 to -1", "'-4'"]),
         ("f 1 2 -9223372036854775808\n", &["line 4"]),
         ("f 1 2 99999999999999999999\n", &["line 4"]),
         ("f 1 2 3.5\n", &["line 4", "'3.5'"]),
-        ("f 1//1 2//1 3//1\n", &["line 4", "a normal from 1 to 0"]),
+        (
+            "f 1//1 2//1 3//1\n",
+            &["line 4", "a normal index from 1 to 0"],
+        ),
         ("\n\nf 1 2 /\n", &["line 6"]),
         ("f 1 \\\n 2 \\\n 9\n", &["line 4", "'9'"]),
         ("f 1 2 \u{1b}[31m\n", &["line 4"]),
@@ -75,7 +81,7 @@ fn mistakes_in_mtl_name_that_file() {
             3,
             "the exponent, found the end of the line",
         ),
-        ("Kd 1 1 1\n", 1, "'newmtl' before anything else"),
+        ("Kd 1 1 1\n", 1, "'newmtl' as the first statement"),
         ("newmtl a\nKd\n", 2, "red"),
         ("newmtl a\nd inf\n", 2, "the opacity (a finite number)"),
     ] {
@@ -152,7 +158,7 @@ fn mistakes_in_stl_are_named_with_their_line_or_facet() {
     let mut nan = vec![0; 80];
     nan.extend(1_u32.to_le_bytes());
     nan.extend([0xff; 50]);
-    refused("stl", &nan, &["facet 0", "numbers that make a triangle"]);
+    refused("stl", &nan, &["facet 0", "numbers that define a triangle"]);
 }
 
 /// A PLY header.
@@ -220,7 +226,7 @@ fn mistakes_in_ply_are_named_with_their_line_or_element() {
                 &format!("element face 1\n{list}element vertex 3\n{XYZ}"),
                 "3 0 1 2\n",
             ),
-            &["0 vertices before"],
+            &["0 vertices above"],
         ),
         (
             text(
@@ -459,9 +465,5 @@ fn few_bytes_never_become_endless_work() {
     json["scenes"][0]["nodes"] = (0..20_000).collect();
     json["accessors"][1]["count"] = json!(0);
     let bytes = serde_json::to_vec(&json).unwrap();
-    refused(
-        "gltf",
-        &bytes,
-        &["at most", "parts of meshes and triangles"],
-    );
+    refused("gltf", &bytes, &["at most", "mesh parts and triangles"]);
 }

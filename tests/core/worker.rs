@@ -4,9 +4,10 @@
 use bspscope::measure::heat::{RayFilter, heatmap};
 use bspscope::measure::parameter;
 use bspscope::scene::SceneRequest;
+use bspscope::setup::Setup;
 use bspscope::structure::{BuildSettings, MaxDepth, Method};
 use bspscope::trace::RenderSettings;
-use bspscope::worker::{Numbered, Request, Stage, Update, Worker};
+use bspscope::worker::{Numbered, Stage, Update, Worker};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
@@ -19,24 +20,15 @@ fn start() -> (Worker, Receiver<()>) {
     (worker, woken)
 }
 
-fn request(scene: &str, method: &str) -> Request {
-    let camera = bspscope::scene::load(
-        &SceneRequest::parse("tetra:1"),
-        &bspscope::progress::Progress::new(),
-    )
-    .unwrap()
-    .camera()
-    .to_owned();
-    Request {
+fn request(scene: &str, method: &str) -> Setup {
+    Setup {
         scene: SceneRequest::parse(scene),
         build: BuildSettings::for_method(Method::named(method).unwrap()),
         render: RenderSettings {
             width: 64,
             height: 48,
-            ..RenderSettings::for_camera(camera)
+            ..RenderSettings::default()
         },
-        own_camera: false,
-        reload: 0,
     }
 }
 
@@ -74,7 +66,7 @@ fn a_request_goes_from_picture_to_complete_figures() {
     let (worker, woken) = start();
     let mut wanted = request("tetra:3", "midpoint");
     wanted.render.samples = 2;
-    let number = worker.request(wanted);
+    let number = worker.request(wanted, 0);
     let updates = until_end(&worker, &woken, number);
     assert_eq!(
         stages(&updates, number),
@@ -128,24 +120,22 @@ fn a_request_goes_from_picture_to_complete_figures() {
 fn only_what_changed_is_done_again() {
     let (worker, woken) = start();
     let base = request("tetra:3", "midpoint");
-    let number = worker.request(base.clone());
+    let number = worker.request(base.clone(), 0);
     until_end(&worker, &woken, number);
 
     let mut moved = base.clone();
-    moved.own_camera = true;
-    let number = worker.request(moved);
+    moved.render.camera.angle = Some(30.0);
+    let number = worker.request(moved, 0);
     let updates = until_end(&worker, &woken, number);
     assert_eq!(stages(&updates, number)[0], Stage::Previewing);
 
     let mut deeper = base.clone();
     deeper.build.d_max = MaxDepth::Fixed(9);
-    let number = worker.request(deeper);
+    let number = worker.request(deeper, 0);
     let updates = until_end(&worker, &woken, number);
     assert_eq!(stages(&updates, number)[0], Stage::Building);
 
-    let mut again = base;
-    again.reload = 1;
-    let number = worker.request(again);
+    let number = worker.request(base, 1);
     let updates = until_end(&worker, &woken, number);
     assert_eq!(stages(&updates, number)[0], Stage::Loading);
 }
@@ -156,13 +146,13 @@ fn the_latest_request_wins_and_older_ones_end_early() {
     let mut heavy = request("balls:4", "none");
     heavy.render.width = 2000;
     heavy.render.height = 2000;
-    let first = worker.request(heavy);
+    let first = worker.request(heavy, 0);
     std::thread::sleep(Duration::from_millis(300));
     let mut last = 0;
     for depth in 1..=8 {
         let mut light = request("tetra:2", "midpoint");
         light.build.d_max = MaxDepth::Fixed(depth);
-        last = worker.request(light);
+        last = worker.request(light, 0);
     }
     let updates = until_end(&worker, &woken, last);
     let ended = |number| {
@@ -191,7 +181,7 @@ fn the_latest_request_wins_and_older_ones_end_early() {
 #[test]
 fn a_failure_is_told_and_the_next_request_works() {
     let (worker, woken) = start();
-    let number = worker.request(request("no-such-file.nff", "midpoint"));
+    let number = worker.request(request("no-such-file.nff", "midpoint"), 0);
     let updates = until_end(&worker, &woken, number);
     let Update::Failed(reason) = &updates.last().unwrap().update else {
         panic!("{updates:?}");
@@ -200,7 +190,7 @@ fn a_failure_is_told_and_the_next_request_works() {
 
     let mut greedy = request("tetra:5", "midpoint");
     greedy.build.memory_limit = 1 << 16;
-    let number = worker.request(greedy);
+    let number = worker.request(greedy, 0);
     let updates = until_end(&worker, &woken, number);
     let Update::Failed(reason) = &updates.last().unwrap().update else {
         panic!("{updates:?}");
@@ -208,13 +198,12 @@ fn a_failure_is_told_and_the_next_request_works() {
     assert!(reason.contains("memory limit"), "{reason}");
 
     let mut blind = request("tetra:3", "midpoint");
-    blind.own_camera = true;
-    blind.render.camera.angle = 180.0;
-    let number = worker.request(blind);
+    blind.render.camera.angle = Some(180.0);
+    let number = worker.request(blind, 0);
     let updates = until_end(&worker, &woken, number);
     assert!(matches!(updates.last().unwrap().update, Update::Failed(_)));
 
-    let number = worker.request(request("tetra:3", "sah-cut"));
+    let number = worker.request(request("tetra:3", "sah-cut"), 0);
     let updates = until_end(&worker, &woken, number);
     assert!(matches!(updates.last().unwrap().update, Update::Done));
 }
@@ -222,8 +211,8 @@ fn a_failure_is_told_and_the_next_request_works() {
 #[test]
 fn the_tree_before_the_last_is_at_hand() {
     let (worker, woken) = start();
-    let served = |wanted: &Request| {
-        let number = worker.request(wanted.clone());
+    let served = |wanted: &Setup| {
+        let number = worker.request(wanted.clone(), 0);
         stages(&until_end(&worker, &woken, number), number)
     };
     let (a, b) = (

@@ -1,15 +1,10 @@
 //! Scene files of every format in the window, and what the reader says of them.
 
 use crate::harness::{finish, has, open, small, wait};
+use crate::support::scenes::asset;
 use bspscope::scene::format::FORMATS;
 use egui_kittest::kittest::Queryable as _;
-use std::path::{Path, PathBuf};
-
-fn asset(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/assets")
-        .join(name)
-}
+use std::path::Path;
 
 #[test]
 fn files_of_every_format_are_opened_by_the_path_field() {
@@ -40,7 +35,7 @@ fn files_of_every_format_are_opened_by_the_path_field() {
 }
 
 #[test]
-fn the_load_report_says_what_was_read_skipped_and_made_up() {
+fn the_load_report_says_what_was_read_skipped_and_defaulted() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("faulty.obj");
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\nl 1 2\nf 1 2 3\nf 2 2 3\n";
@@ -50,10 +45,10 @@ fn the_load_report_says_what_was_read_skipped_and_made_up() {
     for text in [
         "Load report",
         "OBJ file of",
-        "2 × polygon without area, first at line 4",
-        "line, which is no surface, at line 5",
-        "no camera: one taken that frames all objects",
-        "no light: two taken",
+        "2 × polygon with zero area, first at line 4",
+        "line (not a surface), at line 5",
+        "no camera in the file; using one that frames all objects",
+        "no light in the file; using two",
     ] {
         assert!(has(&window, text), "{text}");
     }
@@ -70,6 +65,6 @@ fn a_file_that_is_no_scene_is_refused_by_name() {
     });
     assert!(has(
         &window,
-        "neither name nor content is that of a scene file"
+        "neither the extension nor the content is that of a scene file"
     ));
 }

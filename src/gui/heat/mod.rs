@@ -161,7 +161,7 @@ impl HeatView {
             let (scene, tree, render) = (
                 Arc::clone(&shown.scene),
                 Arc::clone(&shown.tree),
-                shown.render,
+                shown.setup.render,
             );
             let pass = &mut self.timings[which as usize];
             let resting = state.work.is_none() && state.measuring().is_none();

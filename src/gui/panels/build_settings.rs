@@ -48,11 +48,11 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
                     .show_ui(ui, |ui| {
                         for rule in OverlapRule::ALL {
                             ui.selectable_value(&mut build.overlap, rule, rule.name())
-                                .on_hover_text(build.method.overlap_in_words(rule));
+                                .on_hover_text(build.method.overlap_text(rule));
                         }
                     })
                     .response
-                    .on_hover_text(build.method.overlap_in_words(build.overlap));
+                    .on_hover_text(build.method.overlap_text(build.overlap));
             },
         );
         row(

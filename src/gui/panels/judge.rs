@@ -58,7 +58,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         let scene = state
             .current
             .as_ref()
-            .map_or_else(String::new, |c| c.shown.request.scene.source.to_string());
+            .map_or_else(String::new, |c| c.shown.setup.scene.source.to_string());
         ui.strong(format!(
             "The tree is wrong: bspscope verify {scene} writes the faults to files."
         ));

@@ -49,7 +49,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         .map(|(_, what)| what.to_owned())
         .collect::<Vec<_>>(),
     );
-    list(ui, "Left out", &requirements.left_out());
+    list(ui, "Left out", &requirements.unneeded());
 }
 
 /// What the reader found, left out, changed and made up.

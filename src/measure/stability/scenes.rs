@@ -38,7 +38,7 @@ fn parts(objects: Vec<Primitive>, from: Vec3, at: Vec3) -> SceneParts {
             at,
             up: Vec3::Z,
             angle: 45.0,
-            hither: 1.0,
+            near: 1.0,
             resolution: [64, 64],
         },
         notes: Vec::new(),

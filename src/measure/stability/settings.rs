@@ -292,10 +292,10 @@ fn no_view(trial: &Trial<'_>) -> Outcome {
     ];
     Outcome::all(cases.map(|(camera, expected)| {
         let settings = RenderSettings {
-            camera,
+            camera: camera.into(),
             ..small(&scene, 4)
         };
-        let found = settings.view().err();
+        let found = settings.view(&scene).err();
         Outcome::check(found == Some(RenderError::Camera(expected)), || {
             format!("expected '{expected}', found {found:?}")
         })
@@ -311,7 +311,7 @@ fn large_picture(trial: &Trial<'_>) -> Outcome {
     const MOST_GROWTH: usize = 1 << 30;
     let scene = scene_of(vec![sphere(Vec3::ZERO, 1.0)]);
     let side = if trial.quick { 512 } else { 8192 };
-    let refused = small(&scene, 16_385).view().err();
+    let refused = small(&scene, 16_385).view(&scene).err();
     let tree = match trial.tree(&scene, &trial.settings()) {
         Ok(tree) => tree,
         Err(outcome) => return outcome,

@@ -46,7 +46,7 @@ fn scene(scene: &SceneSummary) -> Result<Value> {
         "lights": scene.lights,
         "primitives": primitives,
         "requirements": requirements,
-        "left_out": scene.requirements.left_out(),
+        "left_out": scene.requirements.unneeded(),
         "notes": scene.notes,
         "camera": scene.camera,
     }))
@@ -87,13 +87,13 @@ fn settings(run: &Measurement) -> Result<Value> {
         "n_oilf": build.n_oilf,
         "root_margin": build.root_margin,
         "overlap": name(&build.overlap)?,
-        "overlap_in_words": build.method.overlap_in_words(build.overlap),
+        "overlap_text": build.method.overlap_text(build.overlap),
         "first_axis": name(&build.first_axis)?,
         "constants": constants,
         "memory_limit": build.memory_limit >> 20,
         "resolution": [render.width, render.height],
         "d_arec": render.d_arec,
-        "cut_off": render.cut_off,
+        "min_contribution": render.min_contribution,
         "precision": {
             "asked": name(&render.precision)?,
             "used": run.precision.precision.name(),
@@ -104,8 +104,8 @@ fn settings(run: &Measurement) -> Result<Value> {
             "used": render.kernel.description(),
         },
         "sampling": name(&render.sampling)?,
-        "threads": render.threads,
-        "camera": render.camera,
+        "threads": run.building.threads,
+        "camera": run.camera,
     }))
 }
 

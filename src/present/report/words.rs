@@ -39,9 +39,9 @@ pub fn scene(report: &Report) -> Vec<String> {
             point(rounded(scene.bounds.hi, size))
         ));
     }
-    let left_out = scene.requirements.left_out();
-    if !left_out.is_empty() {
-        lines.push(format!("Left out: {}", left_out.join("; ")));
+    let unneeded = scene.requirements.unneeded();
+    if !unneeded.is_empty() {
+        lines.push(format!("Not needed by this scene: {}", unneeded.join("; ")));
     }
     lines.extend(scene.notes.iter().map(ToString::to_string));
     lines
@@ -51,7 +51,7 @@ pub fn scene(report: &Report) -> Vec<String> {
 pub fn settings(report: &Report) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(run) = report.runs.first() {
-        let (render, camera) = (&run.render, &run.render.camera);
+        let (render, camera) = (&run.render, &run.camera);
         lines.push(format!(
             "Picture: {} × {} pixels, D_AREC {}, samples at the {}; eye {}, looking at {}, angle {}°",
             render.width,
@@ -79,15 +79,18 @@ pub fn times(report: &Report) -> Vec<String> {
         .iter()
         .map(|run| {
             let mut line = format!(
-                "{}: tree built in {:.1?} ({:.1?} CPU) on 1 thread",
-                run.build.method.name, run.building.wall, run.building.cpu,
+                "{}: tree built in {:.1?} ({:.1?} CPU) on {}",
+                run.build.method.name,
+                run.building.wall,
+                run.building.cpu,
+                threads(run.building.threads)
             );
             if let Some(rendering) = run.rendering {
                 line += &format!(
                     "; picture traced in {:.1?} ({:.1?} CPU) on {}",
                     rendering.wall,
                     rendering.cpu,
-                    threads(run.render.threads)
+                    threads(rendering.threads)
                 );
             }
             line
@@ -109,7 +112,7 @@ fn tree(run: &Measurement) -> String {
         build.method.name,
         build.root_margin,
         build.overlap.name(),
-        build.method.overlap_in_words(build.overlap),
+        build.method.overlap_text(build.overlap),
         build.first_axis
     );
     for constant in build.method.constants {
@@ -120,7 +123,6 @@ fn tree(run: &Measurement) -> String {
 
 fn threads(count: usize) -> String {
     match count {
-        0 => "all cores".into(),
         1 => "1 thread".into(),
         n => format!("{n} threads"),
     }

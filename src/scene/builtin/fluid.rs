@@ -27,7 +27,7 @@ const BALL_RADIUS: f64 = 0.25;
 const BEAD_RADIUS: f64 = 0.05735;
 /// Streamlines by height (y) and across (z).
 const LINES: [u32; 2] = [5, 9];
-const BEADS_ON_A_LINE: u32 = 56;
+const BEADS_PER_LINE: u32 = 56;
 /// Where streamlines begin: this far upstream of the ball, in a window of this height and width.
 const UPSTREAM: f64 = 1.5;
 const WINDOW: [f64; 2] = [0.805, 2.163];
@@ -57,7 +57,7 @@ fn generate(size: u32) -> SceneParts {
             at: Vec3::new(0.5, 0.0, 0.0),
             up: Vec3::Y,
             angle: 49.88,
-            hither: 1.0,
+            near: 1.0,
             resolution: [512, 512],
         },
         notes: vec![super::reconstruction_note("fluid")],
@@ -114,13 +114,13 @@ fn sphere(center: Vec3, radius: f64) -> Primitive {
 
 /// Places at equal times of what starts here.
 fn streamline(start: Vec3) -> impl Iterator<Item = Vec3> {
-    let step = LENGTH / f64::from((BEADS_ON_A_LINE - 1) * STEPS);
-    let advance = move |place: &Vec3| Some((0..STEPS).fold(*place, |at, _| moved(at, step)));
-    std::iter::successors(Some(start), advance).take(BEADS_ON_A_LINE as usize)
+    let step = LENGTH / f64::from((BEADS_PER_LINE - 1) * STEPS);
+    let advance = move |place: &Vec3| Some((0..STEPS).fold(*place, |at, _| rk4_step(at, step)));
+    std::iter::successors(Some(start), advance).take(BEADS_PER_LINE as usize)
 }
 
 /// Where the flow takes a place within a step of time (Runge and Kutta, fourth order).
-fn moved(at: Vec3, step: f64) -> Vec3 {
+fn rk4_step(at: Vec3, step: f64) -> Vec3 {
     let first = velocity(at);
     let second = velocity(at + first * (step * 0.5));
     let third = velocity(at + second * (step * 0.5));

@@ -69,7 +69,7 @@ fn generate(size: u32) -> SceneParts {
             at: Vec3::new(0.5, -0.35, 0.0),
             up: Vec3::Y,
             angle: 37.1,
-            hither: 1.0,
+            near: 1.0,
             resolution: [512, 512],
         },
         notes: vec![super::reconstruction_note("m-fluid")],

@@ -60,7 +60,7 @@ fn generate(size: u32) -> SceneParts {
             at: Vec3::new(-1.0, 0.0, 0.5),
             up: Vec3::Z,
             angle: 45.0,
-            hither: 1.0,
+            near: 1.0,
             resolution: [512, 512],
         },
         notes: Vec::new(),

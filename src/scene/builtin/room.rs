@@ -82,7 +82,7 @@ fn generate(size: u32) -> SceneParts {
             at: Vec3::new(-0.2, 0.0, 1.0),
             up: Vec3::Z,
             angle: 44.56,
-            hither: 1.0,
+            near: 1.0,
             resolution: [512, 512],
         },
         notes: vec![super::reconstruction_note("room")],

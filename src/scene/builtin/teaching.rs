@@ -42,7 +42,7 @@ fn generate(size: u32) -> SceneParts {
             at: Vec3::new(-0.6, -0.5, 0.2),
             up: Vec3::Z,
             angle: 45.0,
-            hither: 1.0,
+            near: 1.0,
             resolution: [512, 512],
         },
         notes: Vec::new(),

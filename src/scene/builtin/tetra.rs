@@ -49,7 +49,7 @@ fn generate(size: u32) -> SceneParts {
             at: Vec3::new(-0.004103, -0.004103, 0.216539),
             up: Vec3::new(-0.816497, -0.816497, 0.816497),
             angle: 45.0,
-            hither: 1.0,
+            near: 1.0,
             resolution: [512, 512],
         },
         notes: Vec::new(),

@@ -1,12 +1,12 @@
-//! Which format a file is of.
+//! Detection of a file's format.
 
 use super::{FORMATS, Format, for_path};
 use std::path::Path;
 
-/// The format of a file, with what there is to say of the choice; `None` if neither extension nor
-/// content tells.
+/// Returns the format of a file, with a remark on how it was detected; `None` if neither extension
+/// nor content is known.
 ///
-/// Where the content is clearly of another format than the extension, the content counts.
+/// If the content is clearly of another format than the extension suggests, the content decides.
 pub(super) fn format_of(path: &Path, bytes: &[u8]) -> Option<(&'static Format, String)> {
     let by_name = for_path(path);
     let by_content = FORMATS.iter().find(|format| (format.recognizes)(bytes));
@@ -16,11 +16,11 @@ pub(super) fn format_of(path: &Path, bytes: &[u8]) -> Option<(&'static Format, S
         (Some(named), Some(found)) => Some((
             found,
             format!(
-                ", by its content; the extension is that of {}",
+                ", detected by its content; the extension is that of {}",
                 named.name.to_uppercase()
             ),
         )),
-        (None, Some(found)) => Some((found, ", by its content".into())),
+        (None, Some(found)) => Some((found, ", detected by its content".into())),
         (None, None) => None,
     }
 }

@@ -1,30 +1,30 @@
-//! Camera and lights for scenes that have none.
+//! Default camera and lights for files without them.
 
 use crate::geometry::{Aabb, Vec3};
 use crate::primitive::{Primitive, Shape};
 use crate::scene::{Camera, Light, Note, NoteKind, SceneParts};
 
-/// Behind scenes whose format has no background: neither dark nor light objects vanish before it.
+/// Background for formats without one: gray, so that both dark and light objects stand out.
 pub(super) const BACKGROUND: Vec3 = Vec3::splat(0.18);
 
-/// Full angle of view in degrees.
+/// Full field of view in degrees.
 const ANGLE: f64 = 40.0;
 
-/// The width and height asked for, in pixels.
+/// Default width and height in pixels.
 pub(super) const RESOLUTION: u32 = 512;
 
-/// How much farther away than necessary the eye is, so that nothing touches the picture's edge.
+/// Factor on the distance of the eye, so that nothing touches the edge of the picture.
 const MARGIN: f64 = 1.05;
 
-/// The tight box around all objects.
+/// Returns the tight bounding box of all objects.
 pub(super) fn bounds(objects: &[Primitive]) -> Aabb {
     let around = |bounds: Aabb, object: &Primitive| bounds.union(&object.bounds());
     objects.iter().fold(Aabb::EMPTY, around)
 }
 
-/// A camera that sees all of `bounds` from the front, from a little to the right and above; `up` is
-/// Y, and the front Z, or `up` is Z, and the front −Y. Around the origin where there are no bounds,
-/// or none that numbers can frame.
+/// Returns a camera that frames `bounds` from the front, slightly from the right and above. The
+/// front faces Z if `up` is Y, and −Y if `up` is Z. If `bounds` is empty or too extreme for `f64`,
+/// the camera frames the unit cube around the origin.
 pub(super) fn camera(bounds: &Aabb, up: Vec3) -> Camera {
     let front = if up == Vec3::Z { Vec3::NEG_Y } else { Vec3::Z };
     let right = up.cross(front);
@@ -36,15 +36,15 @@ pub(super) fn camera(bounds: &Aabb, up: Vec3) -> Camera {
         let slope = libm::tan(0.5 * ANGLE.to_radians());
         let distance = bounds.corners().iter().fold(0.0_f64, |distance, corner| {
             let offset = *corner - center;
-            let aside = offset.dot(across).abs().max(offset.dot(above).abs());
-            distance.max(aside / slope + offset.dot(backward))
+            let lateral = offset.dot(across).abs().max(offset.dot(above).abs());
+            distance.max(lateral / slope + offset.dot(backward))
         });
         Camera {
             from: center + MARGIN * distance * backward,
             at: center,
             up,
             angle: ANGLE,
-            hither: 0.01 * distance,
+            near: 0.01 * distance,
             resolution: [RESOLUTION; 2],
         }
     };
@@ -56,9 +56,9 @@ pub(super) fn camera(bounds: &Aabb, up: Vec3) -> Camera {
     }
 }
 
-/// Lights a scene that has objects but no light, and says so: from beside the eye where that is
-/// among the objects, else by a bright light from its upper left and a faint one from its right,
-/// outside the objects' box.
+/// Adds default lights to a scene that has objects but no light, with a note. If the eye is inside
+/// the bounding box of the objects, the light is at the eye. Otherwise there are two lights outside
+/// the box: a bright one at the upper left of the eye and a faint one at its right.
 pub(super) fn lights(parts: &mut SceneParts) {
     let bounds = bounds(&parts.objects);
     let Ok([forward, right, up]) = parts.camera.frame() else {
@@ -73,7 +73,7 @@ pub(super) fn lights(parts: &mut SceneParts) {
             position: eye,
             color: None,
         });
-        "no light: one taken at the eye"
+        "no light in the file; using one at the eye"
     } else {
         let far = 2.0 * bounds.size().length();
         for (side, height, brightness) in [(-0.8, 1.0, 0.7), (1.0, 0.2, 0.3)] {
@@ -83,9 +83,9 @@ pub(super) fn lights(parts: &mut SceneParts) {
                 color: Some(Vec3::splat(brightness)),
             });
         }
-        "no light: two taken, from the eye's upper left and from its right"
+        "no light in the file; using two, at the upper left and at the right of the eye"
     };
-    parts.notes.push(Note::new(NoteKind::MadeUp, text));
+    parts.notes.push(Note::new(NoteKind::Defaulted, text));
 }
 
 #[cfg(test)]
@@ -93,7 +93,7 @@ mod tests {
     use super::*;
     use crate::scene::Sampling;
 
-    /// Every corner of the box is seen, and one is near the picture's edge.
+    /// Every corner of the box is visible, and one is near the edge of the picture.
     #[test]
     fn a_camera_frames_its_box() {
         let boxes = [

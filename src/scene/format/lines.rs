@@ -1,14 +1,14 @@
-//! The lines of a text, with their numbers.
+//! The lines of a text file, with their numbers.
 
 use super::{Place, ReadError};
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
 use std::fmt::Display;
 
-/// Lines between two looks at whether the task was cancelled.
+/// Lines between two checks for cancellation.
 const LINES_PER_CHECK: usize = 4096;
 
-/// The lines of a file, one after the other. They end with LF, CR LF or CR.
+/// An iterator over the lines of a file. Lines end with LF, CR LF or CR.
 pub(super) struct Lines<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -16,7 +16,7 @@ pub(super) struct Lines<'a> {
     progress: &'a Progress,
 }
 
-/// A line without its end.
+/// A line without its line break.
 #[derive(Clone, Copy)]
 pub(super) struct Line<'a> {
     /// Counted from 1.
@@ -30,7 +30,7 @@ impl<'a> Lines<'a> {
         Lines::after(0, bytes, progress)
     }
 
-    /// The lines of a part of a file that begins after so many.
+    /// Creates an iterator over the rest of a file, after the given number of lines.
     pub fn after(lines: usize, bytes: &'a [u8], progress: &'a Progress) -> Self {
         Lines {
             bytes,
@@ -40,7 +40,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// The next line; `None` at the end of the file.
+    /// Returns the next line; `None` at the end of the file.
     pub fn next(&mut self) -> Result<Option<Line<'a>>, Cancelled> {
         if self.number.is_multiple_of(LINES_PER_CHECK) {
             self.progress.check()?;
@@ -61,7 +61,7 @@ impl<'a> Lines<'a> {
         Ok(Some(Line { number, bytes }))
     }
 
-    /// The next line with a word in it; `None` at the end of the file.
+    /// Returns the next line that is not blank; `None` at the end of the file.
     pub fn next_with_words(&mut self) -> Result<Option<Line<'a>>, Cancelled> {
         while let Some(line) = self.next()? {
             if !line.bytes.trim_ascii().is_empty() {
@@ -71,8 +71,8 @@ impl<'a> Lines<'a> {
         Ok(None)
     }
 
-    /// The mistake that the file ends where something is missing.
-    pub fn ended(&self, expected: impl Display) -> ReadError {
+    /// Creates the error that the file ends too early.
+    pub fn unexpected_end(&self, expected: impl Display) -> ReadError {
         let place = Place::Line(self.number.max(1));
         ReadError::at(place, expected, "the end of the file")
     }
@@ -83,7 +83,7 @@ impl<'a> Line<'a> {
         Place::Line(self.number)
     }
 
-    /// The words of the line, parted by white space.
+    /// Returns the words of the line, separated by white space.
     pub fn words(&self) -> Words<'a> {
         Words {
             number: self.number,
@@ -92,7 +92,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// The words of a line that are left.
+/// The remaining words of a line.
 #[derive(Clone, Copy)]
 pub(super) struct Words<'a> {
     number: usize,
@@ -112,34 +112,34 @@ impl<'a> Iterator for Words<'a> {
 }
 
 impl Words<'_> {
-    /// What is left of the line, as text.
+    /// Returns the rest of the line as text.
     pub fn rest(&self) -> String {
         String::from_utf8_lossy(self.rest.trim_ascii()).into_owned()
     }
 
-    /// The mistake that a word, or the end of the line, is not what was expected.
-    pub fn mistake(&self, expected: impl Display, found: Option<&[u8]>) -> ReadError {
+    /// Creates the error that a word, or the end of the line if `None`, was not expected here.
+    pub fn error(&self, expected: impl Display, found: Option<&[u8]>) -> ReadError {
         let found = found.map_or_else(|| "the end of the line".to_owned(), quoted);
         ReadError::at(Place::Line(self.number), expected, found)
     }
 
-    /// The next word as a finite number; `None` at the end of the line.
+    /// Parses the next word as a finite number; `None` at the end of the line.
     pub fn number(&mut self, what: impl Display) -> Result<Option<f64>, ReadError> {
         let Some(word) = self.next() else {
             return Ok(None);
         };
         match parse::<f64>(word) {
             Some(number) if number.is_finite() => Ok(Some(number)),
-            _ => Err(self.mistake(format_args!("{what} (a finite number)"), Some(word))),
+            _ => Err(self.error(format_args!("{what} (a finite number)"), Some(word))),
         }
     }
 
-    /// The next word, which must be there, as a finite number.
+    /// Parses the next word, which must exist, as a finite number.
     pub fn expect_number(&mut self, what: impl Display) -> Result<f64, ReadError> {
-        self.number(&what)?.ok_or_else(|| self.mistake(what, None))
+        self.number(&what)?.ok_or_else(|| self.error(what, None))
     }
 
-    /// Three numbers.
+    /// Parses three numbers.
     pub fn point(&mut self, of: &str) -> Result<Vec3, ReadError> {
         let mut point = [0.0; 3];
         for (number, name) in point.iter_mut().zip(["x", "y", "z"]) {
@@ -149,12 +149,12 @@ impl Words<'_> {
     }
 }
 
-/// A word as a value.
+/// Parses a word.
 pub(super) fn parse<T: std::str::FromStr>(word: &[u8]) -> Option<T> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-/// Quoted for a message: never long, and free of control characters, whatever the file holds.
+/// Quotes text for a message: truncated to a short length, with control characters escaped.
 pub(super) fn quoted(bytes: &[u8]) -> String {
     const SHOWN: usize = 32;
     let head = &bytes[..bytes.len().min(4 * SHOWN)];

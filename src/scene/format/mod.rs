@@ -1,17 +1,18 @@
 //! Scene file formats. A format is one file here and one line in [`FORMATS`].
 //!
-//! Third-party readers are used where they hold: `gltf-json` for glTF's JSON and `ply-rs-bw` for
-//! PLY's values. OBJ and STL are read here, since the readers there are cannot be trusted with any
-//! file: `tobj` 4.0.5 panics at a material's `Kd 1 2`, names no lines and passes over what it does
-//! not know; `stl_io` 0.11 takes binary files that begin with `solid` for text and stops after the
-//! first solid. (Likewise `gltf` 1.4.1 panics where a mesh names an accessor that is not there.)
+//! Two readers use third-party parsers: `gltf-json` for the JSON of glTF and `ply-rs-bw` for the
+//! values of PLY. OBJ and STL have their own parsers here because the existing crates fail on some
+//! files. `tobj` 4.0.5 panics on a material with `Kd 1 2`, reports no line numbers and silently
+//! ignores unknown statements. `stl_io` 0.11 reads binary files that begin with `solid` as text and
+//! stops after the first solid. (Likewise, `gltf` 1.4.1 panics if a mesh refers to a missing
+//! accessor.)
 //!
-//! Whatever a file claims, memory grows with the bytes that are there: files have at most
-//! [`MOST_BYTES`] and come to at most [`MOST_FACES`] objects.
+//! Memory use is bounded by the actual size of a file, not by the counts that it declares. A file
+//! can have at most [`MAX_BYTES`] bytes and [`MAX_FACES`] objects.
 
+mod builder;
 mod choose;
 mod complete;
-mod gather;
 mod gltf;
 mod input;
 mod lines;
@@ -21,8 +22,8 @@ mod place;
 mod ply;
 mod stl;
 
-pub use gather::{MOST_FACES, MOST_VERTICES, MOST_VERTICES_SPLIT};
-pub use input::{BesideError, Input, MOST_BYTES};
+pub use builder::{MAX_FACES, MAX_SPLIT_VERTICES, MAX_VERTICES};
+pub use input::{Input, MAX_BYTES, SiblingError};
 pub use place::Place;
 
 use super::{Note, NoteKind, SceneParts};
@@ -33,20 +34,20 @@ use std::path::{Path, PathBuf};
 /// Writes a scene to a stream.
 pub type WriteScene = fn(&SceneParts, &mut dyn std::io::Write) -> std::io::Result<()>;
 
-/// A reader, and maybe a writer, of one file format.
+/// A file format: its reader and, optionally, its writer.
 pub struct Format {
     /// Lower-case name, such as `nff`.
     pub name: &'static str,
-    /// One phrase: what it is.
+    /// A short description.
     pub about: &'static str,
     /// File name extensions, lower case, without the dot.
     pub extensions: &'static [&'static str],
-    /// Whether the bytes are clearly a file of this format.
+    /// Returns whether the bytes are clearly a file of this format.
     pub recognizes: fn(&[u8]) -> bool,
     /// Reads a whole file.
     pub read: fn(&Input<'_>, &Progress) -> Result<SceneParts, ReadError>,
-    /// Writes the scene so that reading it back gives the identical scene; `None` for formats that
-    /// cannot hold all of a scene.
+    /// Writes a scene so that reading it back gives an identical scene; `None` for formats that
+    /// cannot represent every scene.
     pub write: Option<WriteScene>,
 }
 
@@ -59,7 +60,7 @@ pub static FORMATS: &[Format] = &[
     stl::FORMAT,
 ];
 
-/// Why a reader gave up; it knows no path.
+/// Why a reader failed, without the path of the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ReadError {
     #[error("{place}: expected {expected}, found {found}")]
@@ -68,9 +69,9 @@ pub enum ReadError {
         expected: String,
         found: String,
     },
-    /// A mistake in, or the lack of, a file that this one names.
+    /// An error in a file that this file refers to, or the lack of that file.
     #[error("{}", located(.name, .reason))]
-    Beside {
+    InSibling {
         name: String,
         reason: Box<ReadError>,
     },
@@ -79,7 +80,7 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    /// The mistake that something else was found than expected.
+    /// Creates the error that something else was found than expected.
     pub(super) fn at(place: Place, expected: impl Display, found: impl Display) -> Self {
         ReadError::Syntax {
             place,
@@ -89,7 +90,7 @@ impl ReadError {
     }
 }
 
-/// Why a file gave no scene: `file:line: what was expected, what was found`.
+/// Why a scene file could not be read: `file:line: expected …, found …`.
 #[derive(Debug, thiserror::Error)]
 pub enum FormatError {
     #[error("{}: {reason}", .path.display())]
@@ -99,13 +100,17 @@ pub enum FormatError {
     },
     #[error("{}", located(.path.display(), .reason))]
     Read { path: PathBuf, reason: ReadError },
-    #[error("{}: neither name nor content is that of a scene file ({})", .path.display(), names())]
+    #[error(
+        "{}: unknown file format: neither the extension nor the content is that of a scene file ({})",
+        .path.display(),
+        names()
+    )]
     Unknown { path: PathBuf },
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-/// A mistake with its file, `file:line: …` as compilers write it.
+/// Formats an error with its file, `file:line: …`, as compilers do.
 fn located(file: impl Display, reason: &ReadError) -> String {
     match reason {
         ReadError::Syntax {
@@ -117,24 +122,24 @@ fn located(file: impl Display, reason: &ReadError) -> String {
     }
 }
 
-/// The names of all formats, in capitals.
+/// Returns the names of all formats in capitals, separated by commas.
 pub fn names() -> String {
     let names: Vec<_> = FORMATS.iter().map(|f| f.name.to_uppercase()).collect();
     names.join(", ")
 }
 
-/// The format for a path, by its extension alone.
+/// Returns the format for the extension of a path.
 pub fn for_path(path: &Path) -> Option<&'static Format> {
     let extension = path.extension()?.to_string_lossy().to_ascii_lowercase();
     let has_it = |f: &&Format| f.extensions.contains(&extension.as_str());
     FORMATS.iter().find(has_it)
 }
 
-/// Reads a scene file of the format that its content shows, or else its extension; the scene is
-/// named after the file's stem. Its notes are the load report.
+/// Reads a scene file. The content determines the format, or else the extension. The scene is named
+/// after the stem of the file name; its notes are the load report.
 ///
 /// # Errors
-/// The file cannot be read, is of no known format, holds a mistake, or the task was cancelled.
+/// The file cannot be read, its format is unknown, it contains an error, or the task was cancelled.
 pub fn read_file(path: &Path, progress: &Progress) -> Result<SceneParts, FormatError> {
     let failed = |reason| FormatError::Io {
         path: path.to_owned(),
@@ -147,7 +152,7 @@ pub fn read_file(path: &Path, progress: &Progress) -> Result<SceneParts, FormatE
     };
     let input = Input {
         bytes: &bytes,
-        // The folder of a bare file name is the current one.
+        // The folder of a bare file name is the current folder.
         folder: path.parent().map(|folder| match folder.as_os_str() {
             empty if empty.is_empty() => Path::new("."),
             _ => folder,

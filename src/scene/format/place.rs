@@ -1,15 +1,15 @@
-//! Where in a file something stands.
+//! Positions in a file, for error messages.
 
 use std::fmt;
 
-/// A place in a file, as people can look it up.
+/// A position in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A line, counted from 1.
     Line(usize),
     /// A byte, counted from 0.
     Byte(usize),
-    /// One of the file's elements of a kind, such as `facet`, counted from 0.
+    /// An element of a kind, such as `facet`, counted from 0.
     Element(&'static str, usize),
 }
 

@@ -1,12 +1,12 @@
 //! PLY (G. Turk, "The PLY Polygon File Format", Stanford, 1994), as text or binary of either byte
 //! order.
 //!
-//! Of the element `vertex`, x, y, z and the normal nx, ny, nz are read; of `face`, the list
-//! `vertex_indices` or `vertex_index`. Everything else is skipped and counted. What is upright is
-//! taken to point along Y. The values are read by `ply-rs-bw`, element by element, so that a header
-//! that claims too many costs nothing.
+//! Reads the properties x, y, z and nx, ny, nz of the element `vertex`, and the list `vertex_indices`
+//! or `vertex_index` of `face`. Everything else is skipped and counted. The up direction is Y.
+//! `ply-rs-bw` parses the values one element at a time, so a header that declares too many elements
+//! costs no memory.
 
-use super::gather::{Gatherer, MOST_VERTICES};
+use super::builder::{MAX_VERTICES, SceneBuilder};
 use super::lines::{Lines, quoted};
 use super::{Format, Place, ReadError};
 use crate::geometry::Vec3;
@@ -26,13 +26,13 @@ pub(super) const FORMAT: Format = Format {
     write: None,
 };
 
-/// Elements between two looks at whether the task was cancelled.
+/// Elements between two checks for cancellation.
 const ELEMENTS_PER_CHECK: usize = 4096;
 
-/// What is read of a vertex, by place in [`Values::numbers`].
+/// The properties that are read from a vertex, in the order of [`Values::numbers`].
 const NUMBERS: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
 
-/// The values of an element that count here.
+/// The values of an element that are used here.
 struct Values {
     numbers: [Option<f64>; 6],
     /// A face's list of vertices.
@@ -71,7 +71,7 @@ fn number(value: &Property) -> Option<f64> {
     })
 }
 
-/// The whole numbers of a list; `None` for other values.
+/// Returns the integers of a list; `None` for other values.
 fn whole_numbers(value: &Property) -> Option<Vec<i64>> {
     fn all<T: Copy + Into<i64>>(list: &[T]) -> Vec<i64> {
         list.iter().map(|&v| v.into()).collect()
@@ -93,7 +93,7 @@ fn read(bytes: &[u8], progress: &Progress) -> Result<SceneParts, ReadError> {
         .read_header(&mut reader)
         .map_err(|error| {
             let place = Place::Line(error.line().unwrap_or(1));
-            ReadError::at(place, "a PLY header", in_short(&error))
+            ReadError::at(place, "a PLY header", truncated(&error))
         })?;
     let mut mesh = Mesh::default();
     let lines_before = reader.line() - 1;
@@ -120,26 +120,26 @@ fn read(bytes: &[u8], progress: &Progress) -> Result<SceneParts, ReadError> {
         ),
     };
     if let Some(place) = left {
-        mesh.found.note(NoteKind::Skipped, what, place);
+        mesh.builder.note(NoteKind::Skipped, what, place);
     }
-    Ok(mesh.found.finish_mesh(Vec3::Y))
+    Ok(mesh.builder.finish_mesh(Vec3::Y))
 }
 
-/// The values behind the header, element by element.
+/// The values after the header, one element at a time.
 struct Elements<'a> {
     encoding: Encoding,
     parser: Parser<Values>,
-    /// What is left of a text.
+    /// The rest of a text file.
     lines: Lines<'a>,
-    /// What is left of binary values.
+    /// The rest of a binary file.
     rest: &'a [u8],
-    /// Bytes behind the header.
+    /// Bytes after the header.
     total: usize,
     progress: &'a Progress,
 }
 
 impl Elements<'_> {
-    /// The next element with its place; `number` counts those of its kind from 0.
+    /// Returns the next element with its position; `number` counts elements of its kind from 0.
     fn next(
         &mut self,
         kind: &'static str,
@@ -149,7 +149,7 @@ impl Elements<'_> {
         let expected = || format!("{} of element {}", of.count, quoted(of.name.as_bytes()));
         let (values, place) = if self.encoding == Encoding::Ascii {
             let Some(line) = self.lines.next_with_words()? else {
-                return Err(self.lines.ended(expected()));
+                return Err(self.lines.unexpected_end(expected()));
             };
             let text = std::str::from_utf8(line.bytes).map_err(|_| {
                 let expected = format_args!("the numbers of a {kind}");
@@ -177,7 +177,7 @@ impl Elements<'_> {
             }
             Err(error) => {
                 let expected = format_args!("the numbers of a {kind}");
-                Err(ReadError::at(place, expected, in_short(&error)))
+                Err(ReadError::at(place, expected, truncated(&error)))
             }
         }
     }
@@ -185,9 +185,9 @@ impl Elements<'_> {
 
 #[derive(Default)]
 struct Mesh {
-    found: Gatherer,
+    builder: SceneBuilder,
     positions: Vec<Vec3>,
-    /// As many as positions, or none.
+    /// One per position, or none at all.
     normals: Vec<Vec3>,
 }
 
@@ -196,13 +196,13 @@ impl Mesh {
         match of.name.as_str() {
             "vertex" => self.vertices(of, elements),
             "face" => self.faces(of, elements),
-            // Nothing is stored of an element without properties, but a line each in a text.
+            // Elements without properties take no bytes in a binary file, but a line in a text file.
             _ if of.properties.is_empty() && elements.encoding != Encoding::Ascii => Ok(()),
             name => {
                 let text = format!("element {}", quoted(name.as_bytes()));
                 for number in 0..of.count {
                     let (_, place) = elements.next("element", number, of)?;
-                    self.found.note(NoteKind::Skipped, &text, place);
+                    self.builder.note(NoteKind::Skipped, &text, place);
                 }
                 Ok(())
             }
@@ -220,7 +220,7 @@ impl Mesh {
         for name in of.properties.keys() {
             if !NUMBERS.contains(&name.as_str()) {
                 let text = format!("property {} of vertices", quoted(name.as_bytes()));
-                self.found.note(NoteKind::Skipped, &text, start);
+                self.builder.note(NoteKind::Skipped, &text, start);
             }
         }
         for number in 0..of.count {
@@ -246,15 +246,15 @@ impl Mesh {
         };
         for name in of.properties.keys().filter(|name| *name != list) {
             let text = format!("property {} of faces", quoted(name.as_bytes()));
-            self.found.note(NoteKind::Skipped, &text, start);
+            self.builder.note(NoteKind::Skipped, &text, start);
         }
         let data_type = &of.properties[list].data_type;
         if matches!(
             data_type,
             PropertyType::List(_, ScalarType::Int | ScalarType::UInt)
         ) {
-            // A triangle takes 13 bytes at least.
-            self.found.reserve(of.count.min(elements.rest.len() / 13));
+            // A triangle takes at least 13 bytes.
+            self.builder.reserve(of.count.min(elements.rest.len() / 13));
         }
         let (mut vertices, mut normals) = (Vec::new(), Vec::new());
         for number in 0..of.count {
@@ -266,12 +266,12 @@ impl Mesh {
             };
             vertices.clear();
             normals.clear();
-            // A face of too many vertices is skipped whatever follows.
-            for index in indices.into_iter().take(MOST_VERTICES + 1) {
+            // A face with too many vertices is skipped, so the rest of its vertices do not matter.
+            for index in indices.into_iter().take(MAX_VERTICES + 1) {
                 let at = usize::try_from(index).unwrap_or(usize::MAX);
                 let Some(&vertex) = self.positions.get(at) else {
                     let count = self.positions.len();
-                    let expected = format_args!("the number of one of the {count} vertices before");
+                    let expected = format_args!("the index of one of the {count} vertices above");
                     return Err(ReadError::at(place, expected, index));
                 };
                 vertices.push(vertex);
@@ -281,17 +281,17 @@ impl Mesh {
             match vertices.len() {
                 0..3 => {
                     const TEXT: &str = "face of fewer than 3 vertices";
-                    self.found.skip_face(place, TEXT)?;
+                    self.builder.skip_face(place, TEXT)?;
                 }
-                _ => self.found.face(place, &vertices, normals)?,
+                _ => self.builder.face(place, &vertices, normals)?,
             }
         }
         Ok(())
     }
 }
 
-/// The parser's message in one line that is not long.
-fn in_short(error: &ParseError) -> String {
+/// Returns the parser's message in one short line.
+fn truncated(error: &ParseError) -> String {
     const SHOWN: usize = 160;
     let text = error.to_string();
     let mut short: String = text.chars().take(SHOWN).collect();

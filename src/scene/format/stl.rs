@@ -1,10 +1,10 @@
 //! STL (3D Systems, StereoLithography Interface Specification, 1989): triangles, as text or binary.
 //!
-//! Facet normals are not read: the vertices tell them, and many writers leave them 0. Text may hold
-//! several solids, and facets of more than three vertices, which stay polygons. What is upright
-//! points along Z, as on the machines that STL was made for.
+//! Facet normals are ignored: they follow from the vertices, and many writers set them to 0. A text
+//! file can contain several solids, and facets with more than three vertices, which become polygons.
+//! The up direction is Z, as on the machines that STL was designed for.
 
-use super::gather::Gatherer;
+use super::builder::SceneBuilder;
 use super::lines::Lines;
 use super::{Format, Place, ReadError};
 use crate::geometry::Vec3;
@@ -20,29 +20,30 @@ pub(super) const FORMAT: Format = Format {
     write: None,
 };
 
-/// Bytes of a binary file's free text.
+/// Bytes of the free text at the start of a binary file.
 const TITLE: usize = 80;
 /// Bytes before the first binary facet: the free text and the number of facets.
 const HEADER: usize = TITLE + 4;
-/// Bytes of a binary facet: normal and three vertices in `f32`, and two bytes of anything.
+/// Bytes of a binary facet: normal and three vertices in `f32`, and two unused bytes.
 const FACET: usize = 50;
-/// Facets between two looks at whether the task was cancelled.
+/// Facets between two checks for cancellation.
 const FACETS_PER_CHECK: usize = 4096;
 
-/// The number of facets that a binary header tells.
-fn facets_told(bytes: &[u8]) -> Option<usize> {
+/// Returns the number of facets that a binary header declares.
+fn declared_facets(bytes: &[u8]) -> Option<usize> {
     let count = bytes.get(TITLE..HEADER)?;
     Some(u32::from_le_bytes(count.try_into().ok()?) as usize)
 }
 
-/// Whether the file is just as long as its binary header says.
+/// Returns whether the file has exactly the length that its binary header declares.
 fn is_binary(bytes: &[u8]) -> bool {
-    facets_told(bytes).and_then(|facets| facets.checked_mul(FACET))
+    declared_facets(bytes).and_then(|facets| facets.checked_mul(FACET))
         == bytes.len().checked_sub(HEADER)
         && bytes.len() >= HEADER
 }
 
-/// Whether the file begins as a text does. So do binary files that put `solid` in their free text.
+/// Returns whether the file begins like a text file. Binary files with `solid` in their free text do,
+/// too.
 fn is_text(bytes: &[u8]) -> bool {
     let head = bytes[..bytes.len().min(1024)].to_ascii_lowercase();
     let holds = |word: &[u8]| head.windows(word.len()).any(|part| part == word);
@@ -52,31 +53,31 @@ fn is_text(bytes: &[u8]) -> bool {
 }
 
 fn read(bytes: &[u8], progress: &Progress) -> Result<SceneParts, ReadError> {
-    let found = if !is_binary(bytes) && is_text(bytes) {
+    let builder = if !is_binary(bytes) && is_text(bytes) {
         read_text(bytes, progress)?
     } else {
         read_binary(bytes, progress)?
     };
-    Ok(found.finish_mesh(Vec3::Z))
+    Ok(builder.finish_mesh(Vec3::Z))
 }
 
-fn read_binary(bytes: &[u8], progress: &Progress) -> Result<Gatherer, ReadError> {
-    let told = facets_told(bytes).ok_or_else(|| {
+fn read_binary(bytes: &[u8], progress: &Progress) -> Result<SceneBuilder, ReadError> {
+    let declared = declared_facets(bytes).ok_or_else(|| {
         let expected = "'solid', or a binary header of 84 bytes";
         ReadError::at(Place::Byte(bytes.len()), expected, "the end of the file")
     })?;
     let facets = bytes[HEADER..].chunks_exact(FACET);
-    if facets.len() < told {
-        let expected = format_args!("{told} facets, as the header says");
+    if facets.len() < declared {
+        let expected = format_args!("{declared} facets, as declared in the header");
         let end = Place::Element("facet", facets.len());
         return Err(ReadError::at(end, expected, "the end of the file"));
     }
-    let mut found = Gatherer::default();
-    found.reserve(told);
-    for (number, facet) in facets.take(told).enumerate() {
+    let mut builder = SceneBuilder::default();
+    builder.reserve(declared);
+    for (number, facet) in facets.take(declared).enumerate() {
         if number.is_multiple_of(FACETS_PER_CHECK) {
             progress.check()?;
-            progress.set(number as f64 / told as f64);
+            progress.set(number as f64 / declared as f64);
         }
         let number_at = |i: usize| {
             let bytes = [facet[i], facet[i + 1], facet[i + 2], facet[i + 3]];
@@ -84,20 +85,20 @@ fn read_binary(bytes: &[u8], progress: &Progress) -> Result<Gatherer, ReadError>
         };
         let vertex = |i: usize| Vec3::new(number_at(i), number_at(i + 4), number_at(i + 8));
         let vertices = [vertex(12), vertex(24), vertex(36)];
-        found.face(Place::Element("facet", number), &vertices, None)?;
+        builder.face(Place::Element("facet", number), &vertices, None)?;
     }
-    let end = HEADER + told * FACET;
+    let end = HEADER + declared * FACET;
     if bytes.len() > end {
         let text = format!("{} bytes after the last facet", bytes.len() - end);
-        found.note(NoteKind::Skipped, &text, Place::Byte(end));
+        builder.note(NoteKind::Skipped, &text, Place::Byte(end));
     }
-    Ok(found)
+    Ok(builder)
 }
 
-fn read_text(bytes: &[u8], progress: &Progress) -> Result<Gatherer, ReadError> {
-    let mut found = Gatherer::default();
+fn read_text(bytes: &[u8], progress: &Progress) -> Result<SceneBuilder, ReadError> {
+    let mut builder = SceneBuilder::default();
     let mut lines = Lines::new(bytes, progress);
-    // The words that may come next, and the place of the facet that is being read.
+    // The words that may come next, and the position of the current facet.
     let mut expected = "'solid'";
     let mut facet = Place::Line(1);
     let mut vertices = Vec::new();
@@ -119,19 +120,19 @@ fn read_text(bytes: &[u8], progress: &Progress) -> Result<Gatherer, ReadError> {
             (VERTEX, b"endloop") => "'endfacet'",
             ("'endfacet'", b"endfacet") => {
                 match vertices.len() {
-                    0..3 => found.skip_face(facet, "facet of fewer than 3 vertices")?,
-                    _ => found.face(facet, &vertices, None)?,
+                    0..3 => builder.skip_face(facet, "facet of fewer than 3 vertices")?,
+                    _ => builder.face(facet, &vertices, None)?,
                 }
                 FACET_OR_END
             }
             (FACET_OR_END, b"endsolid") => SOLID,
-            _ => return Err(words.mistake(expected, Some(&word))),
+            _ => return Err(words.error(expected, Some(&word))),
         };
     }
     if expected != SOLID {
-        return Err(lines.ended(expected));
+        return Err(lines.unexpected_end(expected));
     }
-    Ok(found)
+    Ok(builder)
 }
 
 const SOLID: &str = "'solid'";

@@ -20,7 +20,7 @@ impl CellObjects {
     }
 
     /// Whether those inside a cell are told from those that only touch it.
-    pub(super) fn are_told_apart(&self, planes: &[ObjectPlanes], cell: &[[f32; 2]; 3]) -> bool {
+    pub(super) fn are_partitioned(&self, planes: &[ObjectPlanes], cell: &[[f32; 2]; 3]) -> bool {
         let is_inside = |object: &u32| is_inside(&planes[*object as usize], cell);
         self.inside.iter().all(is_inside) && !self.touching.iter().any(is_inside)
     }

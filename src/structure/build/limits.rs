@@ -16,7 +16,7 @@ pub(super) struct Limits {
     nodes: AtomicUsize,
     references: AtomicUsize,
     /// Objects in the lists of the cells from the root to a cell, the most of any cell.
-    waiting: AtomicUsize,
+    pending: AtomicUsize,
 }
 
 /// Arrays take up to this many times what is in them: twice where they have just grown, and once more
@@ -32,7 +32,7 @@ impl Limits {
             structure,
             nodes: AtomicUsize::new(0),
             references: AtomicUsize::new(0),
-            waiting: AtomicUsize::new(0),
+            pending: AtomicUsize::new(0),
         }
     }
 
@@ -50,7 +50,7 @@ impl Limits {
         let held_references = self.references.fetch_add(references, Relaxed);
         let (all, all_references) = (held_nodes + nodes, held_references + references);
         let tree = all * size_of::<Node>() + all_references * size_of::<u32>();
-        let lists = self.waiting.load(Relaxed) * size_of::<u32>();
+        let lists = self.pending.load(Relaxed) * size_of::<u32>();
         let objects = self.objects * (size_of::<Aabb>() + size_of::<ObjectPlanes>());
         let bytes = tree.saturating_mul(GROWTH) + lists + objects;
         if bytes as u64 <= self.limit && all < Node::MAX_NODES && all_references < u32::MAX as usize
@@ -70,8 +70,8 @@ impl Limits {
     ///
     /// # Errors
     /// As for [`Limits::take`].
-    pub(super) fn wait(&self, depth: u32, objects: usize) -> Result<(), BuildError> {
-        if self.waiting.fetch_max(objects, Relaxed) < objects {
+    pub(super) fn reserve_pending(&self, depth: u32, objects: usize) -> Result<(), BuildError> {
+        if self.pending.fetch_max(objects, Relaxed) < objects {
             self.take(depth, 0, 0)?;
         }
         Ok(())

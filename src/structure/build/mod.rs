@@ -32,7 +32,7 @@ pub enum BuildError {
         "the tree needs more than the memory limit of {} MiB: stopped at depth {depth} after \
          {nodes} nodes and {references} references; {} or raise the limit",
         .limit >> 20,
-        .structure.made_smaller_by()
+        .structure.how_to_shrink()
     )]
     MemoryLimit {
         /// Bytes.
@@ -83,7 +83,7 @@ fn in_pool(
         objects.len(),
         settings.method.structure,
     );
-    limits.wait(0, objects.len())?;
+    limits.reserve_pending(0, objects.len())?;
     let (mut bounds, mut planes) = (Vec::new(), Vec::new());
     objects
         .par_iter()
@@ -115,7 +115,7 @@ fn in_pool(
         local: [[-1.0, 1.0]; 3],
         depth: 0,
         failed_splits: 0,
-        waiting: objects.len(),
+        pending: objects.len(),
     };
     let all = CellObjects::of_root(&planes, &place.local);
     let mut part = Part::default();
@@ -157,7 +157,7 @@ struct Place {
     /// Splits from the root to this cell that gained too little.
     failed_splits: u32,
     /// Objects in the lists of the cells from the root to this one.
-    waiting: usize,
+    pending: usize,
 }
 
 struct Driver<'a> {
@@ -190,7 +190,7 @@ impl Driver<'_> {
         objects: &CellObjects,
         place: &Place,
     ) -> Result<(), BuildError> {
-        debug_assert!(objects.are_told_apart(self.planes, &place.local));
+        debug_assert!(objects.are_partitioned(self.planes, &place.local));
         if objects.len() > LARGE || part.nodes.len().is_multiple_of(64) {
             self.progress.check()?;
         }
@@ -261,13 +261,13 @@ impl Driver<'_> {
     ) -> Result<(), BuildError> {
         part.leaf(&self.limits, objects, depth, stop)?;
         if part.nodes.len().is_multiple_of(64) {
-            self.tell(part);
+            self.report_progress(part);
         }
         Ok(())
     }
 
     /// Says how much is done.
-    fn tell(&self, part: &mut Part) {
+    fn report_progress(&self, part: &mut Part) {
         let more = std::mem::take(&mut part.done);
         let add = |bits| Some((f64::from_bits(bits) + more).to_bits());
         let before = self
@@ -288,13 +288,13 @@ impl Driver<'_> {
         slab: [f32; 2],
     ) -> Result<(), BuildError> {
         let [below, above] = self.parts(place, objects.len(), axis, slab);
-        self.limits.wait(place.depth, below.1.waiting)?;
+        self.limits.reserve_pending(place.depth, below.1.pending)?;
         let outer = part.inner(&self.limits, place.depth)?;
         let apart = objects.len() > TASK && rayon::current_num_threads() > 1;
         let built = if apart {
             let (below, above) = rayon::join(
-                || self.apart(objects, &below),
-                || self.apart(objects, &above),
+                || self.build_separately(objects, &below),
+                || self.build_separately(objects, &above),
             );
             part.append(below?);
             Some(above?)
@@ -339,7 +339,7 @@ impl Driver<'_> {
                 local,
                 depth: place.depth + 1,
                 failed_splits: place.failed_splits,
-                waiting: place.waiting + objects,
+                pending: place.pending + objects,
             };
             (HalfCell::new(self.frame, bounds, side, axis, plane), place)
         };
@@ -372,11 +372,15 @@ impl Driver<'_> {
     }
 
     /// The same in arrays of its own.
-    fn apart(&self, objects: &CellObjects, child: &(HalfCell, Place)) -> Result<Part, BuildError> {
+    fn build_separately(
+        &self,
+        objects: &CellObjects,
+        child: &(HalfCell, Place),
+    ) -> Result<Part, BuildError> {
         let mut part = Part::default();
         self.child(&mut part, objects, child)?;
         part.finish(&self.limits)?;
-        self.tell(&mut part);
+        self.report_progress(&mut part);
         // What waits to be put together holds only what it needs.
         part.spare = Vec::new();
         Ok(part)

@@ -33,7 +33,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
 };
 
 /// The most voxels along an axis.
-const MOST: f64 = 1024.0;
+const MAX_VOXELS_PER_AXIS: f64 = 1024.0;
 
 struct UniformGrid {
     density: f64,
@@ -85,7 +85,7 @@ fn about_cubic(size: Vec3, wanted: f64) -> [u32; 3] {
                     } else {
                         1.0
                     };
-                    voxels.round().clamp(1.0, MOST) as u32
+                    voxels.round().clamp(1.0, MAX_VOXELS_PER_AXIS) as u32
                 });
             }
         }

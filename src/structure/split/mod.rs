@@ -55,7 +55,7 @@ pub struct MethodInfo {
 
 impl MethodInfo {
     /// The overlap rule in words, for reports.
-    pub fn overlap_in_words(&self, rule: OverlapRule) -> &'static str {
+    pub fn overlap_text(&self, rule: OverlapRule) -> &'static str {
         match rule {
             OverlapRule::Paper if self.paper_spheres_exactly => {
                 "spheres exactly, all others by bounds"
@@ -98,7 +98,7 @@ impl Structure {
     }
 
     /// What to do for a smaller tree.
-    pub(super) fn made_smaller_by(self) -> &'static str {
+    pub(super) fn how_to_shrink(self) -> &'static str {
         match self {
             Structure::Bintree | Structure::Octree => "lower D_MAX, raise N_OILF",
             Structure::Grid => "lower the density of voxels",

@@ -161,7 +161,7 @@ impl Sah {
     }
 
     /// The cheapest of the limits of bins.
-    fn among_bins(&self, cell: &Cell<'_>) -> Best {
+    fn best_bin_limit(&self, cell: &Cell<'_>) -> Best {
         let bins = Bins::of(cell, self.clip);
         let mut best = Best {
             cost: self.blocks(bins.objects()),
@@ -177,8 +177,8 @@ impl Sah {
     }
 
     /// The cheapest of all planes.
-    fn among_all(&self, cell: &Cell<'_>) -> Best {
-        Extents::with(cell, self.clip, |extents, room| {
+    fn best_plane(&self, cell: &Cell<'_>) -> Best {
+        Extents::with(cell, self.clip, |extents, scratch| {
             let mut best = Best {
                 cost: self.blocks(extents.objects()),
                 plane: None,
@@ -189,7 +189,7 @@ impl Sah {
             for axis in axes {
                 let areas = Areas::new(cell, axis);
                 let ends = cell.local[axis.index()];
-                Search::new(self, &areas, axis, ends, &mut best).run(extents.along(axis), room);
+                Search::new(self, &areas, axis, ends, &mut best).run(extents.along(axis), scratch);
             }
             best
         })
@@ -199,13 +199,13 @@ impl Sah {
 impl SplitRule for Sah {
     fn decide(&self, cell: &Cell<'_>) -> Decision {
         let best = if cell.object_count() > self.exact {
-            self.among_bins(cell)
+            self.best_bin_limit(cell)
         } else {
-            self.among_all(cell)
+            self.best_plane(cell)
         };
         match best.plane {
             Some((axis, plane)) => Decision::Split { axis, plane },
-            None => Decision::Leaf(StopReason::NoSplitPays),
+            None => Decision::Leaf(StopReason::LeafIsCheaper),
         }
     }
 }

@@ -82,7 +82,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1.0,
             step: 0.0,
             unit: "splits a level",
-            about: "Failed splits allowed beside those for every level of D_MAX.",
+            about: "Failed splits allowed in addition to those per level of D_MAX.",
             source: "V. Havran 2000, as commonly quoted",
         },
         CLIP,
@@ -126,14 +126,14 @@ impl SahAuto {
             let areas = Areas::new(&cell.bounds, axis);
             let k = axis.index();
             let sweep = Sweep::new(parts.iter().map(|part| [part.lo[k], part.hi[k]]));
-            for beside in sweep.planes(cell, axis, 0.0) {
-                let work = areas.weigh(beside.world, beside.below, beside.above) / whole;
+            for candidate in sweep.planes(cell, axis, 0.0) {
+                let work = areas.weigh(candidate.world, candidate.below, candidate.above) / whole;
                 let mut cost = self.traversal_cost + work;
-                if beside.below == 0 || beside.above == 0 {
+                if candidate.below == 0 || candidate.above == 0 {
                     cost *= self.empty_factor;
                 }
                 if best.is_none_or(|(least, ..)| cost < least) {
-                    best = Some((cost, axis, beside.plane));
+                    best = Some((cost, axis, candidate.plane));
                 }
             }
         }
@@ -169,7 +169,7 @@ impl SplitRule for SahAuto {
         } else if self.may_fail(cell) {
             Decision::FailedSplit { axis, plane }
         } else {
-            Decision::Leaf(StopReason::NoSplitPays)
+            Decision::Leaf(StopReason::LeafIsCheaper)
         }
     }
 }

@@ -5,7 +5,7 @@
 //! bounds, clipped to the cell. The best split must pay before a gap is cut; a cut takes both ends
 //! of the gap at once and counts as one level of depth.
 
-use super::sweep::{Areas, Beside, Sweep};
+use super::sweep::{Areas, CandidatePlane, Sweep};
 use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
 use crate::geometry::Axis;
 use crate::structure::{BuildSettings, StopReason};
@@ -133,7 +133,7 @@ impl SahCut {
         let to = spatial_median.max(object_median) + reach;
 
         let areas = Areas::new(&cell.bounds, axis);
-        for Beside {
+        for CandidatePlane {
             plane,
             world,
             below,
@@ -189,7 +189,7 @@ impl SplitRule for SahCut {
         };
         let leaf_cost = cell.object_count() as f64 * cell.bounds.surface_area();
         if self.cost_stop && best.cost >= leaf_cost {
-            return Decision::Leaf(StopReason::NoSplitPays);
+            return Decision::Leaf(StopReason::LeafIsCheaper);
         }
         if let Some((_, axis, [lower, upper])) = gap {
             let slab = [

@@ -124,7 +124,7 @@ impl SplitRule for SahSampled {
         };
         let leaf_cost = cell.object_count() as f64 * cell.bounds.surface_area();
         if self.cost_stop && best.cost >= leaf_cost {
-            return Decision::Leaf(StopReason::NoSplitPays);
+            return Decision::Leaf(StopReason::LeafIsCheaper);
         }
         Decision::Split {
             axis: best.axis,

@@ -1,4 +1,4 @@
-//! Planes just beside the ends of a cell's objects, with what lies on their two sides.
+//! Candidate planes just outside the ends of a cell's objects, with what lies on their two sides.
 
 use super::Cell;
 use crate::geometry::{Aabb, Axis};
@@ -11,7 +11,7 @@ pub(super) struct Sweep {
 
 /// A plane, and how many objects the driver puts on either side of it.
 #[derive(Clone, Copy)]
-pub(super) struct Beside {
+pub(super) struct CandidatePlane {
     pub(super) plane: f32,
     /// Its coordinate in the world.
     pub(super) world: f64,
@@ -35,7 +35,7 @@ impl Sweep {
         cell: &'a Cell<'_>,
         axis: Axis,
         epsilon: f64,
-    ) -> impl Iterator<Item = Beside> + 'a {
+    ) -> impl Iterator<Item = CandidatePlane> + 'a {
         let below_lows = self
             .lows
             .iter()
@@ -56,7 +56,7 @@ impl Sweep {
             .map(move |plane| {
                 let world = cell.frame.to_world(axis, f64::from(plane));
                 // As the driver counts: an object within the slack of the plane is on both sides.
-                Beside {
+                CandidatePlane {
                     plane,
                     world,
                     below: self.lows.partition_point(|&lo| lo <= world + slack),

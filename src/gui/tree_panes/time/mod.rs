@@ -204,7 +204,7 @@ impl TimePane {
         resting: bool,
     ) -> Option<Arc<PictureTerms>> {
         let shown = &current.shown;
-        let render = shown.render;
+        let render = shown.setup.render;
         if u64::from(render.width) * u64::from(render.height) > PIXEL_COUNTS_LIMIT {
             let limit = grouped(PIXEL_COUNTS_LIMIT as usize);
             ui.weak(format!("Counted of pictures of up to {limit} pixels."));

@@ -113,7 +113,7 @@ impl ErrorMap {
             .map(|[x, y]| [x.min(size[0] - 1), y.min(size[1] - 1)]);
         if let (true, Some(pixel), Some(current)) = (response.clicked(), under, &mut state.current)
         {
-            let render = &current.shown.render;
+            let render = &current.shown.setup.render;
             if [render.width, render.height] == size {
                 current.pick(pixel);
             }

@@ -180,7 +180,7 @@ impl TradePane {
 /// What the trade is of.
 fn about(found: &Found) -> String {
     let first = &found.trade.outcomes[0];
-    let render = &first.choice.setting.render;
+    let render = &first.choice.setup.render;
     format!(
         "{} · reference: f64, exact shapes, D_AREC {}, {} samples a pixel, {} × {} pixels, {}: {} s of \
          CPU time · {} of {} turns",
@@ -189,7 +189,7 @@ fn about(found: &Found) -> String {
         render.samples,
         render.width,
         render.height,
-        first.choice.setting.build.method.name,
+        first.choice.setup.build.method.name,
         significant(first.median()),
         found.taken,
         found.turns,

@@ -20,7 +20,7 @@ pub fn write(report: &PixelReport<'_>, out: &mut dyn Write) -> Result<()> {
         "scene": report.scene.name(),
         "resolution": [report.render.width, report.render.height],
         "d_arec": report.render.d_arec,
-        "cut_off": report.render.cut_off,
+        "min_contribution": report.render.min_contribution,
         "precision": report.render.precision_for(report.scene).precision,
         "pixel": report.records.first().map(|(_, record)| record.pixel),
         "methods": methods,

@@ -1,4 +1,4 @@
-//! Views of numbers in buffers, checked before anything is read.
+//! Accessors: views of numbers in buffers, checked before anything is read.
 
 use crate::geometry::Vec3;
 use crate::scene::format::{Place, ReadError};
@@ -7,24 +7,24 @@ use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root};
 use std::borrow::Cow;
 
-/// The elements of an accessor: vectors or whole numbers somewhere in a buffer. Nothing is copied,
-/// so that a file that views the same bytes a million times takes no memory.
+/// The elements of an accessor: vectors or integers in a buffer. Nothing is copied, so a file that
+/// refers to the same bytes a million times takes no memory.
 #[derive(Clone, Copy)]
 pub(super) struct Elements<'a> {
     bytes: &'a [u8],
     stride: usize,
     count: usize,
     component: ComponentType,
-    /// What a component is multiplied by.
+    /// Factor by which a component is multiplied.
     factor: f64,
 }
 
 impl<'a> Elements<'a> {
-    /// The elements of an accessor of vectors of three, or else of single numbers; `None` if it is
+    /// Returns the elements of an accessor of three-component vectors or of scalars; `None` if it is
     /// sparse.
     ///
     /// # Errors
-    /// The accessor is not there, is of another type, or reaches beyond its buffer.
+    /// The accessor does not exist, has another type, or extends beyond its buffer.
     pub fn of(
         root: &Root,
         buffers: &'a [Cow<'_, [u8]>],
@@ -32,19 +32,19 @@ impl<'a> Elements<'a> {
         wanted: Type,
     ) -> Result<Option<Self>, ReadError> {
         let place = Place::Element("accessor", index.value());
-        let mistake = |expected: &str, found: &str| ReadError::at(place, expected, found);
+        let error = |expected: &str, found: &str| ReadError::at(place, expected, found);
         let none = "none of this number";
         let accessor = root.accessors.get(index.value());
-        let accessor = accessor.ok_or_else(|| mistake("an accessor", none))?;
+        let accessor = accessor.ok_or_else(|| error("an accessor", none))?;
         if accessor.type_ != Checked::Valid(wanted) {
             let expected = match wanted {
                 Type::Scalar => "type SCALAR",
                 _ => "type VEC3",
             };
-            return Err(mistake(expected, "another"));
+            return Err(error(expected, "another"));
         }
         let Checked::Valid(component) = accessor.component_type else {
-            return Err(mistake("a known type of components", "another"));
+            return Err(error("a known type of components", "another"));
         };
         if accessor.sparse.is_some() {
             return Ok(None);
@@ -52,10 +52,10 @@ impl<'a> Elements<'a> {
         let view = accessor
             .buffer_view
             .and_then(|view| root.buffer_views.get(view.value()))
-            .ok_or_else(|| mistake("a buffer view", none))?;
+            .ok_or_else(|| error("a buffer view", none))?;
         let buffer = buffers.get(view.buffer.value());
-        let buffer = buffer.ok_or_else(|| mistake("a buffer", none))?;
-        let beyond = || mistake("elements within the buffer", "some beyond its end");
+        let buffer = buffer.ok_or_else(|| error("a buffer", none))?;
+        let beyond = || error("elements within the buffer", "some beyond its end");
         let start = view.byte_offset.unwrap_or_default().0;
         let part = range(buffer, start, view.byte_length.0).ok_or_else(beyond)?;
 
@@ -63,7 +63,7 @@ impl<'a> Elements<'a> {
         let stride = view.byte_stride.map_or(0, |stride| stride.0);
         let stride = if stride == 0 { size } else { stride };
         if stride < size {
-            return Err(mistake("elements that do not overlap", "a smaller stride"));
+            return Err(error("elements that do not overlap", "a smaller stride"));
         }
         let count = accessor.count.0;
         let length = match count.checked_sub(1) {
@@ -84,7 +84,7 @@ impl<'a> Elements<'a> {
         Ok(Some(Elements {
             bytes: bytes.ok_or_else(beyond)?,
             stride,
-            // It is at most the number of the buffer's bytes.
+            // At most the number of bytes of the buffer.
             count: count as usize,
             component: component.0,
             factor: if accessor.normalized {
@@ -99,13 +99,13 @@ impl<'a> Elements<'a> {
         self.count
     }
 
-    /// Whether these are whole numbers without a sign, as indices must be.
+    /// Returns whether these are unsigned integers, as required of indices.
     pub fn are_indices(&self) -> bool {
         use ComponentType::{U8, U16, U32};
         matches!(self.component, U8 | U16 | U32)
     }
 
-    /// Component number `i` of an element that is there.
+    /// Returns component `i` of an element, which must exist.
     fn component(&self, element: usize, i: usize) -> f64 {
         let at = element * self.stride + i * self.component.size();
         let bytes = &self.bytes[at..];
@@ -123,19 +123,19 @@ impl<'a> Elements<'a> {
         }
     }
 
-    /// A vector; `None` where there is none of this number.
+    /// Returns a vector; `None` if the element does not exist.
     pub fn vector(&self, element: usize) -> Option<Vec3> {
         let part = |i| self.component(element, i);
         (element < self.count).then(|| self.factor * Vec3::new(part(0), part(1), part(2)))
     }
 
-    /// A whole number; `None` where there is none of this number.
+    /// Returns an integer; `None` if the element does not exist.
     pub fn whole(&self, element: usize) -> Option<usize> {
         (element < self.count).then(|| self.component(element, 0) as usize)
     }
 }
 
-/// Part of some bytes; `None` if they end before it does.
+/// Returns a range of bytes; `None` if it extends beyond the end.
 fn range(bytes: &[u8], start: u64, length: u64) -> Option<&[u8]> {
     let end = start.checked_add(length)?;
     bytes.get(usize::try_from(start).ok()?..usize::try_from(end).ok()?)

@@ -1,21 +1,21 @@
-//! The bytes that accessors view: in the file, in data URIs, or in files beside it.
+//! Loads the buffers: from the file, from data URIs, or from files in the same folder.
 
 use crate::progress::Progress;
 use crate::scene::format::lines::quoted;
-use crate::scene::format::{BesideError, Input, MOST_BYTES, Place, ReadError};
+use crate::scene::format::{Input, MAX_BYTES, Place, ReadError, SiblingError};
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use gltf_json::Root;
 use std::borrow::Cow;
 
-/// Writers differ about the padding at the end.
+/// Writers differ in whether they pad the end.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &STANDARD,
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-/// The bytes of every buffer; all together no more than [`MOST_BYTES`].
+/// Returns the bytes of every buffer; at most [`MAX_BYTES`] in total.
 pub(super) fn load<'a>(
     root: &Root,
     binary: Option<&'a [u8]>,
@@ -34,14 +34,14 @@ pub(super) fn load<'a>(
                 return Err(ReadError::at(place, expected, "neither"));
             }
         };
-        let told = buffer.byte_length.0;
-        if (bytes.len() as u64) < told {
-            let expected = format_args!("{told} bytes");
+        let declared = buffer.byte_length.0;
+        if (bytes.len() as u64) < declared {
+            let expected = format_args!("{declared} bytes");
             return Err(ReadError::at(place, expected, bytes.len()));
         }
         total += bytes.len() as u64;
-        if total > MOST_BYTES {
-            let expected = format_args!("at most {MOST_BYTES} bytes in all buffers");
+        if total > MAX_BYTES {
+            let expected = format_args!("at most {MAX_BYTES} bytes in all buffers");
             return Err(ReadError::at(place, expected, total));
         }
         all.push(bytes);
@@ -64,11 +64,13 @@ fn of_uri(
             .map_err(|error| ReadError::at(place, "base64", error));
     }
     let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
-    input.beside(&name, progress).map_err(|error| match error {
-        BesideError::Cancelled(cancelled) => cancelled.into(),
-        error => {
-            let expected = format_args!("the file {}", quoted(name.as_bytes()));
-            ReadError::at(place, expected, format_args!("none: {error}"))
-        }
-    })
+    input
+        .read_sibling(&name, progress)
+        .map_err(|error| match error {
+            SiblingError::Cancelled(cancelled) => cancelled.into(),
+            error => {
+                let expected = format_args!("the file {}", quoted(name.as_bytes()));
+                ReadError::at(place, expected, format_args!("none: {error}"))
+            }
+        })
 }

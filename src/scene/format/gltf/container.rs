@@ -1,25 +1,25 @@
-//! The parts of a file: JSON, and in a GLB the binary chunk.
+//! The container: JSON, and the binary chunk of a GLB.
 
 use crate::scene::format::{Place, ReadError};
 
-/// How far into a text the word that names glTF's version is looked for, in bytes.
-const LOOKED_AT: usize = 1 << 16;
+/// Bytes at the start and end of a file in which the `asset` key is looked for.
+const SNIFFED_BYTES: usize = 1 << 16;
 
-/// Whether the file is a GLB.
+/// Returns whether the file is a GLB.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
     bytes.starts_with(b"glTF")
 }
 
-/// Whether the file is a JSON object that speaks of an asset near its beginning or end.
+/// Returns whether the file is a JSON object with the key `asset` near its beginning or end.
 pub(super) fn is_json(bytes: &[u8]) -> bool {
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let head = &text[..text.len().min(LOOKED_AT)];
-    let tail = &text[text.len().saturating_sub(LOOKED_AT)..];
+    let head = &text[..text.len().min(SNIFFED_BYTES)];
+    let tail = &text[text.len().saturating_sub(SNIFFED_BYTES)..];
     let names_it = |part: &[u8]| part.windows(7).any(|word| word == b"\"asset\"");
     text.trim_ascii_start().starts_with(b"{") && (names_it(head) || names_it(tail))
 }
 
-/// The JSON, and the binary chunk where there is one.
+/// Returns the JSON and, if there is one, the binary chunk.
 pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ReadError> {
     if !is_binary(bytes) {
         return Ok((bytes, None));
@@ -30,12 +30,12 @@ pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ReadError> {
     }
     let length = number(bytes, 8)? as usize;
     let Some(file) = bytes.get(..length) else {
-        let expected = format_args!("{length} bytes, as the header says");
+        let expected = format_args!("{length} bytes, as declared in the header");
         let end = format_args!("{}", bytes.len());
         return Err(ReadError::at(Place::Byte(8), expected, end));
     };
     let (json, end) = chunk(file, 12, *b"JSON")?;
-    // Chunks after these two are for others.
+    // Further chunks are extensions and are ignored.
     let binary = if end < file.len() && file.get(end + 4..end + 8) == Some(b"BIN\0") {
         Some(chunk(file, end, *b"BIN\0")?.0)
     } else {
@@ -44,7 +44,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ReadError> {
     Ok((json, binary))
 }
 
-/// The chunk that begins at a byte, and where it ends.
+/// Returns the chunk that begins at a byte offset, and its end.
 fn chunk(bytes: &[u8], at: usize, kind: [u8; 4]) -> Result<(&[u8], usize), ReadError> {
     let length = number(bytes, at)? as usize;
     let name = String::from_utf8_lossy(&kind[..]);

@@ -1,17 +1,17 @@
-//! Lights of `KHR_lights_punctual` as lights without fall-off.
+//! Conversion of `KHR_lights_punctual` to lights without falloff.
 
 use super::nodes::PlacedLight;
 use crate::geometry::{Aabb, Vec3};
-use crate::scene::format::gather::Gatherer;
+use crate::scene::format::builder::SceneBuilder;
 use crate::scene::{Light, NoteKind};
 use gltf_json::extensions::scene::khr_lights_punctual::Type;
 
-/// How far away, in diagonals of the scene, a directional light stands.
+/// Distance of directional lights, in diagonals of the scene.
 const FAR: f64 = 1000.0;
 
-/// Adds the lights. Their brightness relative to each other is that at the middle of the scene; the
-/// brightest one gets what NFF gives lights without a colour, 1/√`N_L`.
-pub(super) fn add(lights: &[PlacedLight], bounds: &Aabb, found: &mut Gatherer) {
+/// Adds the lights. Their relative intensities are those at the center of the scene. The brightest
+/// light gets intensity 1/√`N_L`, which is that of NFF lights without a color.
+pub(super) fn add(lights: &[PlacedLight], bounds: &Aabb, builder: &mut SceneBuilder) {
     if bounds.is_empty() {
         return;
     }
@@ -22,18 +22,18 @@ pub(super) fn add(lights: &[PlacedLight], bounds: &Aabb, found: &mut Gatherer) {
             Type::Directional => (center - FAR * size * light.direction, 1.0),
             Type::Point | Type::Spot => (light.position, light.position.distance_squared(center)),
         };
-        // At the middle itself no distance counts.
+        // Avoids dividing by zero for a light at the center itself.
         let color = light.color * light.intensity / squared.max(1e-6 * size * size);
         if !(position.is_finite() && color.is_finite() && color.max_element() > 0.0) {
-            found.note(NoteKind::Skipped, "light that does not shine", light.place);
+            builder.note(NoteKind::Skipped, "light without intensity", light.place);
             continue;
         }
-        const FAR_AWAY: &str = "directional light put far away";
+        const FAR_AWAY: &str = "directional light replaced by a distant point light";
         match light.kind {
-            Type::Directional => found.note(NoteKind::Changed, FAR_AWAY, light.place),
-            Type::Spot => found.note(
+            Type::Directional => builder.note(NoteKind::Changed, FAR_AWAY, light.place),
+            Type::Spot => builder.note(
                 NoteKind::Changed,
-                "spot light that shines everywhere",
+                "spot light replaced by a point light",
                 light.place,
             ),
             Type::Point => {}
@@ -44,9 +44,9 @@ pub(super) fn add(lights: &[PlacedLight], bounds: &Aabb, found: &mut Gatherer) {
     let brightest = brightest.fold(0.0, f64::max);
     let scale = 1.0 / (brightest * (shining.len() as f64).sqrt());
     for (position, color, place) in shining {
-        const TEXT: &str = "light as bright everywhere as amid the scene";
-        found.note(NoteKind::Changed, TEXT, place);
-        found.lights.push(Light {
+        const TEXT: &str = "light without falloff, as bright as at the center of the scene";
+        builder.note(NoteKind::Changed, TEXT, place);
+        builder.lights.push(Light {
             position,
             color: Some((color * scale).max(Vec3::ZERO)),
         });

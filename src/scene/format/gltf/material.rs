@@ -1,12 +1,12 @@
-//! Materials: base colours, and what of metals and glass the shading knows.
+//! Conversion of materials: base color, metal and glass.
 
 use crate::geometry::Vec3;
 use crate::scene::Material;
 use gltf_json::material::AlphaMode;
 use gltf_json::validation::Checked;
 
-/// The material nearest to a glTF material: the base colour, `Ks` metalness times smoothness, and
-/// `T` what is transmitted or, of a blended surface, what its alpha leaves.
+/// Converts a glTF material to the nearest NFF material: the color is the base color, `Ks` is
+/// metalness times smoothness, and `T` is the transmission or, for a blended surface, 1 − alpha.
 pub(super) fn of(material: &gltf_json::Material) -> Material {
     let pbr = &material.pbr_metallic_roughness;
     let [r, g, b, alpha] = pbr.base_color_factor.0.map(f64::from);
@@ -23,7 +23,7 @@ pub(super) fn of(material: &gltf_json::Material) -> Material {
         0.0
     };
     let transmittance = seen_through.max(transmitted);
-    // What is only blended bends no ray.
+    // Alpha blending does not refract.
     let index = match extensions.and_then(|e| e.ior.as_ref()) {
         Some(ior) => f64::from(ior.ior.0),
         None if transmitted > 0.0 => 1.5,
@@ -33,14 +33,14 @@ pub(super) fn of(material: &gltf_json::Material) -> Material {
         color: Vec3::new(r, g, b),
         diffuse: (1.0 - transmittance) * (1.0 - specular),
         specular,
-        // Blinn's exponent for the roughness squared, as is usual.
+        // The usual Blinn exponent for squared roughness.
         shine: (2.0 / roughness.max(0.05).powi(4) - 2.0).max(0.0),
         transmittance,
         index_of_refraction: if index >= 1.0 { index } else { 1.0 },
     }
 }
 
-/// How many textures the material names.
+/// Returns the number of textures that the material refers to.
 pub(super) fn textures(material: &gltf_json::Material) -> usize {
     let pbr = &material.pbr_metallic_roughness;
     [

@@ -1,11 +1,11 @@
-//! Meshes as the nodes place them.
+//! Meshes in world space.
 
 use super::accessor::Elements;
 use super::material;
 use crate::geometry::Vec3;
 use crate::progress::Progress;
-use crate::scene::format::gather::Gatherer;
-use crate::scene::format::{MOST_FACES, Place, ReadError};
+use crate::scene::format::builder::SceneBuilder;
+use crate::scene::format::{MAX_FACES, Place, ReadError};
 use crate::scene::{Material, NoteKind};
 use glam::{DMat3, DMat4};
 use gltf_json::accessor::Type;
@@ -14,10 +14,10 @@ use gltf_json::validation::Checked;
 use gltf_json::{Index, Mesh, Root};
 use std::borrow::Cow;
 
-/// Triangles between two looks at whether the task was cancelled.
+/// Triangles between two checks for cancellation.
 const STEPS_PER_CHECK: usize = 4096;
 
-/// A part of a mesh takes as long as so many triangles, even if it has none.
+/// The cost of a mesh part in triangles, even if it has none.
 const STEPS_PER_PART: usize = 16;
 
 /// Adds the triangles of every placed mesh.
@@ -25,19 +25,19 @@ pub(super) fn read(
     root: &Root,
     buffers: &[Cow<'_, [u8]>],
     placed: &[(Index<Mesh>, DMat4)],
-    found: &mut Gatherer,
+    builder: &mut SceneBuilder,
     progress: &Progress,
 ) -> Result<(), ReadError> {
     for (number, material) in root.materials.iter().enumerate() {
         for _ in 0..material::textures(material) {
             let place = Place::Element("material", number);
-            found.note(NoteKind::Skipped, "texture", place);
+            builder.note(NoteKind::Skipped, "texture", place);
         }
     }
     let mut reader = Reader {
         root,
         buffers,
-        found,
+        builder,
         progress,
         steps: 0,
     };
@@ -60,14 +60,14 @@ pub(super) fn read(
 struct Reader<'a, 'g> {
     root: &'a Root,
     buffers: &'a [Cow<'a, [u8]>],
-    found: &'g mut Gatherer,
+    builder: &'g mut SceneBuilder,
     progress: &'a Progress,
-    /// The work so far, in triangles; a file can place few parts very often.
+    /// The work done so far, in triangles. A small file can place a mesh very often.
     steps: usize,
 }
 
 impl<'a> Reader<'a, '_> {
-    /// Counts work that takes as long as so many triangles.
+    /// Counts work that takes as long as `steps` triangles.
     fn work(&mut self, steps: usize, place: Place, fraction: f64) -> Result<(), ReadError> {
         let before = self.steps / STEPS_PER_CHECK;
         self.steps += steps;
@@ -75,14 +75,14 @@ impl<'a> Reader<'a, '_> {
             self.progress.check()?;
             self.progress.set(fraction);
         }
-        if self.steps > 2 * MOST_FACES {
-            let most = format_args!("at most {} parts of meshes and triangles", 2 * MOST_FACES);
+        if self.steps > 2 * MAX_FACES {
+            let most = format_args!("at most {} mesh parts and triangles", 2 * MAX_FACES);
             return Err(ReadError::at(place, most, "more"));
         }
         Ok(())
     }
 
-    /// Adds a part of a mesh; `share` is the stretch of the progress that it fills.
+    /// Adds a part of a mesh; `share` is its interval of the progress.
     fn part(
         &mut self,
         primitive: &Primitive,
@@ -110,20 +110,20 @@ impl<'a> Reader<'a, '_> {
                     return Err(ReadError::at(place, expected, "a larger one"));
                 };
                 vertices[i] = world.transform_point3(position);
-                if let Some((normals, turned)) = part.normals {
+                if let Some((normals, to_world)) = part.normals {
                     let Some(normal) = normals.vector(vertex) else {
                         return Err(ReadError::at(place, "a normal for every vertex", "fewer"));
                     };
-                    directions[i] = (turned * normal).normalize_or_zero();
+                    directions[i] = (to_world * normal).normalize_or_zero();
                 }
             }
             let directions = part.normals.is_some().then_some(&directions[..]);
-            self.found.face(place, &vertices, directions)?;
+            self.builder.face(place, &vertices, directions)?;
         }
         Ok(())
     }
 
-    /// What a part is made of, its material set; `None`, noted, where it is nothing for us.
+    /// Checks a part and sets its material. Returns `None`, with a note, if it cannot be used.
     fn checked(
         &mut self,
         primitive: &Primitive,
@@ -132,15 +132,15 @@ impl<'a> Reader<'a, '_> {
     ) -> Result<Option<Part<'a>>, ReadError> {
         let (root, buffers) = (self.root, self.buffers);
         let mut skipped = |what: &str| {
-            self.found.note(NoteKind::Skipped, what, place);
+            self.builder.note(NoteKind::Skipped, what, place);
             Ok(None)
         };
         let accessor = |index, wanted| Elements::of(root, buffers, index, wanted);
         let attribute = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
         let Some(index) = attribute(Semantic::Positions) else {
-            return skipped("part of a mesh without positions");
+            return skipped("mesh part without positions");
         };
-        const SPARSE: &str = "part of a mesh with sparse accessors";
+        const SPARSE: &str = "mesh part with sparse accessors";
         let Some(positions) = accessor(index, Type::Vec3)? else {
             return skipped(SPARSE);
         };
@@ -149,10 +149,10 @@ impl<'a> Reader<'a, '_> {
             let Some(elements) = accessor(index, Type::Vec3)? else {
                 return skipped(SPARSE);
             };
-            // Normals are at right angles to surfaces, which need not be scaled alike everywhere.
+            // The inverse transpose keeps normals perpendicular under non-uniform scaling.
             let linear = DMat3::from_mat4(*world);
-            let turned = linear.inverse().transpose();
-            normals = turned.is_finite().then_some((elements, turned));
+            let to_world = linear.inverse().transpose();
+            normals = to_world.is_finite().then_some((elements, to_world));
         }
         let mut indices = None;
         if let Some(index) = primitive.indices {
@@ -171,14 +171,14 @@ impl<'a> Reader<'a, '_> {
             Checked::Valid(mode @ (Mode::TriangleStrip | Mode::TriangleFan)) => {
                 (mode, count.saturating_sub(2))
             }
-            _ => return skipped("lines or points, which are no surfaces"),
+            _ => return skipped("lines or points (not surfaces)"),
         };
         if primitive.targets.is_some() {
-            const TEXT: &str = "morph target, the mesh taken as it stands";
-            self.found.note(NoteKind::Skipped, TEXT, place);
+            const TEXT: &str = "morph target; using the base mesh";
+            self.builder.note(NoteKind::Skipped, TEXT, place);
         }
         let material = primitive.material.map(|m| root.materials.get(m.value()));
-        self.found.set_material(match material {
+        self.builder.set_material(match material {
             None => Material::default(),
             Some(Some(material)) => material::of(material),
             Some(None) => {
@@ -195,23 +195,23 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// A part of a mesh, all that it needs being there.
+/// A mesh part whose accessors and material all exist.
 struct Part<'a> {
     positions: Elements<'a>,
-    /// With what turns them into the world.
+    /// With their transformation to world space.
     normals: Option<(Elements<'a>, DMat3)>,
-    /// `None` where the positions follow one another.
+    /// `None` if the positions are used in order.
     indices: Option<Elements<'a>>,
     mode: Mode,
     triangles: usize,
 }
 
 impl Part<'_> {
-    /// The corners of a triangle, as places among the indices.
+    /// Returns the corners of a triangle, as positions in the index list.
     fn corners(&self, triangle: usize) -> [usize; 3] {
         let i = triangle;
         match self.mode {
-            // Every other triangle of a strip runs the other way round.
+            // Every other triangle of a strip has the opposite orientation.
             Mode::TriangleStrip if i % 2 == 1 => [i + 1, i, i + 2],
             Mode::TriangleStrip => [i, i + 1, i + 2],
             Mode::TriangleFan => [0, i + 1, i + 2],

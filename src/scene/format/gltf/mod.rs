@@ -1,12 +1,11 @@
 //! glTF 2.0 and its binary form GLB (Khronos Group, glTF 2.0 Specification, 2021).
 //!
-//! Read are the meshes of the file's scene as its nodes place them, perspective cameras, base
-//! colours and the lights of `KHR_lights_punctual`. Buffers are in the file, in data URIs, or in
-//! files in its folder or below. Not read, and counted: textures, lines and points, orthographic
-//! cameras, animations, skins and sparse accessors.
+//! Reads the meshes of the file's scene with the transformations of its nodes, the first perspective
+//! camera, base colors, and the lights of `KHR_lights_punctual`. Buffers can be in the file, in data
+//! URIs, or in files in its folder or below. Textures, lines, points, orthographic cameras,
+//! animations, skins and sparse accessors are skipped and counted.
 //!
-//! `gltf-json` turns the JSON into structures; every index and range in it is checked here where
-//! it is used.
+//! `gltf-json` parses the JSON. Every index and range in it is checked here where it is used.
 
 mod accessor;
 mod buffers;
@@ -16,7 +15,7 @@ mod material;
 mod meshes;
 mod nodes;
 
-use super::gather::Gatherer;
+use super::builder::SceneBuilder;
 use super::{Format, Input, Place, ReadError, complete};
 use crate::geometry::Vec3;
 use crate::progress::Progress;
@@ -32,8 +31,8 @@ pub(super) const FORMAT: Format = Format {
     write: None,
 };
 
-/// The most objects that the JSON may hold: each may take a hundred times its text in memory.
-const MOST_JSON_OBJECTS: usize = 1 << 21;
+/// Maximum number of objects in the JSON: each can take a hundred times its text in memory.
+const MAX_JSON_OBJECTS: usize = 1 << 21;
 
 fn read(input: &Input<'_>, progress: &Progress) -> Result<SceneParts, ReadError> {
     let (json, binary) = container::split(input.bytes)?;
@@ -41,34 +40,34 @@ fn read(input: &Input<'_>, progress: &Progress) -> Result<SceneParts, ReadError>
     let root = parse(json)?;
     refuse_unreadable(&root)?;
     let buffers = buffers::load(&root, binary, input, &progress.part(0.0, 0.1))?;
-    let mut found = Gatherer::default();
-    note_left_out(&root, &mut found);
-    let placed = nodes::collect(&root, &mut found, progress)?;
+    let mut builder = SceneBuilder::default();
+    note_skipped(&root, &mut builder);
+    let placed = nodes::collect(&root, &mut builder, progress)?;
     meshes::read(
         &root,
         &buffers,
         &placed.meshes,
-        &mut found,
+        &mut builder,
         &progress.part(0.1, 1.0),
     )?;
-    let bounds = found.bounds();
+    let bounds = builder.bounds();
     let center = if bounds.is_empty() {
         Vec3::ZERO
     } else {
         bounds.center()
     };
-    if let Some(seen) = &placed.camera {
-        found.camera = camera(seen, center);
+    if let Some(placed) = &placed.camera {
+        builder.camera = camera(placed, center);
     }
-    lights::add(&placed.lights, &bounds, &mut found);
-    Ok(found.finish_mesh(Vec3::Y))
+    lights::add(&placed.lights, &bounds, &mut builder);
+    Ok(builder.finish_mesh(Vec3::Y))
 }
 
 fn parse(json: &[u8]) -> Result<Root, ReadError> {
     let start = Place::Line(1);
     let objects = json.iter().filter(|b| **b == b'{').count();
-    if objects > MOST_JSON_OBJECTS {
-        let most = format_args!("at most {MOST_JSON_OBJECTS} JSON objects");
+    if objects > MAX_JSON_OBJECTS {
+        let most = format_args!("at most {MAX_JSON_OBJECTS} JSON objects");
         return Err(ReadError::at(start, most, objects));
     }
     let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
@@ -87,8 +86,7 @@ fn parse(json: &[u8]) -> Result<Root, ReadError> {
     Ok(root)
 }
 
-/// Extensions that a file requires, and that change where its surfaces are or how they are stored,
-/// cannot be passed over.
+/// Rejects files that require an extension which changes the geometry or how it is stored.
 fn refuse_unreadable(root: &Root) -> Result<(), ReadError> {
     const HARMLESS: [&str; 5] = [
         "KHR_lights_punctual",
@@ -101,36 +99,37 @@ fn refuse_unreadable(root: &Root) -> Result<(), ReadError> {
     match root.extensions_required.iter().find(harmful) {
         None => Ok(()),
         Some(name) => {
-            let expected = "no required extension that is not known here";
+            let expected = "only supported required extensions";
             let name = super::lines::quoted(name.as_bytes());
             Err(ReadError::at(Place::Line(1), expected, name))
         }
     }
 }
 
-fn note_left_out(root: &Root, found: &mut Gatherer) {
+fn note_skipped(root: &Root, builder: &mut SceneBuilder) {
     for (what, count) in [
         ("animation", root.animations.len()),
         ("skin", root.skins.len()),
     ] {
-        let text = format!("{what}, the mesh taken as it stands");
+        let text = format!("{what}; using the mesh in its rest pose");
         for number in 0..count {
-            found.note(NoteKind::Skipped, &text, Place::Element(what, number));
+            builder.note(NoteKind::Skipped, &text, Place::Element(what, number));
         }
     }
 }
 
-/// A camera that looks at the point of its axis beside the middle of the scene.
-fn camera(seen: &nodes::Seen, center: Vec3) -> Option<Camera> {
-    let near = seen.near.max(f64::MIN_POSITIVE);
-    let distance = (center - seen.from).dot(seen.forward).max(near);
-    let width = f64::from(complete::RESOLUTION) * seen.aspect.clamp(0.1, 10.0);
+/// Converts a camera; it looks at the point on its line of sight that is nearest to the center of the
+/// scene.
+fn camera(placed: &nodes::PlacedCamera, center: Vec3) -> Option<Camera> {
+    let near = placed.near.max(f64::MIN_POSITIVE);
+    let distance = (center - placed.from).dot(placed.forward).max(near);
+    let width = f64::from(complete::RESOLUTION) * placed.aspect.clamp(0.1, 10.0);
     let camera = Camera {
-        from: seen.from,
-        at: seen.from + distance * seen.forward,
-        up: seen.up,
-        angle: seen.angle,
-        hither: near,
+        from: placed.from,
+        at: placed.from + distance * placed.forward,
+        up: placed.up,
+        angle: placed.angle,
+        near,
         resolution: [width.round() as u32, complete::RESOLUTION],
     };
     camera.frame().is_ok().then_some(camera)

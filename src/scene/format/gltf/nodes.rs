@@ -1,9 +1,9 @@
-//! The tree of nodes: where meshes, cameras and lights stand.
+//! The node hierarchy: where meshes, cameras and lights are placed.
 
 use crate::geometry::Vec3;
 use crate::progress::Progress;
 use crate::scene::NoteKind;
-use crate::scene::format::gather::Gatherer;
+use crate::scene::format::builder::SceneBuilder;
 use crate::scene::format::{Place, ReadError};
 use glam::{DMat4, DQuat};
 use gltf_json::extensions::scene::khr_lights_punctual::{Light, Type};
@@ -11,21 +11,21 @@ use gltf_json::scene::Node;
 use gltf_json::validation::Checked;
 use gltf_json::{Index, Mesh, Root};
 
-/// Nodes between two looks at whether the task was cancelled.
+/// Nodes between two checks for cancellation.
 const NODES_PER_CHECK: usize = 4096;
 
-/// What the nodes place in the world.
+/// Everything that the nodes place in the world.
 #[derive(Default)]
 pub(super) struct Placed {
-    /// Meshes by number, with the transformation into the world.
+    /// Meshes by number, with their transformation to world space.
     pub meshes: Vec<(Index<Mesh>, DMat4)>,
     /// The first perspective camera.
-    pub camera: Option<Seen>,
+    pub camera: Option<PlacedCamera>,
     pub lights: Vec<PlacedLight>,
 }
 
-/// A perspective camera in the world.
-pub(super) struct Seen {
+/// A perspective camera in world space.
+pub(super) struct PlacedCamera {
     pub from: Vec3,
     pub forward: Vec3,
     pub up: Vec3,
@@ -35,23 +35,24 @@ pub(super) struct Seen {
     pub near: f64,
 }
 
-/// A light in the world.
+/// A light in world space.
 pub(super) struct PlacedLight {
     pub kind: Type,
     pub color: Vec3,
     /// Candela, or lux for a directional one.
     pub intensity: f64,
     pub position: Vec3,
-    /// Where a directional one shines.
+    /// Direction in which a directional light shines.
     pub direction: Vec3,
-    /// The node that holds it.
+    /// The node that contains it.
     pub place: Place,
 }
 
-/// Walks the nodes of the file's scene: the one it names, else its first, else all nodes.
+/// Collects what the nodes of the default scene place in the world; without a default, of the first
+/// scene; without scenes, of all nodes.
 pub(super) fn collect(
     root: &Root,
-    found: &mut Gatherer,
+    builder: &mut SceneBuilder,
     progress: &Progress,
 ) -> Result<Placed, ReadError> {
     let mut placed = Placed::default();
@@ -71,18 +72,18 @@ pub(super) fn collect(
     };
     let others = root.scenes.len().saturating_sub(1);
     if others > 0 {
-        let text = format!("{others} other scenes of the file");
-        found.note(NoteKind::Skipped, &text, Place::Element("scene", 0));
+        let text = format!("{others} other scene(s) of the file");
+        builder.note(NoteKind::Skipped, &text, Place::Element("scene", 0));
     }
-    // Nodes are a forest; what is reached twice would otherwise be walked for ever.
-    let mut walked = vec![false; root.nodes.len()];
-    let mut waiting: Vec<_> = roots
+    // Valid nodes form a forest. A node that is reached twice could be part of an endless cycle.
+    let mut visited = vec![false; root.nodes.len()];
+    let mut pending: Vec<_> = roots
         .into_iter()
         .rev()
         .map(|node| (node, DMat4::IDENTITY))
         .collect();
     let mut steps = 0_usize;
-    while let Some((number, parent)) = waiting.pop() {
+    while let Some((number, parent)) = pending.pop() {
         steps += 1;
         if steps.is_multiple_of(NODES_PER_CHECK) {
             progress.check()?;
@@ -93,19 +94,19 @@ pub(super) fn collect(
             let expected = format_args!("one of {count} nodes");
             return Err(ReadError::at(place, expected, "none"));
         };
-        if std::mem::replace(&mut walked[number], true) {
-            found.note(NoteKind::Skipped, "node that has two parents", place);
+        if std::mem::replace(&mut visited[number], true) {
+            builder.note(NoteKind::Skipped, "node with two parents", place);
             continue;
         }
         let world = parent * local(node);
-        node_content(root, node, world, place, &mut placed, found)?;
+        node_content(root, node, world, place, &mut placed, builder)?;
         let children = node.children.iter().flatten().rev();
-        waiting.extend(children.map(|child| (child.value(), world)));
+        pending.extend(children.map(|child| (child.value(), world)));
     }
     Ok(placed)
 }
 
-/// The nodes that are no other's child.
+/// Returns the nodes that are not a child of any other.
 fn orphans(root: &Root) -> Vec<usize> {
     let mut is_child = vec![false; root.nodes.len()];
     for child in root
@@ -120,7 +121,7 @@ fn orphans(root: &Root) -> Vec<usize> {
     (0..root.nodes.len()).filter(|&n| !is_child[n]).collect()
 }
 
-/// From the node's own coordinates to its parent's.
+/// Returns the transformation from the node's coordinates to those of its parent.
 fn local(node: &Node) -> DMat4 {
     if let Some(matrix) = node.matrix {
         return DMat4::from_cols_array(&matrix.map(f64::from));
@@ -130,7 +131,7 @@ fn local(node: &Node) -> DMat4 {
     let rotation = DQuat::from_array(rotation);
     DMat4::from_scale_rotation_translation(
         node.scale.map_or(Vec3::ONE, vector),
-        // In `f32` it is of unit length but for rounding.
+        // In `f32` its length is 1 only up to rounding.
         if rotation.length_squared() > 0.0 {
             rotation.normalize()
         } else {
@@ -146,7 +147,7 @@ fn node_content(
     world: DMat4,
     place: Place,
     placed: &mut Placed,
-    found: &mut Gatherer,
+    builder: &mut SceneBuilder,
 ) -> Result<(), ReadError> {
     if let Some(mesh) = node.mesh {
         placed.meshes.push((mesh, world));
@@ -155,8 +156,8 @@ fn node_content(
     if let Some(number) = node.camera {
         let camera = root.cameras.get(number.value());
         let camera = camera.ok_or_else(|| ReadError::at(place, "a camera", none))?;
-        let seen = camera.perspective.as_ref().and_then(|p| {
-            Some(Seen {
+        let camera = camera.perspective.as_ref().and_then(|p| {
+            Some(PlacedCamera {
                 from: world.transform_point3(Vec3::ZERO),
                 forward: world.transform_vector3(Vec3::NEG_Z).try_normalize()?,
                 up: world.transform_vector3(Vec3::Y).try_normalize()?,
@@ -165,16 +166,16 @@ fn node_content(
                 near: f64::from(p.znear),
             })
         });
-        let why = match (&placed.camera, &seen) {
+        let why = match (&placed.camera, &camera) {
             (_, None) => "camera without perspective",
             (Some(_), _) => "camera after the first",
             (None, Some(_)) => {
-                placed.camera = seen;
+                placed.camera = camera;
                 ""
             }
         };
         if !why.is_empty() {
-            found.note(NoteKind::Skipped, why, place);
+            builder.note(NoteKind::Skipped, why, place);
         }
     }
     let extension = node.extensions.as_ref();

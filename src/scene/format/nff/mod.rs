@@ -1,22 +1,22 @@
 //! Neutral File Format (E. Haines, Standard Procedural Databases, NFF 3.1).
 //!
-//! A file is a stream of words; white space and line ends only separate them, and `#` starts a
-//! comment that runs to the end of its line. An entity is a letter and its numbers:
+//! A file is a stream of words, separated by white space and line breaks. `#` starts a comment that
+//! extends to the end of its line. An entity is a keyword followed by its numbers:
 //!
 //! | entity | what follows |
 //! |---|---|
 //! | `v` | `from` x y z `at` x y z `up` x y z `angle` degrees `hither` distance `resolution` w h |
 //! | `b` | background r g b |
-//! | `l` | light at x y z, and r g b where the light has a colour |
+//! | `l` | light at x y z, and r g b if the light has a color |
 //! | `f` | r g b `Kd` `Ks` `Shine` `T` and index of refraction, for the objects that follow |
 //! | `c` | cylinder or cone: base x y z radius, apex x y z radius |
-//! | `s` | sphere: centre x y z, radius |
+//! | `s` | sphere: center x y z, radius |
 //! | `p` | polygon: number of vertices, then x y z of each |
 //! | `pp` | polygon: number of vertices, then x y z and the normal's x y z of each |
 //!
-//! Read more strictly than the format's text: a negative radius ("seen from inside only") is a
-//! mistake, since surfaces here are seen from both sides. Read more leniently: what can be
-//! repaired is repaired and noted (see [`read`]).
+//! The reader is stricter than the specification in one point: a negative radius ("visible only from
+//! inside") is an error because surfaces are visible from both sides here. It is more lenient in
+//! others: what can be repaired is repaired and noted (see [`read`]).
 
 mod read;
 mod words;
@@ -42,13 +42,13 @@ pub(super) const FORMAT: Format = Format {
     write: Some(write),
 };
 
-/// How far into a file its view is looked for, in bytes.
-const LOOKED_AT: usize = 1 << 16;
+/// Bytes at the start of a file in which the view is looked for.
+const SNIFFED_BYTES: usize = 1 << 16;
 
-/// A `v` alone is OBJ's vertex, too: what follows tells.
+/// Returns whether the file has a view. `v` is also a vertex in OBJ, so the next word decides.
 fn recognizes(bytes: &[u8]) -> bool {
     let progress = Progress::new();
-    let mut lines = Lines::new(&bytes[..bytes.len().min(LOOKED_AT)], &progress);
+    let mut lines = Lines::new(&bytes[..bytes.len().min(SNIFFED_BYTES)], &progress);
     let mut last_is_v = false;
     while let Ok(Some(line)) = lines.next() {
         let before_comment = line.bytes.split(|b| *b == b'#').next();

@@ -1,34 +1,33 @@
-//! From words to a scene: one function an entity.
+//! The NFF reader: one function per entity.
 
 use super::words::{Word, Words, syntax};
 use super::write::Point;
 use crate::geometry::Vec3;
 use crate::primitive::{Cone, Primitive, Sphere};
 use crate::progress::Progress;
-use crate::scene::format::gather::Gatherer;
+use crate::scene::format::builder::SceneBuilder;
 use crate::scene::format::{Place, ReadError};
 use crate::scene::{Camera, CameraError, Light, Material, Note, NoteKind, SceneParts};
 
-/// The most pixels a side that a file may ask for.
+/// Maximum width and height in pixels.
 const MAX_RESOLUTION: u32 = 65_536;
 
-/// Reads a whole NFF file. The scene's name stays empty, since the bytes carry none.
+/// Reads a whole NFF file. The scene's name is left empty because the file does not contain one.
 ///
-/// Comments that begin with `# Note: ` are remarks among the scene's notes.
+/// Comments that begin with `# Note: ` become remarks in the load report.
 ///
-/// Three vertices make a triangle, more a polygon. Equal materials become one, and a material that
-/// no object has is left out. Repaired, with a note for each:
-/// - no `b`: black; no `f` before an object: [`Material::default`]; no object at all: none;
-/// - a second `v` or `b`: the last counts;
-/// - a polygon without area, a cylinder or cone without length: skipped;
-/// - vertices off a common plane: split into triangles, each vertex keeping its normal;
-/// - a vertex normal without length: the polygon's own normal takes its place.
+/// A polygon with three vertices becomes a triangle. Equal materials are merged, and unused materials
+/// are dropped. These are repaired, with a note for each:
+/// - no `b`: the background is black; no `f` before an object: [`Material::default`];
+/// - more than one `v` or `b`: the last one is used;
+/// - a polygon with zero area, a cylinder or cone with zero length: skipped;
+/// - a non-planar polygon: split into triangles, where each vertex keeps its normal;
+/// - a zero-length vertex normal: replaced by the normal of the polygon.
 ///
-/// Memory stays within a constant times the file's size,
-/// whatever counts the file claims.
+/// Memory use is at most a constant times the size of the file, whatever counts it declares.
 ///
 /// # Errors
-/// The first mistake, with its line; a file without `v` at its last line. Cancellation.
+/// The first error, with its line; a missing `v` is reported at the last line. Cancellation.
 pub fn read(bytes: &[u8], progress: &Progress) -> Result<SceneParts, ReadError> {
     let mut reader = Reader::new(Words::new(bytes, progress));
     while let Some(word) = reader.words.next()? {
@@ -39,15 +38,15 @@ pub fn read(bytes: &[u8], progress: &Progress) -> Result<SceneParts, ReadError> 
     Ok(parts)
 }
 
-/// What has been read so far.
+/// The state of the reader.
 struct Reader<'a> {
     words: Words<'a>,
-    found: Gatherer,
+    builder: SceneBuilder,
     /// Whether there was a material.
     has_fill: bool,
-    /// Letter and line of the entity read last.
+    /// Keyword and line of the previous entity.
     last_entity: Option<(&'static str, usize)>,
-    /// Vertices and normals (none for `p`) of the polygon being read, kept to be filled again.
+    /// Vertices and normals (none for `p`) of the current polygon; kept to reuse their memory.
     vertices: Vec<Vec3>,
     normals: Vec<Vec3>,
 }
@@ -56,7 +55,7 @@ impl<'a> Reader<'a> {
     fn new(words: Words<'a>) -> Self {
         Reader {
             words,
-            found: Gatherer::default(),
+            builder: SceneBuilder::default(),
             has_fill: false,
             last_entity: None,
             vertices: Vec::new(),
@@ -64,7 +63,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads the entity that `word` begins.
+    /// Reads the entity that begins with `word`.
     fn entity(&mut self, word: Word) -> Result<(), ReadError> {
         let line = word.line;
         let letter = match word.bytes {
@@ -106,7 +105,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// The mistake of a word where an entity should begin; for a surplus number says of which.
+    /// Creates the error that a word does not begin an entity. For a surplus number, the message names
+    /// the entity before it.
     fn no_entity(&self, word: &Word) -> ReadError {
         const ENTITIES: &str = "v, b, l, f, c, s, p or pp";
         match self.last_entity {
@@ -115,7 +115,7 @@ impl<'a> Reader<'a> {
                 format_args!("an entity ({ENTITIES}) after the complete '{letter}' of line {line}"),
                 format_args!("the number {}", word.quoted()),
             ),
-            _ => word.instead_of(format_args!("an entity ({ENTITIES})")),
+            _ => word.unexpected(format_args!("an entity ({ENTITIES})")),
         }
     }
 
@@ -129,7 +129,7 @@ impl<'a> Reader<'a> {
         self.keyword("angle")?;
         let (angle, angle_word) = self.words.number_word("the view's angle")?;
         self.keyword("hither")?;
-        let hither = self.words.number("the view's hither distance")?;
+        let near = self.words.number("the view's hither distance")?;
         self.keyword("resolution")?;
         let resolution = [self.pixels("width")?, self.pixels("height")?];
         let camera = Camera {
@@ -137,12 +137,12 @@ impl<'a> Reader<'a> {
             at,
             up,
             angle,
-            hither,
+            near,
             resolution,
         };
         camera.frame().map_err(|reason| match reason {
             CameraError::Angle(_) => {
-                angle_word.instead_of("the view's angle, above 0 and below 180 degrees")
+                angle_word.unexpected("the view's angle, above 0 and below 180 degrees")
             }
             CameraError::NoDirection | CameraError::NotFinite => syntax(
                 at_line,
@@ -155,20 +155,20 @@ impl<'a> Reader<'a> {
                 format_args!("up {}", Point(up)),
             ),
         })?;
-        if self.found.camera.replace(camera).is_some() {
+        if self.builder.camera.replace(camera).is_some() {
             self.replaced("view", line);
         }
         Ok(())
     }
 
-    /// Takes a word that the view must have here; gives its line.
+    /// Reads a keyword of the view and returns its line.
     fn keyword(&mut self, keyword: &str) -> Result<usize, ReadError> {
         let expected = format_args!("'{keyword}' of the view");
         let word = self.words.expect(expected)?;
         if word.bytes == keyword.as_bytes() {
             Ok(word.line)
         } else {
-            Err(word.instead_of(expected))
+            Err(word.unexpected(expected))
         }
     }
 
@@ -178,30 +178,31 @@ impl<'a> Reader<'a> {
         let word = self.words.expect(expected)?;
         word.parse()
             .filter(|pixels| (1..=MAX_RESOLUTION).contains(pixels))
-            .ok_or_else(|| word.instead_of(expected))
+            .ok_or_else(|| word.unexpected(expected))
     }
 
     fn background(&mut self, line: usize) -> Result<(), ReadError> {
         let color = self.words.color("the background")?;
-        if self.found.background.replace(color).is_some() {
+        if self.builder.background.replace(color).is_some() {
             self.replaced("background", line);
         }
         Ok(())
     }
 
     fn replaced(&mut self, what: &str, line: usize) {
-        let text = format!("{what} replaced by a later one");
-        self.found.note(NoteKind::Skipped, &text, Place::Line(line));
+        let text = format!("{what} overridden by a later one");
+        self.builder
+            .note(NoteKind::Skipped, &text, Place::Line(line));
     }
 
     fn light(&mut self) -> Result<(), ReadError> {
         let position = self.words.point("the light")?;
         let color = if self.words.number_follows() {
-            Some(self.words.color("the light's colour")?)
+            Some(self.words.color("the light's color")?)
         } else {
             None
         };
-        self.found.lights.push(Light { position, color });
+        self.builder.lights.push(Light { position, color });
         Ok(())
     }
 
@@ -230,7 +231,7 @@ impl<'a> Reader<'a> {
             transmittance,
             index_of_refraction,
         ] = numbers;
-        self.found.set_material(Material {
+        self.builder.set_material(Material {
             color: Vec3::new(r, g, b),
             diffuse,
             specular,
@@ -243,11 +244,11 @@ impl<'a> Reader<'a> {
     }
 
     fn sphere(&mut self, line: usize) -> Result<(), ReadError> {
-        let center = self.words.point("the sphere's centre")?;
+        let center = self.words.point("the sphere's center")?;
         let radius = self.words.radius("the sphere's radius")?;
         let sphere = Sphere::new(center, radius).map(Primitive::Sphere);
         self.begin_object(line);
-        self.found.object(Place::Line(line), "a sphere", sphere)
+        self.builder.object(Place::Line(line), "a sphere", sphere)
     }
 
     fn cone(&mut self, line: usize) -> Result<(), ReadError> {
@@ -258,7 +259,7 @@ impl<'a> Reader<'a> {
         let cone = Cone::new(base, base_radius, apex, apex_radius).map(Primitive::Cone);
         self.begin_object(line);
         let place = Place::Line(line);
-        self.found.object(place, "a cylinder or cone", cone)
+        self.builder.object(place, "a cylinder or cone", cone)
     }
 
     fn polygon(&mut self, line: usize, with_normals: bool) -> Result<(), ReadError> {
@@ -267,10 +268,10 @@ impl<'a> Reader<'a> {
         let count = word
             .parse::<usize>()
             .filter(|&count| count >= 3)
-            .ok_or_else(|| word.instead_of(expected))?;
+            .ok_or_else(|| word.unexpected(expected))?;
         self.vertices.clear();
         self.normals.clear();
-        // The count is not trusted with memory: the lists grow as vertices are really found.
+        // No memory is reserved for the declared count: the lists grow as vertices are read.
         for number in 1..=count {
             let vertex = self
                 .words
@@ -284,20 +285,22 @@ impl<'a> Reader<'a> {
         }
         self.begin_object(line);
         let normals = with_normals.then_some(self.normals.as_slice());
-        self.found.face(Place::Line(line), &self.vertices, normals)
+        self.builder
+            .face(Place::Line(line), &self.vertices, normals)
     }
 
-    /// Notes where the first object has no material.
+    /// Notes that the first object has no material.
     fn begin_object(&mut self, line: usize) {
         if !self.has_fill {
             self.has_fill = true;
-            const TEXT: &str = "no material before this object, white matt taken";
-            self.found.note(NoteKind::MadeUp, TEXT, Place::Line(line));
+            const TEXT: &str = "no material before this object; using matte white";
+            let place = Place::Line(line);
+            self.builder.note(NoteKind::Defaulted, TEXT, place);
         }
     }
 
     fn finish(mut self) -> Result<SceneParts, ReadError> {
-        let camera = self.found.camera.ok_or_else(|| {
+        let camera = self.builder.camera.ok_or_else(|| {
             syntax(
                 self.words.last_line(),
                 "a view ('v') somewhere in the file",
@@ -305,14 +308,16 @@ impl<'a> Reader<'a> {
             )
         })?;
         let remarks = std::mem::take(&mut self.words.notes).into_iter();
-        self.found.notes = remarks
+        self.builder.notes = remarks
             .map(|text| Note::new(NoteKind::Remark, text))
             .collect();
-        if self.found.background.is_none() {
-            const TEXT: &str = "no background, black taken";
-            self.found.notes.push(Note::new(NoteKind::MadeUp, TEXT));
+        if self.builder.background.is_none() {
+            const TEXT: &str = "no background color in the file; using black";
+            self.builder
+                .notes
+                .push(Note::new(NoteKind::Defaulted, TEXT));
         }
-        Ok(self.found.finish(camera))
+        Ok(self.builder.finish(camera))
     }
 }
 

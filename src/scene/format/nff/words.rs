@@ -1,4 +1,4 @@
-//! The stream of words that a file is, with their lines.
+//! The words of an NFF file, with their line numbers.
 
 use super::write::NOTE;
 use crate::geometry::Vec3;
@@ -7,10 +7,10 @@ use crate::scene::format::lines::{parse, quoted};
 use crate::scene::format::{Place, ReadError};
 use std::fmt::Display;
 
-/// Words between two looks at whether the task was cancelled.
+/// Words between two checks for cancellation.
 const WORDS_PER_CHECK: u32 = 4096;
 
-/// A word of the file and the line it stands in, counted from 1.
+/// A word of the file and its line.
 #[derive(Clone, Copy)]
 pub(super) struct Word<'a> {
     pub bytes: &'a [u8],
@@ -23,13 +23,13 @@ impl Word<'_> {
         parse(self.bytes)
     }
 
-    /// Quoted for a message.
+    /// Returns the word, quoted for a message.
     pub(super) fn quoted(&self) -> String {
         quoted(self.bytes)
     }
 
-    /// The mistake that this word is not what was expected here.
-    pub(super) fn instead_of(&self, expected: impl Display) -> ReadError {
+    /// Creates the error that this word is not what was expected here.
+    pub(super) fn unexpected(&self, expected: impl Display) -> ReadError {
         syntax(self.line, expected, self.quoted())
     }
 }
@@ -38,14 +38,14 @@ pub(super) fn syntax(line: usize, expected: impl Display, found: impl Display) -
     ReadError::at(Place::Line(line), expected, found)
 }
 
-/// How many notes of a file are kept, and how many bytes of each.
-const MOST_NOTES: usize = 16;
-const LONGEST_NOTE: usize = 1024;
+/// Maximum number of notes kept from a file, and bytes kept of each.
+const MAX_NOTES: usize = 16;
+const MAX_NOTE_BYTES: usize = 1024;
 
-/// The words of a file, one after the other, without comments; notes among the comments are kept.
+/// An iterator over the words of a file. Skips comments, but keeps the notes among them.
 pub(super) struct Words<'a> {
     bytes: &'a [u8],
-    /// The notes passed so far.
+    /// The notes found so far.
     pub notes: Vec<String>,
     at: usize,
     line: usize,
@@ -65,7 +65,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Moves to the start of the next word or to the end. Lines end with LF, CR LF or CR.
+    /// Advances to the next word or to the end of the file. Lines end with LF, CR LF or CR.
     fn skip_blanks(&mut self) {
         while let Some(&byte) = self.bytes.get(self.at) {
             match byte {
@@ -74,9 +74,9 @@ impl<'a> Words<'a> {
                     let end = rest.iter().position(|b| matches!(b, b'\n' | b'\r'));
                     let comment = &rest[..end.unwrap_or(rest.len())];
                     if let Some(note) = comment.strip_prefix(NOTE.as_bytes())
-                        && self.notes.len() < MOST_NOTES
+                        && self.notes.len() < MAX_NOTES
                     {
-                        let shown = &note[..note.len().min(LONGEST_NOTE)];
+                        let shown = &note[..note.len().min(MAX_NOTE_BYTES)];
                         let text = String::from_utf8_lossy(shown);
                         self.notes.push(text.replace(char::is_control, " "));
                     }
@@ -92,7 +92,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// The next word; `None` at the end of the file.
+    /// Returns the next word; `None` at the end of the file.
     pub(super) fn next(&mut self) -> Result<Option<Word<'a>>, Cancelled> {
         self.taken += 1;
         if self.taken >= WORDS_PER_CHECK {
@@ -111,25 +111,25 @@ impl<'a> Words<'a> {
         }))
     }
 
-    /// The next word, which must exist.
+    /// Returns the next word, which must exist.
     pub(super) fn expect(&mut self, expected: impl Display) -> Result<Word<'a>, ReadError> {
         let word = self.next()?;
         word.ok_or_else(|| syntax(self.last_line(), expected, "the end of the file"))
     }
 
-    /// Whether the next word begins as a number does.
+    /// Returns whether the next word begins like a number.
     pub(super) fn number_follows(&mut self) -> bool {
         self.skip_blanks();
         let first = self.bytes.get(self.at);
         first.is_some_and(|b| matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.'))
     }
 
-    /// The next number and its word.
+    /// Parses the next word as a number and returns both.
     pub(super) fn number_word(&mut self, what: impl Display) -> Result<(f64, Word<'a>), ReadError> {
         let word = self.expect(&what)?;
         match word.parse::<f64>() {
             Some(number) if number.is_finite() => Ok((number, word)),
-            _ => Err(word.instead_of(format_args!("{what} (a finite number)"))),
+            _ => Err(word.unexpected(format_args!("{what} (a finite number)"))),
         }
     }
 
@@ -153,16 +153,16 @@ impl<'a> Words<'a> {
         self.triple(["red", "green", "blue"], of)
     }
 
-    /// A radius, 0 or more.
+    /// Parses a radius, which is at least 0.
     pub(super) fn radius(&mut self, what: &str) -> Result<f64, ReadError> {
         let (radius, word) = self.number_word(what)?;
         if radius < 0.0 {
-            return Err(word.instead_of(format_args!("{what}, 0 or more")));
+            return Err(word.unexpected(format_args!("{what}, 0 or larger")));
         }
         Ok(radius)
     }
 
-    /// The line of the last character; 1 for an empty file. Only at the end of the file.
+    /// Returns the line of the last character; 1 for an empty file. Valid only at the end of the file.
     pub(super) fn last_line(&self) -> usize {
         match self.bytes.last() {
             Some(b'\n' | b'\r') => self.line - 1,

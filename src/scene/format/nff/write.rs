@@ -1,4 +1,4 @@
-//! From a scene to a file.
+//! The NFF writer.
 
 use crate::geometry::Vec3;
 use crate::primitive::Primitive;
@@ -6,16 +6,18 @@ use crate::scene::{Material, NoteKind, SceneParts};
 use std::fmt::{self, Display};
 use std::io::{BufWriter, Write};
 
-/// How a comment begins that holds a note of the scene.
+/// The start of a comment that contains a note.
 pub(super) const NOTE: &str = "# Note: ";
 
-/// Writes NFF: notes, but for those of what was read, as comments, view, background, lights, then the objects in order, an `f` where the material
-/// changes. Numbers are the shortest that read back to the same bits, so that [`super::read`] gives the
-/// same scene again. Two things it cannot give back: a polygon of three vertices comes back as a
-/// triangle, and materials come back once each in the order of their first use.
+/// Writes a scene as NFF: notes as comments (except those on what was read), view, background,
+/// lights, then the objects in order, with an `f` where the material changes.
+///
+/// Numbers are written in the shortest form that reads back to the same bits, so [`super::read`]
+/// returns the same scene, with two exceptions: a polygon with three vertices is read back as a
+/// triangle, and materials are read back once each, in the order of their first use.
 ///
 /// # Errors
-/// Those of `out`.
+/// I/O errors of `out`.
 pub fn write(parts: &SceneParts, out: &mut dyn Write) -> std::io::Result<()> {
     let mut out = BufWriter::new(out);
     let title = parts.name.replace(char::is_control, " ");
@@ -23,7 +25,7 @@ pub fn write(parts: &SceneParts, out: &mut dyn Write) -> std::io::Result<()> {
     writeln!(out, "# {} objects", parts.objects.len())?;
     for note in &parts.notes {
         let text = match note.kind {
-            // Of another file.
+            // These describe the original file.
             NoteKind::Read => continue,
             NoteKind::Remark => note.text.clone(),
             _ => note.to_string(),
@@ -36,7 +38,7 @@ pub fn write(parts: &SceneParts, out: &mut dyn Write) -> std::io::Result<()> {
     writeln!(out, "at {}", Point(camera.at))?;
     writeln!(out, "up {}", Point(camera.up))?;
     writeln!(out, "angle {}", Number(camera.angle))?;
-    writeln!(out, "hither {}", Number(camera.hither))?;
+    writeln!(out, "hither {}", Number(camera.near))?;
     let [width, height] = camera.resolution;
     writeln!(out, "resolution {width} {height}")?;
     writeln!(out, "b {}", Point(parts.background))?;
@@ -109,7 +111,7 @@ fn write_polygon(
     Ok(())
 }
 
-/// The shortest text that reads back to the same bits; with an exponent where `%g` has one.
+/// Writes the shortest text that reads back to the same bits, with an exponent where `%g` uses one.
 struct Number(f64);
 
 impl Display for Number {
@@ -123,7 +125,7 @@ impl Display for Number {
     }
 }
 
-/// Three numbers with a space between them.
+/// Writes three numbers, separated by spaces.
 pub(super) struct Point(pub Vec3);
 
 impl Display for Point {

@@ -1,21 +1,21 @@
 //! Wavefront OBJ with MTL (Wavefront Technologies, Advanced Visualizer Manual, Appendix B).
 //!
-//! | statement | what is done with it |
+//! | statement | meaning |
 //! |---|---|
-//! | `v` x y z | a vertex; weights and colours behind it are left out |
+//! | `v` x y z | a vertex; a weight or color after it is ignored |
 //! | `vn` x y z | a vertex normal |
-//! | `f` v, v/t, v//n or v/t/n … | a face; indices count from 1, or back from −1 |
-//! | `mtllib` file … | material files beside this one, see `mtl` |
+//! | `f` v, v/t, v//n or v/t/n … | a face; indices count from 1, or backward from −1 |
+//! | `mtllib` file … | material files in the same folder, see `mtl` |
 //! | `usemtl` name | the material of the faces that follow |
-//! | `o`, `g`, `s`, `vt` | nothing: groups, smoothing and textures change no hit |
+//! | `o`, `g`, `s`, `vt` | ignored: groups, smoothing and texture coordinates do not affect hits |
 //!
-//! Lines and points are no surfaces, curves and everything else is not known: skipped and counted.
+//! Lines, points, curves and unknown statements are skipped and counted.
 
 mod mtl;
 
-use super::gather::{Gatherer, MOST_VERTICES};
+use super::builder::{MAX_VERTICES, SceneBuilder};
 use super::lines::{Line, Lines, Words, parse, quoted};
-use super::{BesideError, Format, Input, Place, ReadError};
+use super::{Format, Input, Place, ReadError, SiblingError};
 use crate::geometry::Vec3;
 use crate::progress::Progress;
 use crate::scene::{Material, Note, NoteKind, SceneParts};
@@ -30,13 +30,13 @@ pub(super) const FORMAT: Format = Format {
     write: None,
 };
 
-/// How far into a file the first vertex is looked for, in bytes.
-const LOOKED_AT: usize = 1 << 16;
+/// Bytes at the start of a file in which the first vertex is looked for.
+const SNIFFED_BYTES: usize = 1 << 16;
 
-/// Whether a vertex comes before anything that OBJ does not know.
+/// Returns whether the file has a vertex before anything that is not valid in OBJ.
 fn recognizes(bytes: &[u8]) -> bool {
     let progress = Progress::new();
-    let mut lines = Lines::new(&bytes[..bytes.len().min(LOOKED_AT)], &progress);
+    let mut lines = Lines::new(&bytes[..bytes.len().min(SNIFFED_BYTES)], &progress);
     while let Ok(Some(line)) = lines.next_with_words() {
         let mut words = line.words();
         match words.next() {
@@ -53,7 +53,7 @@ fn read(input: &Input<'_>, progress: &Progress) -> Result<SceneParts, ReadError>
     let mut reader = Reader {
         input,
         progress,
-        found: Gatherer::default(),
+        builder: SceneBuilder::default(),
         positions: Vec::new(),
         normals: Vec::new(),
         materials: HashMap::new(),
@@ -67,7 +67,7 @@ fn read(input: &Input<'_>, progress: &Progress) -> Result<SceneParts, ReadError>
             reader.statement(line)?;
             continue;
         }
-        // A statement goes on where its line ends with a backslash.
+        // A backslash at the end of a line continues the statement on the next line.
         joined.clear();
         let mut part = line;
         while let Some(beginning) = part.bytes.strip_suffix(b"\\") {
@@ -82,22 +82,22 @@ fn read(input: &Input<'_>, progress: &Progress) -> Result<SceneParts, ReadError>
         let (number, bytes) = (line.number, joined.as_slice());
         reader.statement(Line { number, bytes })?;
     }
-    Ok(reader.found.finish_mesh(Vec3::Y))
+    Ok(reader.builder.finish_mesh(Vec3::Y))
 }
 
 struct Reader<'a> {
     input: &'a Input<'a>,
     progress: &'a Progress,
-    found: Gatherer,
+    builder: SceneBuilder,
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     materials: HashMap<String, Material>,
-    /// Whether a face can rely on a material's having been chosen, or its lack noted.
+    /// Whether a material was selected, or its absence noted.
     has_material: bool,
     face: Face,
 }
 
-/// Vertices and normals of the face being read, kept to be filled again.
+/// Vertices and normals of the current face; kept to reuse their memory.
 #[derive(Default)]
 struct Face {
     vertices: Vec<Vec3>,
@@ -114,15 +114,15 @@ impl Reader<'_> {
             b"v" => {
                 self.positions.push(words.point("the vertex")?);
                 if words.nth(2).is_some() {
-                    self.skipped("vertex colours", line);
+                    self.skipped("vertex colors", line);
                 }
             }
             b"vn" => self.normals.push(words.point("the normal")?),
             b"f" => self.face(words, line)?,
             b"usemtl" => self.use_material(&words.rest(), line),
             b"mtllib" => self.material_files(words, line)?,
-            b"l" => self.skipped("line, which is no surface", line),
-            b"p" => self.skipped("point, which is no surface", line),
+            b"l" => self.skipped("line (not a surface)", line),
+            b"p" => self.skipped("point (not a surface)", line),
             b"o" | b"g" | b"s" | b"vt" => {}
             comment if comment.starts_with(b"#") => {}
             unknown => {
@@ -134,7 +134,7 @@ impl Reader<'_> {
     }
 
     fn skipped(&mut self, what: &str, line: Line<'_>) {
-        self.found.note(NoteKind::Skipped, what, line.place());
+        self.builder.note(NoteKind::Skipped, what, line.place());
     }
 
     fn face(&mut self, words: Words<'_>, line: Line<'_>) -> Result<(), ReadError> {
@@ -142,18 +142,18 @@ impl Reader<'_> {
         vertices.clear();
         normals.clear();
         for corner in words {
-            // A face of too many vertices is skipped whatever follows.
-            if corner.starts_with(b"#") || vertices.len() > MOST_VERTICES {
+            // A face with too many vertices is skipped, so the rest of its vertices do not matter.
+            if corner.starts_with(b"#") || vertices.len() > MAX_VERTICES {
                 break;
             }
             let mut indices = corner.split(|b| *b == b'/');
             let resolve = |what: &str, known: &[Vec3], text: &[u8]| {
-                of_index(known, text).ok_or_else(|| {
+                resolve_index(known, text).ok_or_else(|| {
                     let count = known.len();
                     let expected = format_args!(
-                        "a {what} from 1 to {count}, the number of those before, or from -{count} to -1"
+                        "a {what} index from 1 to {count} (those defined so far) or from -{count} to -1"
                     );
-                    words.mistake(expected, Some(corner))
+                    words.error(expected, Some(corner))
                 })
             };
             let vertex = indices.next().unwrap_or_default();
@@ -164,18 +164,18 @@ impl Reader<'_> {
         }
         if !self.has_material {
             self.has_material = true;
-            const TEXT: &str = "no material before this face, white matt taken";
-            self.found.note(NoteKind::MadeUp, TEXT, line.place());
+            const TEXT: &str = "no material before this face; using matte white";
+            self.builder.note(NoteKind::Defaulted, TEXT, line.place());
         }
         match vertices.len() {
             0..3 => {
                 const TEXT: &str = "face of fewer than 3 vertices";
-                self.found.skip_face(line.place(), TEXT)
+                self.builder.skip_face(line.place(), TEXT)
             }
-            // Normals count where every vertex has one.
+            // Normals are used only if every vertex has one.
             count => {
                 let normals = (normals.len() == count).then_some(normals.as_slice());
-                self.found.face(line.place(), vertices, normals)
+                self.builder.face(line.place(), vertices, normals)
             }
         }
     }
@@ -185,26 +185,25 @@ impl Reader<'_> {
         let material = self.materials.get(name).copied();
         if material.is_none() {
             let name = quoted(name.as_bytes());
-            let text = format!("material {name} is not there, white matt taken");
-            self.found.note(NoteKind::MadeUp, &text, line.place());
+            let text = format!("material {name} is not defined; using matte white");
+            self.builder.note(NoteKind::Defaulted, &text, line.place());
         }
-        self.found.set_material(material.unwrap_or_default());
+        self.builder.set_material(material.unwrap_or_default());
     }
 
-    /// Reads the files of materials that a line names: one whose name may have blanks, or else
-    /// several.
+    /// Reads the material files named by a line: one whose name may contain spaces, or else several.
     fn material_files(&mut self, words: Words<'_>, line: Line<'_>) -> Result<(), ReadError> {
         let whole = words.rest();
-        match self.input.beside(&whole, self.progress) {
+        match self.input.read_sibling(&whole, self.progress) {
             Ok(bytes) => return self.materials_of(&whole, &bytes),
-            Err(BesideError::Cancelled(cancelled)) => return Err(cancelled.into()),
+            Err(SiblingError::Cancelled(cancelled)) => return Err(cancelled.into()),
             Err(_) => {}
         }
         for word in words {
             let name = String::from_utf8_lossy(word);
-            match self.input.beside(&name, self.progress) {
+            match self.input.read_sibling(&name, self.progress) {
                 Ok(bytes) => self.materials_of(&name, &bytes)?,
-                Err(BesideError::Cancelled(cancelled)) => return Err(cancelled.into()),
+                Err(SiblingError::Cancelled(cancelled)) => return Err(cancelled.into()),
                 Err(reason) => {
                     let text = format!("material file {}: {reason}", quoted(word));
                     self.skipped(&text, line);
@@ -216,15 +215,15 @@ impl Reader<'_> {
 
     fn materials_of(&mut self, name: &str, bytes: &[u8]) -> Result<(), ReadError> {
         let before = self.materials.len();
-        // The whole's progress is that of the main file.
+        // Material files do not advance the progress.
         let progress = self.progress.part(0.0, 0.0);
         let mut note = |kind, text: &str, place: Place| {
-            self.found.note(kind, &format!("{name}: {text}"), place);
+            self.builder.note(kind, &format!("{name}: {text}"), place);
         };
         mtl::read(bytes, &progress, &mut self.materials, &mut note).map_err(
             |reason| match reason {
                 ReadError::Cancelled(_) => reason,
-                _ => ReadError::Beside {
+                _ => ReadError::InSibling {
                     name: name.to_owned(),
                     reason: Box::new(reason),
                 },
@@ -232,13 +231,13 @@ impl Reader<'_> {
         )?;
         let count = self.materials.len() - before;
         let text = format!("{name}: {count} materials");
-        self.found.notes.push(Note::new(NoteKind::Read, text));
+        self.builder.notes.push(Note::new(NoteKind::Read, text));
         Ok(())
     }
 }
 
-/// What an index stands for: counted from 1, or back from the last, which is −1.
-fn of_index(known: &[Vec3], text: &[u8]) -> Option<Vec3> {
+/// Returns the element with an index: counted from 1, or backward from −1, which is the last.
+fn resolve_index(known: &[Vec3], text: &[u8]) -> Option<Vec3> {
     let index: i64 = parse(text)?;
     let place = match index {
         1.. => usize::try_from(index).ok()? - 1,

@@ -1,13 +1,13 @@
 //! Materials of OBJ files (Wavefront MTL).
 //!
-//! | statement | what becomes of it |
+//! | statement | meaning |
 //! |---|---|
-//! | `Kd` r g b | the colour |
-//! | `Ks` r g b | `Ks`, the mean of the three, where the surface mirrors |
+//! | `Kd` r g b | color |
+//! | `Ks` r g b | `Ks`: the mean of the three, if the surface is a mirror |
 //! | `Ns` exponent | `Shine` |
-//! | `d` or 1 − `Tr` | the share that is opaque: the rest is `T` |
+//! | `d` or 1 − `Tr` | opacity; the rest is `T` |
 //! | `Ni` | index of refraction |
-//! | `illum` 0, 1, 2 | no mirror: of `Ks` nothing, since here highlights mirror, too |
+//! | `illum` 0, 1, 2 | not a mirror: `Ks` is ignored, because here `Ks` also reflects rays |
 //!
 //! Textures and the rest are skipped and counted.
 
@@ -18,7 +18,7 @@ use crate::scene::format::{Place, ReadError};
 use crate::scene::{Material, NoteKind};
 use std::collections::HashMap;
 
-/// What a file says of one material.
+/// One material of a file.
 #[derive(Default)]
 struct Found {
     name: String,
@@ -30,11 +30,11 @@ struct Found {
     illumination: Option<f64>,
 }
 
-/// Adds a file's materials by name; of two of one name the first counts. `note` is told what is
-/// skipped or changed.
+/// Adds the materials of a file by name; the first material of a name wins. Calls `note` for
+/// everything that is skipped or changed.
 ///
 /// # Errors
-/// The first mistake, with its line; cancellation.
+/// The first error, with its line; cancellation.
 pub(super) fn read(
     bytes: &[u8],
     progress: &Progress,
@@ -59,7 +59,7 @@ pub(super) fn read(
             }
             (Some(keyword), Some((found, _))) => found.statement(keyword, words, line, note)?,
             (Some(keyword), None) => {
-                return Err(words.mistake("'newmtl' before anything else", Some(keyword)));
+                return Err(words.error("'newmtl' as the first statement", Some(keyword)));
             }
         }
     }
@@ -81,11 +81,11 @@ impl Found {
             b"Kd" | b"Ks" => {
                 let is_file = |word: &[u8]| matches!(word, b"spectral" | b"xyz");
                 if words.clone().next().is_some_and(is_file) {
-                    note(NoteKind::Skipped, "colour as a spectrum", line.place());
+                    note(NoteKind::Skipped, "color given as a spectrum", line.place());
                     return Ok(());
                 }
                 let red = words.expect_number("red")?;
-                // One number is a grey.
+                // A single number is a gray value.
                 let green = words.number("green")?.unwrap_or(red);
                 let blue = words.number("blue")?.unwrap_or(red);
                 let color = Some(Vec3::new(red, green, blue));
@@ -100,16 +100,20 @@ impl Found {
                 self.index_of_refraction = Some(index);
             }
             b"d" if words.clone().next() == Some(b"-halo") => {
-                note(NoteKind::Skipped, "dissolve by angle", line.place());
+                note(
+                    NoteKind::Skipped,
+                    "view-dependent opacity (d -halo)",
+                    line.place(),
+                );
             }
             b"d" => self.opacity = Some(words.expect_number("the opacity")?),
-            // Of both, `d` counts.
+            // `d` takes precedence over `Tr`.
             b"Tr" => {
                 let transparency = words.expect_number("the transparency")?;
                 self.opacity.get_or_insert(1.0 - transparency);
             }
             b"illum" => self.illumination = Some(words.expect_number("the illumination model")?),
-            // Light that comes from everywhere, and filters, are not part of the shading.
+            // Ambient light and transmission filters are not part of the shading.
             b"Ka" | b"Tf" => {}
             unknown => {
                 let text = format!("statement {}", quoted(unknown));
@@ -131,12 +135,12 @@ impl Found {
             .max(0.0);
         let mirrors = self.illumination.is_none_or(|model| model >= 3.0);
         if specular > 0.0 && !mirrors && self.illumination == Some(2.0) {
-            const TEXT: &str = "Ks of a material that does not mirror (illum 2)";
+            const TEXT: &str = "Ks of a material that is not a mirror (illum 2)";
             note(NoteKind::Skipped, TEXT, place);
         }
         let index = self.index_of_refraction.unwrap_or(1.0);
         if index <= 0.0 {
-            const TEXT: &str = "index of refraction not above 0, 1 taken";
+            const TEXT: &str = "index of refraction is not above 0; using 1";
             note(NoteKind::Changed, TEXT, place);
         }
         let opacity = self.opacity.unwrap_or(1.0).clamp(0.0, 1.0);

@@ -1,6 +1,6 @@
 //! The limits of bins as planes, for cells with many objects.
 
-use super::extents::{Extents, Room, Source};
+use super::extents::{Extents, Scratch, Source};
 use super::grid::{BINS, Grid, count_bins};
 use super::{Cell, Plane};
 use crate::geometry::Axis;
@@ -23,7 +23,7 @@ struct Counts {
 const CHUNK: usize = 1 << 14;
 
 /// Objects whose extents are held at once.
-const HELD: usize = 1 << 9;
+const BATCH: usize = 1 << 9;
 
 impl Bins {
     /// Those of a cell's objects; incomplete if the build is cancelled meanwhile.
@@ -33,10 +33,10 @@ impl Bins {
         let count = |objects: &[u32]| {
             let mut counts = Counts::default();
             if !cell.progress.is_cancelled() {
-                let (mut extents, mut room) = (Extents::default(), Room::default());
-                for objects in objects.chunks(HELD) {
+                let (mut extents, mut scratch) = (Extents::default(), Scratch::default());
+                for objects in objects.chunks(BATCH) {
                     extents.fill(&source, objects);
-                    counts.add(&grids, &extents, &mut room);
+                    counts.add(&grids, &extents, &mut scratch);
                 }
             }
             counts
@@ -81,14 +81,14 @@ impl Default for Counts {
 }
 
 impl Counts {
-    fn add(&mut self, grids: &[Grid; 3], extents: &Extents, room: &mut Room) {
+    fn add(&mut self, grids: &[Grid; 3], extents: &Extents, scratch: &mut Scratch) {
         self.objects += extents.objects();
         for axis in Axis::ALL {
             let (k, along) = (axis.index(), extents.along(axis));
-            grids[k].bins_of(along.begins, &mut room.begin_bins);
-            grids[k].bins_of(along.ends, &mut room.end_bins);
-            count_bins(&room.begin_bins, &mut self.begins[k]);
-            count_bins(&room.end_bins, &mut self.ends[k]);
+            grids[k].bins_of(along.begins, &mut scratch.begin_bins);
+            grids[k].bins_of(along.ends, &mut scratch.end_bins);
+            count_bins(&scratch.begin_bins, &mut self.begins[k]);
+            count_bins(&scratch.end_bins, &mut self.ends[k]);
         }
     }
 

@@ -1,15 +1,15 @@
 //! All planes at which an object begins or ends, for cells with few objects.
 //!
-//! The planes are dealt into bins, and a bin is only looked into if, by the counts at its limits, one
+//! The planes are sorted into bins, and a bin is only looked into if, by the counts at its limits, one
 //! of its planes might be the cheapest. What is found is what looking at every plane finds.
 
-use super::extents::{Along, Room};
+use super::extents::{Along, Scratch};
 use super::grid::{BINS, Grid, count_bins};
 use super::{Areas, Best, Extent, Plane, Sah};
 use crate::geometry::Axis;
 
 /// Objects a bin, on average.
-const FILL: usize = 8;
+const OBJECTS_PER_BIN: usize = 8;
 
 /// The search along one axis of a cell.
 pub(super) struct Search<'a> {
@@ -48,29 +48,29 @@ impl<'a> Search<'a> {
     }
 
     /// Offers every plane that might be the cheapest.
-    pub(super) fn run(mut self, extents: Along<'_>, room: &mut Room) {
+    pub(super) fn run(mut self, extents: Along<'_>, scratch: &mut Scratch) {
         let Along { begins, ends } = extents;
         let objects = begins.len();
         let pairs = || begins.iter().zip(ends);
-        room.flat.clear();
+        scratch.flat.clear();
         // To look at all of them is quick, and in most cells there is none.
         if pairs().fold(false, |any, (begin, end)| any | (begin == end)) {
             let flat = pairs().filter(|(begin, end)| begin == end);
-            room.flat.extend(flat.map(|(&begin, _)| begin));
-            room.flat.sort_unstable_by(f32::total_cmp);
+            scratch.flat.extend(flat.map(|(&begin, _)| begin));
+            scratch.flat.sort_unstable_by(f32::total_cmp);
         }
-        self.outermost(extents, &room.flat);
+        self.outermost(extents, &scratch.flat);
 
-        let grid = Grid::new(self.ends, (objects / FILL).clamp(1, BINS));
+        let grid = Grid::new(self.ends, (objects / OBJECTS_PER_BIN).clamp(1, BINS));
         let bins = grid.bins();
-        if bins == 1 && self.least(self.ends, 0, 0) > self.best.cost {
+        if bins == 1 && self.lower_bound(self.ends, 0, 0) > self.best.cost {
             return;
         }
-        grid.bins_of(begins, &mut room.begin_bins);
-        grid.bins_of(ends, &mut room.end_bins);
+        grid.bins_of(begins, &mut scratch.begin_bins);
+        grid.bins_of(ends, &mut scratch.end_bins);
         let (mut begin_of, mut end_of) = ([0; BINS + 1], [0; BINS + 1]);
-        find_starts(&room.begin_bins, bins, &mut begin_of);
-        find_starts(&room.end_bins, bins, &mut end_of);
+        find_starts(&scratch.begin_bins, bins, &mut begin_of);
+        find_starts(&scratch.end_bins, bins, &mut end_of);
         let mut costs = [f32::INFINITY; BINS];
         for (bin, cost) in costs[..bins].iter_mut().enumerate() {
             if begin_of[bin] < begin_of[bin + 1] || end_of[bin] < end_of[bin + 1] {
@@ -84,7 +84,7 @@ impl<'a> Search<'a> {
                     },
                 ];
                 let ended = end_of[bin + 1] as usize;
-                *cost = self.least(limits, begin_of[bin] as usize, objects - ended);
+                *cost = self.lower_bound(limits, begin_of[bin] as usize, objects - ended);
             }
         }
         // The most promising first, as what it gives rules out most of the others.
@@ -93,19 +93,19 @@ impl<'a> Search<'a> {
         if first.is_none_or(|first| costs[first] > self.best.cost) {
             return;
         }
-        deal(begins, &room.begin_bins, &begin_of, &mut room.begins);
-        deal(ends, &room.end_bins, &end_of, &mut room.ends);
+        distribute(begins, &scratch.begin_bins, &begin_of, &mut scratch.begins);
+        distribute(ends, &scratch.end_bins, &end_of, &mut scratch.ends);
         let within = |starts: &Starts, bin| starts[bin] as usize..starts[bin + 1] as usize;
         let others = (0..bins).filter(|&bin| Some(bin) != first);
         for bin in first.into_iter().chain(others) {
             if costs[bin] <= self.best.cost {
                 let held = Bin {
-                    begins: &mut room.begins[within(&begin_of, bin)],
-                    ends: &mut room.ends[within(&end_of, bin)],
+                    begins: &mut scratch.begins[within(&begin_of, bin)],
+                    ends: &mut scratch.ends[within(&end_of, bin)],
                     begun: begin_of[bin] as usize,
                     ended: end_of[bin] as usize,
                 };
-                self.look_into(held, &room.flat, objects);
+                self.search_bin(held, &scratch.flat, objects);
             }
         }
     }
@@ -137,7 +137,7 @@ impl<'a> Search<'a> {
 
     /// No plane between two limits costs less, but for the outermost, where at least so many objects
     /// are on either side. Between them the cost of parts with these objects is linear.
-    fn least(&self, limits: Extent, below: usize, above: usize) -> f32 {
+    fn lower_bound(&self, limits: Extent, below: usize, above: usize) -> f32 {
         /// More than rounding can take off a cost.
         const ROUNDING: f32 = 32.0 * f32::EPSILON;
         let [a, b] = limits.map(|at| {
@@ -151,7 +151,7 @@ impl<'a> Search<'a> {
         a.min(b) * (1.0 - ROUNDING)
     }
 
-    fn look_into(&mut self, bin: Bin<'_>, flat: &[f32], objects: usize) {
+    fn search_bin(&mut self, bin: Bin<'_>, flat: &[f32], objects: usize) {
         let Bin {
             begins,
             ends,
@@ -201,13 +201,13 @@ fn find_starts(planes: &[u8], bins: usize, starts: &mut Starts) {
 }
 
 /// Puts planes in the order of their bins.
-fn deal(planes: &[f32], bins: &[u8], starts: &Starts, dealt: &mut Vec<f32>) {
+fn distribute(planes: &[f32], bins: &[u8], starts: &Starts, sorted: &mut Vec<f32>) {
     let mut next = *starts;
-    dealt.resize(planes.len(), 0.0);
-    let dealt = &mut dealt[..];
+    sorted.resize(planes.len(), 0.0);
+    let sorted = &mut sorted[..];
     for (&at, &bin) in planes.iter().zip(bins) {
         let place = &mut next[usize::from(bin) % BINS];
-        dealt[*place as usize] = at;
+        sorted[*place as usize] = at;
         *place += 1;
     }
 }
@@ -271,7 +271,8 @@ mod tests {
                 ends: &closes,
             };
             let mut best = leaf();
-            Search::new(&rule, &areas, Axis::Y, ends, &mut best).run(along, &mut Room::default());
+            Search::new(&rule, &areas, Axis::Y, ends, &mut best)
+                .run(along, &mut Scratch::default());
             assert_eq!((best.cost, best.plane), (expected.cost, expected.plane));
             found += usize::from(best.plane.is_some());
         }

@@ -21,7 +21,7 @@ impl<'a> Source<'a> {
     /// The extent of the part of an object that is within the cell; none if there is no such part.
     fn clipped(&self, object: u32) -> Option<ObjectPlanes> {
         let planes = &self.cell.object_planes[object as usize];
-        let cut = cut_off(planes, &self.cell.local);
+        let cut = clamp_to_cell(planes, &self.cell.local);
         if cut == *planes {
             return Some(cut);
         }
@@ -58,7 +58,7 @@ pub(super) struct Along<'a> {
 
 /// Lists that are used for one cell after the other.
 #[derive(Default)]
-pub(super) struct Room {
+pub(super) struct Scratch {
     pub(super) begins: Vec<f32>,
     pub(super) ends: Vec<f32>,
     pub(super) begin_bins: Vec<u8>,
@@ -68,7 +68,7 @@ pub(super) struct Room {
 
 thread_local! {
     /// Kept so that no cell allocates.
-    static KEPT: std::cell::Cell<(Extents, Room)> = std::cell::Cell::default();
+    static SCRATCH: std::cell::Cell<(Extents, Scratch)> = std::cell::Cell::default();
 }
 
 impl Extents {
@@ -76,12 +76,12 @@ impl Extents {
     pub(super) fn with<R>(
         cell: &Cell<'_>,
         clip: bool,
-        task: impl FnOnce(&Extents, &mut Room) -> R,
+        task: impl FnOnce(&Extents, &mut Scratch) -> R,
     ) -> R {
-        let (mut extents, mut room) = KEPT.take();
+        let (mut extents, mut scratch) = SCRATCH.take();
         extents.fill(&Source::new(cell, clip), cell.inside);
-        let result = task(&extents, &mut room);
-        KEPT.set((extents, room));
+        let result = task(&extents, &mut scratch);
+        SCRATCH.set((extents, scratch));
         result
     }
 
@@ -110,7 +110,7 @@ impl Extents {
             // Read once: for all the compiler knows, writing to the lists might change them.
             let (planes, local) = (source.cell.object_planes, source.cell.local);
             for &object in objects {
-                put(cut_off(&planes[object as usize], &local));
+                put(clamp_to_cell(&planes[object as usize], &local));
             }
         }
         for list in self.begins.iter_mut().chain(&mut self.ends) {
@@ -135,8 +135,8 @@ impl Along<'_> {
     /// Ends of the whole: where the first object begins and the last ends.
     pub(super) fn hull(&self) -> Extent {
         [
-            fold(self.begins, f32::INFINITY, lower),
-            fold(self.ends, f32::NEG_INFINITY, higher),
+            fold(self.begins, f32::INFINITY, min),
+            fold(self.ends, f32::NEG_INFINITY, max),
         ]
     }
 }
@@ -144,22 +144,22 @@ impl Along<'_> {
 /// The lower of two numbers, of equal ones the first. Unlike `f32::min` it is one instruction, as none is
 /// NaN.
 #[inline]
-fn lower(a: f32, b: f32) -> f32 {
+fn min(a: f32, b: f32) -> f32 {
     if b < a { b } else { a }
 }
 
 /// The higher likewise.
 #[inline]
-fn higher(a: f32, b: f32) -> f32 {
+fn max(a: f32, b: f32) -> f32 {
     if b > a { b } else { a }
 }
 
 /// The extent of bounds, cut off at a cell.
 #[inline]
-fn cut_off(planes: &ObjectPlanes, cell: &ObjectPlanes) -> ObjectPlanes {
+fn clamp_to_cell(planes: &ObjectPlanes, cell: &ObjectPlanes) -> ObjectPlanes {
     std::array::from_fn(|k| {
         let ([lo, hi], [cell_lo, cell_hi]) = (planes[k], cell[k]);
-        [higher(cell_lo, lo), lower(cell_hi, hi)]
+        [max(cell_lo, lo), min(cell_hi, hi)]
     })
 }
 

@@ -1,4 +1,5 @@
-//! Gathers what a reader finds; faces become triangles and polygons, what cannot is counted.
+//! Builds a scene from what a reader finds. Faces become triangles and polygons; faces that cannot
+//! are skipped and counted.
 
 use super::{Place, ReadError, complete};
 use crate::geometry::{Aabb, Vec3};
@@ -6,23 +7,24 @@ use crate::primitive::{Polygon, Primitive, PrimitiveKind, ShapeError, Triangle};
 use crate::scene::{Camera, Light, Material, Note, NoteKind, SceneParts};
 use std::collections::HashMap;
 
-/// The most objects and skipped faces that one file may come to, instances of a mesh included. So
-/// many triangles take about 8 GiB.
-pub const MOST_FACES: usize = 1 << 25;
+/// Maximum number of objects and skipped faces of a file, including instances of meshes. This many
+/// triangles take about 8 GiB.
+pub const MAX_FACES: usize = 1 << 25;
 
-/// The most vertices of a face; larger ones are skipped.
-pub const MOST_VERTICES: usize = 1 << 20;
+/// Maximum number of vertices of a face; larger faces are skipped.
+pub const MAX_VERTICES: usize = 1 << 20;
 
-/// The most vertices of all polygons together.
-const MOST_CORNERS: usize = 1 << 27;
+/// Maximum number of vertices of all polygons together.
+const MAX_CORNERS: usize = 1 << 27;
 
-/// The most vertices of a face that is split into triangles, which may take the square of that.
-pub const MOST_VERTICES_SPLIT: usize = 10_000;
+/// Maximum number of vertices of a face that is split into triangles. Splitting can take time
+/// quadratic in it.
+pub const MAX_SPLIT_VERTICES: usize = 10_000;
 
-/// How many reasons are told apart; files may invent any number of them.
-const MOST_REASONS: usize = 64;
+/// Maximum number of distinct reasons that are counted, because a file can cause arbitrarily many.
+const MAX_REASONS: usize = 64;
 
-/// The reason for what was left out or changed, how often, and where first.
+/// Why something was skipped or changed, how often, and where first.
 struct Reason {
     kind: NoteKind,
     text: String,
@@ -30,10 +32,10 @@ struct Reason {
     first: Place,
 }
 
-/// What has been found so far.
+/// The scene as read so far.
 #[derive(Default)]
-pub(super) struct Gatherer {
-    /// The first camera that counts; readers say where there are more.
+pub(super) struct SceneBuilder {
+    /// The camera to use; readers note further cameras.
     pub camera: Option<Camera>,
     pub background: Option<Vec3>,
     pub lights: Vec<Light>,
@@ -41,11 +43,11 @@ pub(super) struct Gatherer {
     objects: Vec<Primitive>,
     material_of: Vec<u32>,
     materials: Vec<Material>,
-    /// Where each material stands in `materials`, by the bits of its numbers.
+    /// The index of each material in `materials`, by the bits of its numbers.
     slots: HashMap<[u64; 8], u32>,
-    /// The material of what follows.
+    /// The current material.
     material: Material,
-    /// Where it stands in `materials`, once an object has it.
+    /// Its index in `materials`, once an object uses it.
     slot: Option<u32>,
     reasons: Vec<Reason>,
     faces: usize,
@@ -53,29 +55,30 @@ pub(super) struct Gatherer {
     corners: usize,
 }
 
-impl Gatherer {
-    /// The tight box around all objects so far.
+impl SceneBuilder {
+    /// Returns the tight bounding box of all objects so far.
     pub fn bounds(&self) -> Aabb {
         complete::bounds(&self.objects)
     }
 
-    /// Makes room for objects that are known to follow.
+    /// Reserves memory for objects that are known to follow.
     pub fn reserve(&mut self, objects: usize) {
-        let objects = objects.min(MOST_FACES);
+        let objects = objects.min(MAX_FACES);
         self.objects.reserve_exact(objects);
         self.material_of.reserve_exact(objects);
     }
 
-    /// The material of the objects that follow. Equal materials become one, and a material that no
-    /// object has is left out.
+    /// Sets the material of the objects that follow. Equal materials are merged, and unused
+    /// materials are dropped.
     pub fn set_material(&mut self, material: Material) {
         self.material = material;
         self.slot = None;
     }
 
-    /// Notes that something was left out or changed: counted by reason, the first place named.
+    /// Notes that something was skipped or changed. Notes are counted by reason, with the position of
+    /// the first.
     pub fn note(&mut self, kind: NoteKind, text: &str, place: Place) {
-        let is_full = self.reasons.len() >= MOST_REASONS;
+        let is_full = self.reasons.len() >= MAX_REASONS;
         for text in [text, OTHER_REASONS] {
             let known = |reason: &&mut Reason| reason.kind == kind && reason.text == text;
             if let Some(reason) = self.reasons.iter_mut().find(known) {
@@ -94,11 +97,11 @@ impl Gatherer {
         }
     }
 
-    /// Adds a face: three vertices make a triangle, more a polygon, and a polygon off a plane
-    /// several triangles. Without area it is skipped.
+    /// Adds a face: a triangle if it has three vertices, a polygon if it has more. A non-planar
+    /// polygon is split into triangles. A face with zero area is skipped.
     ///
     /// # Errors
-    /// Numbers that are not finite, or too many faces.
+    /// A number is not finite, or there are too many faces.
     pub fn face(
         &mut self,
         place: Place,
@@ -106,7 +109,7 @@ impl Gatherer {
         normals: Option<&[Vec3]>,
     ) -> Result<(), ReadError> {
         if normals.is_some_and(|n| n.contains(&Vec3::ZERO)) {
-            const TEXT: &str = "vertex normal without length, the face's own taken";
+            const TEXT: &str = "zero-length vertex normal; using the face normal";
             self.note(NoteKind::Changed, TEXT, place);
         }
         if let &[a, b, c] = vertices {
@@ -114,13 +117,13 @@ impl Gatherer {
             let triangle = Triangle::new([a, b, c], normals).map(Primitive::Triangle);
             return self.object(place, "a triangle", triangle);
         }
-        if vertices.len() > MOST_VERTICES {
-            let text = format!("face of more than {MOST_VERTICES} vertices");
+        if vertices.len() > MAX_VERTICES {
+            let text = format!("face of more than {MAX_VERTICES} vertices");
             return self.skip_face(place, &text);
         }
         self.corners += vertices.len();
-        if self.corners > MOST_CORNERS {
-            let most = format_args!("at most {MOST_CORNERS} vertices of polygons in a file");
+        if self.corners > MAX_CORNERS {
+            let most = format_args!("at most {MAX_CORNERS} vertices of polygons in a file");
             return Err(ReadError::at(place, most, "more"));
         }
         match Polygon::new(vertices.to_vec(), normals.map(<[Vec3]>::to_vec)) {
@@ -129,16 +132,15 @@ impl Gatherer {
         }
     }
 
-    /// Adds a face as triangles; those without area are left out silently.
+    /// Adds a face as triangles; triangles with zero area are dropped silently.
     fn split(
         &mut self,
         place: Place,
         vertices: &[Vec3],
         normals: Option<&[Vec3]>,
     ) -> Result<(), ReadError> {
-        if vertices.len() > MOST_VERTICES_SPLIT {
-            let text =
-                format!("polygon off a common plane with more than {MOST_VERTICES_SPLIT} vertices");
+        if vertices.len() > MAX_SPLIT_VERTICES {
+            let text = format!("non-planar polygon of more than {MAX_SPLIT_VERTICES} vertices");
             return self.skip_face(place, &text);
         }
         let before = self.objects.len();
@@ -151,18 +153,18 @@ impl Gatherer {
             }
         }
         if self.objects.len() > before {
-            const TEXT: &str = "polygon off a common plane split into triangles";
+            const TEXT: &str = "non-planar polygon split into triangles";
             self.note(NoteKind::Changed, TEXT, place);
             Ok(())
         } else {
-            self.skip_face(place, WITHOUT_AREA)
+            self.skip_face(place, ZERO_AREA)
         }
     }
 
-    /// Adds an object of the current material, or skips it where it has no extent.
+    /// Adds an object with the current material, or skips it if it is degenerate.
     ///
     /// # Errors
-    /// Numbers that make no object, or too many objects.
+    /// The numbers do not define an object, or there are too many objects.
     pub fn object(
         &mut self,
         place: Place,
@@ -177,20 +179,20 @@ impl Gatherer {
                 self.material_of.push(material);
                 Ok(())
             }
-            Err(ShapeError::ZeroArea) => self.skip_face(place, WITHOUT_AREA),
-            Err(ShapeError::NoLength) => self.skip_face(place, "cylinder or cone without length"),
+            Err(ShapeError::ZeroArea) => self.skip_face(place, ZERO_AREA),
+            Err(ShapeError::NoLength) => self.skip_face(place, "cylinder or cone with zero length"),
             Err(reason) => Err(ReadError::at(
                 place,
-                format_args!("numbers that make {what}"),
+                format_args!("numbers that define {what}"),
                 reason,
             )),
         }
     }
 
-    /// Notes that a face is left out.
+    /// Notes that a face is skipped.
     ///
     /// # Errors
-    /// Too many faces.
+    /// There are too many faces.
     pub fn skip_face(&mut self, place: Place, why: &str) -> Result<(), ReadError> {
         self.count_face(place)?;
         self.note(NoteKind::Skipped, why, place);
@@ -199,14 +201,14 @@ impl Gatherer {
 
     fn count_face(&mut self, place: Place) -> Result<(), ReadError> {
         self.faces += 1;
-        if self.faces > MOST_FACES {
-            let most = format_args!("at most {MOST_FACES} objects in a file");
+        if self.faces > MAX_FACES {
+            let most = format_args!("at most {MAX_FACES} objects in a file");
             return Err(ReadError::at(place, most, "more"));
         }
         Ok(())
     }
 
-    /// Where the current material stands; it is entered when its first object is met.
+    /// Returns the index of the current material, which is added with its first object.
     fn slot(&mut self) -> u32 {
         if let Some(slot) = self.slot {
             return slot;
@@ -235,7 +237,7 @@ impl Gatherer {
         slot
     }
 
-    /// The scene with a camera of its own, and what there is to say of it.
+    /// Returns the scene, with the given camera and the load report.
     pub fn finish(mut self, camera: Camera) -> SceneParts {
         let found = Note::new(NoteKind::Read, self.found());
         self.notes.insert(0, found);
@@ -261,16 +263,16 @@ impl Gatherer {
         }
     }
 
-    /// The scene of a format without backgrounds that may lack camera and lights: they are made up,
-    /// `up` being where upright things point.
+    /// Returns the scene of a format without background colors, with default camera and lights if it
+    /// has none. `up` is the format's up direction.
     pub fn finish_mesh(mut self, up: Vec3) -> SceneParts {
         self.background = Some(complete::BACKGROUND);
-        let text = "background: grey";
-        self.notes.push(Note::new(NoteKind::MadeUp, text));
+        let text = "no background color in the file; using gray";
+        self.notes.push(Note::new(NoteKind::Defaulted, text));
         let bounds = self.bounds();
         let camera = self.camera.unwrap_or_else(|| {
-            let text = "no camera: one taken that frames all objects";
-            self.notes.push(Note::new(NoteKind::MadeUp, text));
+            let text = "no camera in the file; using one that frames all objects";
+            self.notes.push(Note::new(NoteKind::Defaulted, text));
             complete::camera(&bounds, up)
         });
         let mut parts = self.finish(camera);
@@ -278,7 +280,7 @@ impl Gatherer {
         parts
     }
 
-    /// What the file itself holds, in a sentence.
+    /// Returns what the file contains, in one sentence.
     fn found(&self) -> String {
         let mut counts = [0_usize; PrimitiveKind::ALL.len()];
         for object in &self.objects {
@@ -304,5 +306,5 @@ impl Gatherer {
     }
 }
 
-const WITHOUT_AREA: &str = "polygon without area";
-const OTHER_REASONS: &str = "other things";
+const ZERO_AREA: &str = "polygon with zero area";
+const OTHER_REASONS: &str = "other reasons";
