@@ -118,7 +118,7 @@ impl Space for UnitFrame {
 impl SpaceRay for PackedRay {
     #[inline(always)]
     fn interval(&self) -> [f64; 2] {
-        [self.widened.t_min, self.widened.t_max]
+        [self.as_f64.t_min, self.as_f64.t_max]
     }
 
     #[inline(always)]
@@ -134,7 +134,7 @@ impl SpaceRay for PackedRay {
         visitor: &mut V,
         probe: &mut P,
     ) {
-        let ray = TraversalRayF32::new(tree, &self.frame, &self.widened);
+        let ray = TraversalRayF32::new(tree, &self.frame, &self.as_f64);
         let mut probe = WorldProbe { ray: self, probe };
         traverse_structure(tree, self.interval(), &ray, scratch, visitor, &mut probe);
     }
