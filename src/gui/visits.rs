@@ -4,7 +4,8 @@
 use super::picture_job::{PictureJob, Progress};
 use super::state::Current;
 use super::symbol::grouped;
-use crate::jobs::{CountVisits, PIXEL_COUNTS_LIMIT, PictureVisits, Scheduler};
+use crate::jobs::{CountVisits, PictureVisits, Scheduler};
+use crate::measure::heat::PIXEL_COUNTS_LIMIT;
 use std::sync::Arc;
 
 /// The job that counts visits.

@@ -50,7 +50,7 @@ pub use load::Load;
 pub use paper::RepeatPaper;
 pub use picture::{RenderPicture, Shown, Stage, Update};
 pub use picture_terms::CountTerms;
-pub use pixel_counts::{CountPixels, CountedPixels, PIXEL_COUNTS_LIMIT};
+pub use pixel_counts::{CountPixels, CountedPixels};
 pub use pixel_times::TimePixels;
 pub use scheduler::{Handle, Scheduler, Starter};
 pub use slot::{Priority, Slot};

@@ -68,7 +68,7 @@ pub enum Update {
         colors: Vec<Vec3>,
     },
     /// What every pixel cost. Comes right before the complete figures, except for pictures of more
-    /// than [`super::PIXEL_COUNTS_LIMIT`] pixels.
+    /// than [`PIXEL_COUNTS_LIMIT`](crate::measure::heat::PIXEL_COUNTS_LIMIT) pixels.
     PixelCounts(Arc<PixelCounts>),
     /// More is known. Figures are provisional until `complete`.
     Measured {

@@ -4,16 +4,13 @@ use super::context::{Context, JobError};
 use super::job::Job;
 use super::slot::{Priority, Slot};
 use crate::measure::Measurement;
-use crate::measure::heat::PixelCounts;
+use crate::measure::heat::{PIXEL_COUNTS_LIMIT, PixelCounts};
 use crate::scene::Scene;
 use crate::structure::Tree;
 use crate::trace::{RenderSettings, render_counted};
 use rayon::ThreadPool;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
-
-/// The most pixels of which the counts are kept, at about 100 bytes each.
-pub const PIXEL_COUNTS_LIMIT: u64 = 4_000_000;
 
 /// How often provisional figures are sent.
 const FIGURES_EVERY: Duration = Duration::from_millis(150);

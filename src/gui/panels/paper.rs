@@ -4,9 +4,8 @@ use super::{Panel, Side};
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::State;
 use crate::jobs::{End, Handle, News, RepeatPaper, Scheduler, Standing};
-use crate::measure::paper::{
-    Cell, Conditions, Mark, PaperScene, Reproduction, Row, SCENES, printed_unit,
-};
+use crate::measure::paper::{Cell, Conditions, Mark, PaperScene, Reproduction, Row, SCENES};
+use crate::present::words::printed_unit;
 
 pub const PANEL: Panel = Panel {
     title: "The paper's tables",

@@ -9,9 +9,10 @@ use crate::gui::picture_job::{PictureJob, Progress};
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::{Current, State};
 use crate::gui::symbol::grouped;
-use crate::jobs::{CountTerms, End, PIXEL_COUNTS_LIMIT, Scheduler, Standing};
+use crate::jobs::{CountTerms, End, Scheduler, Standing};
+use crate::measure::heat::PIXEL_COUNTS_LIMIT;
 use crate::measure::model::{Part, PictureTerms, Region, TermTimes};
-use crate::measure::significant;
+use crate::present::number::significant;
 use std::sync::Arc;
 
 /// Which part of the picture is asked about.
