@@ -3,6 +3,7 @@
 
 use bspscope::gui::{App, StartOptions};
 use bspscope::scene::{Cylinders, SceneRequest};
+use bspscope::setup::Setup;
 use cpu_time::ThreadTime;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -12,15 +13,15 @@ const FRAMES: usize = 300;
 
 fn main() {
     let mut start = StartOptions {
-        scene: SceneRequest {
+        setup: Setup::new(SceneRequest {
             cylinders: Cylinders::Polygons(10),
             ..SceneRequest::parse("rings")
-        },
+        }),
         remember: false,
         ..StartOptions::default()
     };
-    start.render.width = 256;
-    start.render.height = 256;
+    start.setup.render.width = 256;
+    start.setup.render.height = 256;
     let mut window = Harness::builder()
         .with_size([1400.0, 900.0])
         .with_max_steps(40)

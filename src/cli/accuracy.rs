@@ -1,10 +1,12 @@
 //! `bspscope trade`: what accuracy costs, by time and error.
 
 use super::args::{TradeArgs, TradeFormat};
-use super::{Outcome, bar, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::measure::accuracy::{choices, reference, trade};
 use crate::present::report::accuracy::{TradeReport, write_csv, write_json, write_text};
 use crate::scene::Cylinders;
+use crate::setup::Setup;
 use crate::trace::RenderSettings;
 use anyhow::Result;
 
@@ -14,14 +16,19 @@ pub fn run(args: &TradeArgs) -> Result<Outcome> {
     let exact = super::args::CylinderArgs {
         cylinders: Cylinders::Exact,
     };
-    let (_, scene) = resolve::scene(&args.scene, &exact)?;
+    let (request, scene) = resolve::scene(&args.scene, &exact)?;
     let render = RenderSettings {
         samples: args.samples,
-        ..resolve::render(*scene.camera(), &args.trace, &args.picture)
+        ..resolve::render(&args.trace, &args.picture)
     };
     // A wrong size is told before a tree is built for it.
-    render.view()?;
-    let mut choices = choices(&reference(&build, &render), &scene);
+    render.view(&scene)?;
+    let setup = Setup {
+        scene: request,
+        build,
+        render,
+    };
+    let mut choices = choices(&reference(&setup), &scene);
     if !args.only.is_empty() {
         let asked = |knob: &str| args.only.iter().any(|only| only == knob);
         choices.retain(|choice| match &choice.turned[..] {

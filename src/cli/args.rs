@@ -704,15 +704,6 @@ impl WindowArgs {
     }
 }
 
-impl CameraArgs {
-    /// How many of the four were given.
-    #[cfg(feature = "gui")]
-    pub fn given(&self) -> usize {
-        let points = [self.from, self.at, self.up];
-        points.iter().flatten().count() + usize::from(self.angle.is_some())
-    }
-}
-
 /// Examples, the scenes that can be generated, and the files that can be read.
 fn help(examples: &str) -> String {
     let mut text = "Examples:".to_owned();
@@ -764,28 +755,21 @@ mod tests {
                 .map(BuildSettings::for_method)
                 .collect::<Vec<_>>()
         );
-        let camera = crate::scene::builtin::generate("teaching", None)
-            .unwrap()
-            .camera;
-        let mut render = crate::cli::resolve::render(camera, &args.trace, &args.picture);
-        render.threads = 0;
-        assert_eq!(render, crate::trace::RenderSettings::for_camera(camera));
+        let render = crate::cli::resolve::render(&args.trace, &args.picture);
+        assert_eq!(render, crate::trace::RenderSettings::default());
     }
 
     #[test]
     fn a_copied_command_measures_with_the_same_settings() {
         use crate::cli::resolve;
-        use crate::scene::{Camera, SceneSource};
+        use crate::scene::{CameraOverride, SceneSource};
         use crate::trace::RenderSettings;
         use crate::workspace::{PictureSettings, TreeSettings, measure_command};
 
-        let scene_camera = crate::scene::builtin::generate("teaching", None)
-            .unwrap()
-            .camera;
         let plain = TreeSettings {
             cylinders: Cylinders::Exact,
             build: BuildSettings::default(),
-            picture: PictureSettings::of(&RenderSettings::for_camera(scene_camera)),
+            picture: PictureSettings::of(&RenderSettings::default()),
         };
         let mut other = plain.clone();
         other.cylinders = Cylinders::Polygons(10);
@@ -803,12 +787,11 @@ mod tests {
         picture.resolution = [640, 360];
         (picture.d_arec, picture.cut_off, picture.threads) = (0, 0.01, 7);
         picture.sampling = Sampling::Corner;
-        let moved = Camera {
-            from: Vec3::new(-1.0 / 3.0, -2e-9, 3e20),
-            at: Vec3::new(-0.5, 0.0, 7.0),
-            up: Vec3::new(0.0, -1.0, 0.0),
-            angle: 12.3,
-            ..scene_camera
+        let moved = CameraOverride {
+            from: Some(Vec3::new(-1.0 / 3.0, -2e-9, 3e20)),
+            at: Some(Vec3::new(-0.5, 0.0, 7.0)),
+            up: Some(Vec3::new(0.0, -1.0, 0.0)),
+            angle: Some(12.3),
         };
         let mut all = vec![plain.clone(), other];
         let with = |change: &dyn Fn(&mut TreeSettings)| {
@@ -825,8 +808,8 @@ mod tests {
             SceneSource::File("/not/there/it's -- a \"scene\" $HOME.nff".into()),
         ];
         for settings in &all {
-            for (source, camera) in sources.iter().zip([None, Some(moved)]) {
-                let line = measure_command(source, camera.as_ref(), settings);
+            for (source, camera) in sources.iter().zip([CameraOverride::default(), moved]) {
+                let line = measure_command(source, &camera, settings);
                 let words = shell_words::split(&line).unwrap();
                 let Some(Command::Measure(args)) = Arguments::parse_from(words).command else {
                     panic!("not a measurement: {line}");
@@ -835,13 +818,12 @@ mod tests {
                 assert_eq!(args.scene.cylinders.cylinders, settings.cylinders, "{line}");
                 let builds = resolve::builds(&args.methods.method, &args.build).unwrap();
                 assert_eq!(builds, std::slice::from_ref(&settings.build), "{line}");
-                let mut render = resolve::render(scene_camera, &args.trace, &args.picture);
-                render.threads = args.trace.threads;
-                let expected = settings.picture.with(camera.unwrap_or(scene_camera));
+                let render = resolve::render(&args.trace, &args.picture);
+                let expected = settings.picture.with(camera);
                 assert_eq!(render, expected, "{line}");
             }
         }
-        let line = measure_command(&sources[0], None, &plain);
+        let line = measure_command(&sources[0], &CameraOverride::default(), &plain);
         let expected = "bspscope measure balls:3 --method midpoint --resolution 512x512 --d-arec 4";
         assert_eq!(line, expected);
     }

@@ -1,7 +1,8 @@
 //! `bspscope compare`: two trees of a scene beside each other, under equal conditions or not at all.
 
 use super::args::CompareArgs;
-use super::{Outcome, measure, output, resolve};
+use super::outcome::Outcome;
+use super::{measure, output, resolve};
 use crate::measure::unequal;
 use crate::present::report::Report;
 use anyhow::Result;
@@ -9,8 +10,8 @@ use anyhow::Result;
 pub fn run(args: &CompareArgs) -> Result<Outcome> {
     output::check_place(args.report.output.as_deref())?;
     let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
-    render.view()?;
+    let render = resolve::render(&args.trace, &args.picture);
+    render.view(&scene)?;
     let a = measure::run_of(&scene, &args.a, &render)?;
     let b = measure::run_of(&scene, &args.b, &render)?;
     let reasons = unequal((&a.measurement, &a.picture), (&b.measurement, &b.picture));

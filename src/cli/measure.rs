@@ -1,7 +1,8 @@
 //! `bspscope measure`: every parameter of the paper for a scene and some methods.
 
 use super::args::MeasureArgs;
-use super::{Outcome, bar, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::measure::{Measured, measure};
 use crate::present::report::Report;
 use crate::scene::Scene;
@@ -13,9 +14,9 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome> {
     output::check_place(args.report.output.as_deref())?;
     let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
     let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
+    let render = resolve::render(&args.trace, &args.picture);
     // A wrong size is told before a tree is built for it.
-    render.view()?;
+    render.view(&scene)?;
     let mut runs = Vec::new();
     for build in &builds {
         runs.push(run_of(&scene, build, &render)?.measurement);

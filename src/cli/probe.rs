@@ -1,7 +1,8 @@
 //! `bspscope probe`: everything that the rays of one pixel did.
 
 use super::args::{ListFormat, ProbeArgs};
-use super::{Outcome, bar, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::present::report::pixel::{PixelReport, write_json, write_text};
 use crate::structure::build;
 use crate::trace::record_pixel;
@@ -11,9 +12,9 @@ pub fn run(args: &ProbeArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
     let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
     let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
+    let render = resolve::render(&args.trace, &args.picture);
     // A wrong size is told before a tree is built for it.
-    render.view()?;
+    render.view(&scene)?;
     let pixel = pixel_of(args.pixel, args.picture.resolution)?;
     let mut records = Vec::new();
     for settings in &builds {

@@ -1,7 +1,8 @@
 //! `bspscope report`: pictures, tables, settings and machine on one page.
 
 use super::args::PageArgs;
-use super::{Outcome, bar, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::measure::measure_pixels;
 use crate::present::export::write_page;
 use crate::present::report::Report;
@@ -11,8 +12,8 @@ pub fn run(args: &PageArgs) -> Result<Outcome> {
     output::check_place(Some(&args.output))?;
     let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
     let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
-    render.view()?;
+    let render = resolve::render(&args.trace, &args.picture);
+    render.view(&scene)?;
     let (mut runs, mut all_counts, mut picture) = (Vec::new(), Vec::new(), None);
     for build in &builds {
         let method = build.method.name;

@@ -4,7 +4,9 @@ use super::args::{BuildArgs, CameraArgs, CylinderArgs, PictureArgs, TraceArgs};
 use super::bar;
 use crate::present::report::Writer;
 use crate::scene::format::{FORMATS, FormatError};
-use crate::scene::{Camera, LoadError, NoteKind, Scene, SceneRequest, SceneSource, builtin, load};
+use crate::scene::{
+    CameraOverride, LoadError, NoteKind, Scene, SceneRequest, SceneSource, builtin, load,
+};
 use crate::structure::{BuildSettings, Method};
 use crate::trace::RenderSettings;
 use anyhow::{Result, bail};
@@ -104,33 +106,31 @@ pub fn builds(methods: &[Method], args: &BuildArgs) -> Result<Vec<BuildSettings>
     Ok(builds)
 }
 
-/// The scene's camera, but for what was asked for.
-fn camera(scene: Camera, asked: &CameraArgs) -> Camera {
-    Camera {
-        from: asked.from.unwrap_or(scene.from),
-        at: asked.at.unwrap_or(scene.at),
-        up: asked.up.unwrap_or(scene.up),
-        angle: asked.angle.unwrap_or(scene.angle),
-        ..scene
-    }
-}
-
-/// Render settings for the scene's camera, or the one asked for, with the number of threads that is really used.
-pub fn render(scene: Camera, trace: &TraceArgs, picture: &PictureArgs) -> RenderSettings {
+/// Render settings as asked for.
+pub fn render(trace: &TraceArgs, picture: &PictureArgs) -> RenderSettings {
     let [width, height] = picture.resolution;
+    let CameraArgs {
+        from,
+        at,
+        up,
+        angle,
+    } = trace.camera;
     RenderSettings {
+        camera: CameraOverride {
+            from,
+            at,
+            up,
+            angle,
+        },
         width,
         height,
         d_arec: trace.d_arec,
-        cut_off: trace.cut_off,
+        min_contribution: trace.cut_off,
         precision: trace.precision,
         kernel: trace.kernel,
         sampling: trace.sampling,
-        threads: match trace.threads {
-            0 => std::thread::available_parallelism().map_or(1, usize::from),
-            threads => threads,
-        },
-        ..RenderSettings::for_camera(camera(scene, &trace.camera))
+        threads: trace.threads,
+        ..RenderSettings::default()
     }
 }
 

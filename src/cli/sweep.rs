@@ -2,10 +2,10 @@
 //! on with at any time.
 
 use super::args::{BuildArgs, ChartArgs, SweepArgs};
-use super::{Outcome, bar, output, resolve};
-use crate::measure::sweep::{
-    Chart, Form, Key, Plan, Row, answers, done, header, line, png, read_rows, svg,
-};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
+use crate::measure::sweep::{Form, Key, Plan, Row, answers, done, header, line, read_rows};
+use crate::present::chart::{Chart, png, svg};
 use crate::structure::{BuildSettings, MaxDepth};
 use anyhow::{Context, Result, bail};
 use std::fs::{self, OpenOptions};
@@ -21,8 +21,8 @@ pub fn run(args: &SweepArgs) -> Result<Outcome> {
     check_charts(&args.charts)?;
     let bases = bases(args)?;
     let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(*scene.camera(), &args.trace, &args.picture);
-    render.view()?;
+    let render = resolve::render(&args.trace, &args.picture);
+    render.view(&scene)?;
     let plan = Plan::new(&request, &bases, &args.d_max.0, &args.n_oilf.0, &render);
     let points: Vec<(usize, Key)> = (plan.points.iter().enumerate())
         .filter(|(number, _)| args.shard.contains(*number))

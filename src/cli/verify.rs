@@ -1,7 +1,8 @@
 //! `bspscope verify`: trees are valid, and give the same hits as testing every object.
 
 use super::args::{PictureArgs, VerifyArgs};
-use super::{Outcome, bar, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::measure::judge::{Answer, Case, Verdict};
 use crate::measure::{Answers, RaySample, Verification, answer, compare, sample_rays, unsplit};
 use crate::present::report::plain_table;
@@ -67,7 +68,7 @@ fn findings_of(text: &str, builds: &[BuildSettings], args: &VerifyArgs) -> Resul
     let (_, scene) = resolve::scene(text, &args.cylinders)?;
     // The sample's own size takes the place of a resolution.
     let any_size = PictureArgs { resolution: [1, 1] };
-    let render = resolve::render(*scene.camera(), &args.trace, &any_size);
+    let render = resolve::render(&args.trace, &any_size);
     let pool = thread_pool(render.threads)?;
     let precision = render.precision_for(&scene).precision;
     let mut expected: Option<(RaySample, Answers)> = None;

@@ -1,7 +1,8 @@
 //! `bspscope [SCENE]`: the window, or the same job without one.
 
 use super::args::WindowArgs;
-use super::{Outcome, measure, output, resolve};
+use super::outcome::Outcome;
+use super::{measure, output, resolve};
 use crate::files;
 use crate::present::export;
 use crate::present::report::{Report, write_summary};
@@ -81,20 +82,18 @@ fn is_plain(args: &WindowArgs) -> bool {
 fn open(args: &WindowArgs, workspace: Option<(PathBuf, Workspace)>) -> Result<Option<String>> {
     use crate::gui::{GuiError, StartOptions};
     use crate::scene::SceneSource;
+    use crate::setup::Setup;
 
     let mut start = StartOptions::default();
     // The window shows one method at a time.
     let methods = resolve::methods(&args.methods.method);
-    start.build = resolve::builds(&methods, &args.build)?.remove(0);
-    start.render = resolve::render(start.render.camera, &args.trace, &args.picture);
-    start.own_camera = match args.trace.camera.given() {
-        0 => false,
-        4 => true,
-        _ => bail!("the window takes a camera as a whole: --from, --at, --up and --angle"),
-    };
-    start.scene = SceneRequest {
-        source: SceneSource::parse(scene_text(args)),
-        cylinders: args.cylinders.cylinders,
+    start.setup = Setup {
+        scene: SceneRequest {
+            source: SceneSource::parse(scene_text(args)),
+            cylinders: args.cylinders.cylinders,
+        },
+        build: resolve::builds(&methods, &args.build)?.remove(0),
+        render: resolve::render(&args.trace, &args.picture),
     };
     start.last_session = args.scene.is_none() && args.lesson.is_none() && is_plain(args);
     start.workspace = workspace;
@@ -122,7 +121,7 @@ fn scene_text(args: &WindowArgs) -> &str {
 fn without_window(args: &WindowArgs) -> Result<Outcome> {
     let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
     let (request, scene) = resolve::scene(scene_text(args), &args.cylinders)?;
-    let settings = resolve::render(*scene.camera(), &args.trace, &args.picture);
+    let settings = resolve::render(&args.trace, &args.picture);
     summary(&request, &scene, builds, &settings)
 }
 
@@ -133,8 +132,7 @@ fn workspace_without_window(workspace: &Workspace) -> Result<Outcome> {
         cylinders: workspace.a.cylinders,
     };
     let scene = resolve::load_scene(&request)?;
-    let camera = workspace.camera.unwrap_or(*scene.camera());
-    let settings = workspace.a.picture.with(camera);
+    let settings = workspace.a.picture.with(workspace.camera);
     let trees = [Some(&workspace.a), workspace.b.as_ref()];
     let builds = trees.into_iter().flatten().map(|t| t.build.clone());
     summary(&request, &scene, builds.collect(), &settings)
@@ -146,7 +144,7 @@ fn summary(
     builds: Vec<BuildSettings>,
     settings: &RenderSettings,
 ) -> Result<Outcome> {
-    settings.view()?;
+    settings.view(scene)?;
     let mut runs = Vec::new();
     let mut last = None;
     for build in &builds {

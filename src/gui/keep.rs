@@ -5,8 +5,8 @@ use super::selection::Selection;
 use super::state::{Current, State, Wanted};
 use super::walk::Wish;
 use crate::scene::SceneRequest;
+use crate::setup::Setup;
 use crate::structure::Moment;
-use crate::worker::Request;
 use crate::workspace::{PictureSettings, Selected, TreeSettings, Workspace};
 use std::collections::BTreeMap;
 
@@ -30,7 +30,7 @@ impl State {
     pub fn workspace(&self) -> Workspace {
         let Wanted { a, b } = self.all_wanted();
         let mut workspace = Workspace::new(a.scene.source.clone(), settings(&a));
-        workspace.camera = a.own_camera.then_some(a.render.camera);
+        workspace.camera = a.render.camera;
         workspace.b = b.as_ref().map(settings);
         workspace.notes.clone_from(&self.notes);
         let view = &mut workspace.view;
@@ -53,21 +53,17 @@ impl State {
 
     /// Wants what a workspace says; pictures are at most `largest` pixels wide and high.
     pub fn restore(&mut self, workspace: &Workspace, largest: u32) {
-        let own_camera = workspace.camera.is_some();
-        let camera = workspace.camera.unwrap_or(self.wanted.render.camera);
         let request = |settings: &TreeSettings| {
-            let mut render = settings.picture.with(camera);
+            let mut render = settings.picture.with(workspace.camera);
             render.width = render.width.min(largest);
             render.height = render.height.min(largest);
-            Request {
+            Setup {
                 scene: SceneRequest {
                     source: workspace.scene.source.clone(),
                     cylinders: settings.cylinders,
                 },
                 build: settings.build.clone(),
                 render,
-                own_camera,
-                reload: self.wanted.reload,
             }
         };
         let (a, b) = (request(&workspace.a), workspace.b.as_ref().map(request));
@@ -146,7 +142,7 @@ impl State {
     }
 }
 
-fn settings(request: &Request) -> TreeSettings {
+fn settings(request: &Setup) -> TreeSettings {
     TreeSettings {
         cylinders: request.scene.cylinders,
         build: request.build.clone(),
@@ -174,5 +170,5 @@ pub fn command(state: &State) -> String {
         (Which::B, Some(b)) => b,
         _ => &workspace.a,
     };
-    crate::workspace::measure_command(&workspace.scene.source, workspace.camera.as_ref(), settings)
+    crate::workspace::measure_command(&workspace.scene.source, &workspace.camera, settings)
 }

@@ -6,12 +6,11 @@
 //! each; the panes are [`picture_pane`], [`view3d`] and [`tree_panes`], which share what [`inspect`]
 //! knows of the tree. [`comparing`] is what two trees side by side need; [`build_bar`] goes through
 //! the build of a tree. [`keep`] and [`workspaces`] save what is shown and bring it back;
-//! [`exporting`] writes it for other programs. Long measurements take [`turns`] in the background: [`trading`] what accuracy
+//! [`exporting`] writes it for other programs. Each long measurement is a [`study`] in the background: [`trading`] what accuracy
 //! costs, [`modelling`] what the terms of equation (1) take, [`sweeping`] a grid of settings.
 //! [`lessons`] guides through it all.
 
 mod app;
-mod background;
 mod build_bar;
 mod build_view;
 mod compare_bar;
@@ -31,9 +30,9 @@ mod modelling;
 mod notices;
 mod palette;
 mod panels;
+mod picture_job;
 mod picture_marks;
 mod picture_pane;
-mod picture_pass;
 mod picture_region;
 mod recent;
 mod rows;
@@ -44,12 +43,13 @@ mod shortcuts;
 mod state;
 mod status;
 mod step_text;
+mod study;
 mod sweeping;
 mod symbol;
+mod tasks;
 mod top_bar;
 mod trading;
 mod tree_panes;
-mod turns;
 mod view3d;
 mod visits;
 mod walk;
@@ -59,11 +59,8 @@ mod workspaces;
 pub use app::App;
 pub use shortcuts::{Action, SHORTCUTS, Scope, Shortcut};
 
-use crate::geometry::Vec3;
 use crate::lesson::Lesson;
-use crate::scene::{Camera, SceneRequest};
-use crate::structure::BuildSettings;
-use crate::trace::RenderSettings;
+use crate::setup::Setup;
 use crate::workspace::Workspace;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -84,17 +81,12 @@ fn name_widget(ui: &egui::Ui, response: &egui::Response, name: &str) {
 /// What the window opens with.
 #[derive(Clone, Debug)]
 pub struct StartOptions {
-    pub scene: SceneRequest,
-    pub build: BuildSettings,
-    /// Its camera counts only if `own_camera`.
-    pub render: RenderSettings,
-    /// Whether `render` has its own camera; if not, the scene's is used.
-    pub own_camera: bool,
+    pub setup: Setup,
     /// The lesson that the window opens with.
     pub lesson: Option<Lesson>,
     /// Whether recent scenes and the window's layout are read from and kept in the settings folder.
     pub remember: bool,
-    /// A workspace to open, with its path; it takes the place of scene and settings above.
+    /// A workspace to open, with its path; it takes the place of `setup`.
     pub workspace: Option<(PathBuf, Workspace)>,
     /// Whether to go on where the last session ended, if that was kept.
     pub last_session: bool,
@@ -105,20 +97,8 @@ pub struct StartOptions {
 impl Default for StartOptions {
     /// The paper's `balls` with the paper's settings.
     fn default() -> Self {
-        // Stands in until the scene brings its own.
-        let camera = Camera {
-            from: Vec3::ZERO,
-            at: Vec3::Y,
-            up: Vec3::Z,
-            angle: 45.0,
-            near: 1.0,
-            resolution: [512, 512],
-        };
         StartOptions {
-            scene: SceneRequest::parse("balls"),
-            build: BuildSettings::default(),
-            render: RenderSettings::for_camera(camera),
-            own_camera: false,
+            setup: Setup::default(),
             lesson: None,
             remember: true,
             workspace: None,

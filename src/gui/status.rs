@@ -49,7 +49,7 @@ impl StatusLine {
                 Some(current) => format!(
                     "Sample {} of {}",
                     current.sample + 1,
-                    current.shown.render.samples
+                    current.shown.setup.render.samples
                 ),
                 None => "Sample –".to_owned(),
             };

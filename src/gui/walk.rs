@@ -1,8 +1,8 @@
 //! The picked pixel: its rays, which of them is selected, and the step its walk has been followed
 //! to; by hand or by itself.
 
-use super::background::Latest;
 use super::state::{Current, State};
+use super::tasks::Latest;
 use crate::trace::{PixelRecord, RayPath, Step, record_pixel_within};
 use std::sync::Arc;
 use std::time::Duration;
@@ -105,7 +105,7 @@ fn target(listed: &[usize], step: usize, go: Go) -> Option<usize> {
 impl Current {
     /// Asks for the rays of a pixel; one outside the picture picks none.
     pub fn pick(&mut self, [x, y]: [u32; 2]) {
-        let inside = x < self.shown.render.width && y < self.shown.render.height;
+        let inside = x < self.shown.setup.render.width && y < self.shown.setup.render.height;
         self.wish = inside.then_some(Wish {
             pixel: [x, y],
             ray: 0,
@@ -231,12 +231,12 @@ impl Current {
         let Some(wish) = self.wish else {
             return;
         };
-        if self.shown.render.view().is_err() {
+        if self.shown.setup.render.view(&self.shown.scene).is_err() {
             self.unpick();
             return;
         }
         let (scene, tree) = (Arc::clone(&self.shown.scene), Arc::clone(&self.shown.tree));
-        let render = self.shown.render;
+        let render = self.shown.setup.render;
         let key = (self.number, wish.pixel);
         let make = move || {
             record_pixel_within(&scene, &tree, &render, wish.pixel, MOST_RECORDED)

@@ -1,12 +1,12 @@
 //! Measures what the steps of a lesson look at, and holds it against what they expect.
 
+use super::content::{Lesson, LessonError, Step};
 use super::figures::{Difference, Figures, SideFigures};
 use super::question::Answer;
-use super::setup::SideSetup;
-use super::{Lesson, LessonError, Step};
 use crate::measure::measure;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Scene, SceneRequest, load};
+use crate::setup::Setup;
 use crate::trace::{Picture, record_pixel};
 
 /// Measures steps; keeps the scene of the last one.
@@ -28,8 +28,8 @@ impl Measurer {
         progress: &Progress,
     ) -> Result<Figures, LessonError> {
         let wrong = |reason: String| lesson.error(step.scene_line, reason);
-        let (a, of_a) = self.side(step, &step.setup.a, progress).map_err(wrong)?;
-        let b = match &step.setup.b {
+        let (a, of_a) = self.side(step, &step.subject.a, progress).map_err(wrong)?;
+        let b = match &step.subject.b {
             Some(b) => Some(self.side(step, b, progress).map_err(wrong)?),
             None => None,
         };
@@ -43,11 +43,10 @@ impl Measurer {
     fn side(
         &mut self,
         step: &Step,
-        side: &SideSetup,
+        setup: &Setup,
         progress: &Progress,
     ) -> Result<(SideFigures, Picture), String> {
-        let setup = &step.setup;
-        let wanted = setup.scene(side);
+        let wanted = setup.scene.clone();
         let kept = self.scene.take().filter(|(known, _)| *known == wanted);
         let (_, scene) = self.scene.insert(match kept {
             Some(kept) => kept,
@@ -56,12 +55,13 @@ impl Measurer {
                 (wanted, scene)
             }
         });
-        let render = setup.render(side, *scene.camera(), 0);
+        let Setup { build, render, .. } = setup;
         let measured =
-            measure(scene, &side.build, &render, progress).map_err(|error| error.to_string())?;
-        let record = setup
+            measure(scene, build, render, progress).map_err(|error| error.to_string())?;
+        let record = step
+            .subject
             .pixel
-            .map(|pixel| record_pixel(scene, &measured.tree, &render, pixel));
+            .map(|pixel| record_pixel(scene, &measured.tree, render, pixel));
         let record = record.transpose().map_err(|error| error.to_string())?;
         let figures = SideFigures {
             measurement: measured.measurement,
@@ -97,7 +97,7 @@ pub fn check_step(lesson: &Lesson, step: &Step, figures: &Figures) -> Vec<Lesson
         if condition.holds(figures) != Some(true) {
             let [left, right] = condition.sides().map(|side| {
                 let value = side.value(figures);
-                side.write(value, super::Style::Plain)
+                side.write(value, super::formula::Style::Plain)
             });
             let reason = format!(
                 "expected {}, found {left} on the left and {right} on the right",

@@ -1,15 +1,18 @@
 //! Reads a lesson: TOML between lines `+++`, then a step for every heading `# `, with a block of TOML
 //! that says what it looks at, text, and below a line `---` the text that tells the answer.
 
+use super::content::{Expectation, Lesson, LessonError, Step};
 use super::figures::Side;
 use super::formula::{Condition, Formula};
 use super::prose::Prose;
 use super::question::{Answer, Choice, Question, Tolerance};
-use super::setup::{Look, Named, Setup, SideSetup};
-use super::{Expectation, Lesson, LessonError, Step};
+use super::subject::{self, Look, Named, Subject};
 use crate::geometry::Vec3;
 use crate::measure::heat::heatmap;
-use crate::scene::{Camera, SceneSource};
+use crate::scene::{Camera, CameraOverride, Cylinders, SceneRequest, SceneSource};
+use crate::setup::Setup;
+use crate::structure::BuildSettings;
+use crate::trace::RenderSettings;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
@@ -210,7 +213,7 @@ fn step(lines: &[&str], start: usize, end: usize, folder: Option<&Path>) -> Resu
         line: start + 1,
         title: lines[start][2..].trim().to_owned(),
         scene_line: block.line_of(&raw.scene),
-        setup: setup(&block, &raw, folder)?,
+        subject: subject(&block, &raw, folder)?,
         question: question(&block, &raw)?,
         expectations: expectations(&block, &raw)?,
         before,
@@ -220,8 +223,7 @@ fn step(lines: &[&str], start: usize, end: usize, folder: Option<&Path>) -> Resu
     Ok(step)
 }
 
-fn setup(block: &Block, raw: &RawStep, folder: Option<&Path>) -> Result<Setup, Wrong> {
-    let side = |text: &String| SideSetup::parse(text);
+fn subject(block: &Block, raw: &RawStep, folder: Option<&Path>) -> Result<Subject, Wrong> {
     let source = match SceneSource::parse(raw.scene.get_ref()) {
         SceneSource::File(path) if path.is_relative() => {
             SceneSource::File(folder.map_or_else(PathBuf::new, Path::to_owned).join(path))
@@ -239,9 +241,23 @@ fn setup(block: &Block, raw: &RawStep, folder: Option<&Path>) -> Result<Setup, W
                 resolution: raw.size,
             };
             camera.frame().map_err(|error| error.to_string())?;
-            Ok(camera)
+            Ok(CameraOverride::from(camera))
         })
     });
+    let base = Setup {
+        scene: SceneRequest {
+            source,
+            cylinders: Cylinders::Exact,
+        },
+        build: BuildSettings::default(),
+        render: RenderSettings {
+            width: raw.size[0],
+            height: raw.size[1],
+            camera: camera.transpose()?.unwrap_or_default(),
+            ..RenderSettings::default()
+        },
+    };
+    let side = |text: &String| subject::parse(text, &base);
     let pixel = raw.pixel.as_ref().map(|pixel| {
         block.with(pixel, |&[x, y]| match x < raw.size[0] && y < raw.size[1] {
             true => Ok([x, y]),
@@ -254,12 +270,9 @@ fn setup(block: &Block, raw: &RawStep, folder: Option<&Path>) -> Result<Setup, W
             found.ok_or_else(|| format!("no heatmap is called '{name}'"))
         })
     });
-    Ok(Setup {
-        scene: source,
+    Ok(Subject {
         a: block.with(&raw.a, side)?,
         b: raw.b.as_ref().map(|b| block.with(b, side)).transpose()?,
-        size: raw.size,
-        camera: camera.transpose()?,
         pixel: pixel.transpose()?,
         look: Look {
             heatmap: symbol.transpose()?,
@@ -388,14 +401,14 @@ impl Step {
         });
         let told = self.before.names().chain(self.after.names());
         for (line, name) in told.chain(answer).chain(expected) {
-            if name.is_of_pixel() && self.setup.pixel.is_none() {
+            if name.is_of_pixel() && self.subject.pixel.is_none() {
                 return Err((line, format!("{name:?}: the step has no 'pixel'")));
             }
-            if name.side() != Some(Side::A) && self.setup.b.is_none() {
+            if name.side() != Some(Side::A) && self.subject.b.is_none() {
                 return Err((line, format!("{name:?}: the step has no tree 'b'")));
             }
         }
-        let known = |side| self.setup.b.is_some() && side == Some(Side::A);
+        let known = |side| self.subject.b.is_some() && side == Some(Side::A);
         let told = self.before.names();
         match told
             .into_iter()

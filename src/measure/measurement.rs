@@ -3,8 +3,8 @@
 use super::heat::PixelCounts;
 use super::{SceneFacts, TreeFacts};
 use crate::progress::{Cancelled, Progress};
-use crate::scene::Scene;
-use crate::structure::{BuildError, BuildSettings, MaxDepth, Tree, build};
+use crate::scene::{Camera, Scene};
+use crate::structure::{BuildError, BuildSettings, Tree, build};
 use crate::trace::{
     ChosenPrecision, CountedRender, CountedTile, Picture, RayKind, RenderError, RenderSettings,
     Tally, TimedRender, render_counted, render_timed, thread_pool,
@@ -39,6 +39,8 @@ impl MeasureError {
 pub struct Times {
     pub cpu: Duration,
     pub wall: Duration,
+    /// Threads that the task could use.
+    pub threads: usize,
 }
 
 impl Times {
@@ -54,6 +56,7 @@ impl Times {
         let times = Times {
             cpu: cpu().saturating_sub(cpu_before),
             wall,
+            threads: pool.current_num_threads(),
         };
         (result, times)
     }
@@ -64,6 +67,8 @@ impl Times {
 pub struct Measurement {
     pub build: BuildSettings,
     pub render: RenderSettings,
+    /// The camera that was used: the scene's own where `render` does not override it.
+    pub camera: Camera,
     /// The precision that rays are traced in, and why.
     pub precision: ChosenPrecision,
     /// Bytes of the objects as intersection wants them in this precision.
@@ -92,6 +97,7 @@ impl Measurement {
         Measurement {
             build: tree.settings().clone(),
             render: *render,
+            camera: render.camera.resolve(scene.camera()),
             object_bytes: scene.shapes(precision.precision).bytes() as u64,
             precision,
             depth_limit: tree.depth_limit(),
@@ -108,6 +114,7 @@ impl Measurement {
         let precision = render.precision_for(scene);
         Measurement {
             render: *render,
+            camera: render.camera.resolve(scene.camera()),
             object_bytes: scene.shapes(precision.precision).bytes() as u64,
             precision,
             rendering: None,
@@ -135,14 +142,6 @@ impl Measurement {
     /// What all rays did.
     pub fn all_rays(&self) -> Option<Tally> {
         Some(self.counted.as_ref()?.tallies.iter().copied().sum())
-    }
-
-    /// `D_MAX` in words, with how it was chosen.
-    pub fn depth_in_words(&self) -> String {
-        match self.build.d_max {
-            MaxDepth::Fixed(depth) => depth.to_string(),
-            MaxDepth::Automatic => format!("{} (automatic)", self.depth_limit),
-        }
     }
 }
 

@@ -190,9 +190,9 @@ parameters! {
     "N_BITS", "bits of a number", Ours S Count,
         "Bits of the numbers in which rays are traced, 32 or 64.", "",
         |m| Some(f64::from(m.precision.precision.bits()));
-    "W_CUT", "cut-off", Ours S Ratio,
+    "W_CUT", "minimum contribution", Ours S Ratio,
         "A secondary ray that counts for less than this in every colour of its pixel is not traced.",
-        "", |m| Some(m.render.cut_off);
+        "", |m| Some(m.render.min_contribution);
     "M_OBJ", "object memory", Ours C Bytes,
         "Memory of the objects as intersection tests take them, in the precision used.", "",
         |m| Some(m.object_bytes as f64);

@@ -115,7 +115,8 @@ pub fn objects_fit_f32(scene: &Scene) -> Result<(), NotInF32> {
 impl RenderSettings {
     /// The precision that a scene is traced in with these settings.
     pub fn precision_for(&self, scene: &Scene) -> ChosenPrecision {
-        let fits = || fits_f32(scene, &self.camera, self.height);
+        let camera = self.camera.resolve(scene.camera());
+        let fits = || fits_f32(scene, &camera, self.height);
         let (precision, why) = match self.precision {
             PrecisionChoice::F64 => (Precision::F64, "as asked".into()),
             PrecisionChoice::F32 => match fits() {

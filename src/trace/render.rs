@@ -31,11 +31,11 @@ pub enum RenderError {
 const RESOLUTION_LIMIT: u32 = 16_384;
 
 impl RenderSettings {
-    /// The camera's view for these settings.
+    /// The view of a scene with these settings.
     ///
     /// # Errors
     /// A camera without a view or a resolution out of range.
-    pub fn view(&self) -> Result<View, RenderError> {
+    pub fn view(&self, scene: &Scene) -> Result<View, RenderError> {
         let range = 1..=RESOLUTION_LIMIT;
         if !range.contains(&self.width) || !range.contains(&self.height) {
             return Err(RenderError::Resolution {
@@ -44,7 +44,8 @@ impl RenderSettings {
                 limit: RESOLUTION_LIMIT,
             });
         }
-        Ok(self.camera.view(self.width, self.height, self.sampling)?)
+        let camera = self.camera.resolve(scene.camera());
+        Ok(camera.view(self.width, self.height, self.sampling)?)
     }
 }
 
@@ -67,6 +68,8 @@ pub struct TimedRender {
     pub cpu: Duration,
     /// Time on the clock on the wall.
     pub wall: Duration,
+    /// Threads that rendered.
+    pub threads: usize,
 }
 
 /// What one counted pass counted.
@@ -175,6 +178,7 @@ pub fn render_timed(
     Ok(TimedRender {
         cpu,
         wall: start.elapsed(),
+        threads: pool.current_num_threads(),
     })
 }
 

@@ -1,13 +1,13 @@
 //! How a picture is traced.
 
 use super::{KernelChoice, PrecisionChoice};
-use crate::scene::{Camera, Sampling};
-use serde::{Deserialize, Serialize};
+use crate::scene::{Camera, CameraOverride, Sampling};
 
 /// Everything that, with a scene, decides the picture (class S of the paper's parameters).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RenderSettings {
-    pub camera: Camera,
+    /// What differs from the scene's own camera.
+    pub camera: CameraOverride,
     /// Width in pixels, `N_X`; at least 1.
     pub width: u32,
     /// Height in pixels, `N_Y`; at least 1.
@@ -16,13 +16,10 @@ pub struct RenderSettings {
     pub d_arec: u32,
     /// A secondary ray is not traced if its radiance counts for less than this in every colour of the
     /// pixel, 0 to 1; 0 traces all that count for anything.
-    #[serde(default)]
-    pub cut_off: f64,
+    pub min_contribution: f64,
     /// The numbers that rays are traced in.
-    #[serde(default)]
     pub precision: PrecisionChoice,
     /// The kernel that the timed pass is traced with; every one gives the same picture.
-    #[serde(default)]
     pub kernel: KernelChoice,
     /// Where in a pixel the first sample lies.
     pub sampling: Sampling,
@@ -33,14 +30,25 @@ pub struct RenderSettings {
 }
 
 impl RenderSettings {
-    /// The paper's settings for a camera: 512 × 512, `D_AREC` 4, one sample at the centre.
+    /// The paper's settings for a camera in place of the scene's own.
     pub fn for_camera(camera: Camera) -> Self {
         RenderSettings {
-            camera,
+            camera: camera.into(),
+            ..RenderSettings::default()
+        }
+    }
+}
+
+impl Default for RenderSettings {
+    /// The paper's settings: the scene's own camera, 512 × 512 pixels, `D_AREC` 4, one sample at the
+    /// pixel's center.
+    fn default() -> Self {
+        RenderSettings {
+            camera: CameraOverride::default(),
             width: 512,
             height: 512,
             d_arec: 4,
-            cut_off: 0.0,
+            min_contribution: 0.0,
             precision: PrecisionChoice::F64,
             kernel: KernelChoice::Scalar,
             sampling: Sampling::Center,

@@ -50,20 +50,20 @@ pub struct Shading<'a> {
     pub view: View,
     /// How deep secondary rays go.
     secondary_depth: u32,
-    cut_off: f64,
+    min_contribution: f64,
 }
 
 impl<'a> Shading<'a> {
     /// # Errors
     /// A camera without a view or a resolution out of range.
     pub fn new(scene: &'a Scene, settings: &RenderSettings) -> Result<Self, RenderError> {
-        let view = settings.view()?;
+        let view = settings.view(scene)?;
         Ok(Shading {
             scene,
             shapes: scene.shapes(settings.precision_for(scene).precision),
             view,
             secondary_depth: scene.requirements().secondary_depth(settings.d_arec),
-            cut_off: settings.cut_off,
+            min_contribution: settings.min_contribution,
         })
     }
 }
@@ -143,7 +143,7 @@ pub(super) fn spawn(
         let least = if kind == RayKind::Shadow {
             0.0
         } else {
-            shading.cut_off
+            shading.min_contribution
         };
         let most = weight.max_element();
         if most > 0.0 && most >= least {

@@ -1,17 +1,16 @@
 //! Settings and camera as a line for the command line.
 
 use super::TreeSettings;
-use crate::scene::{Camera, Cylinders, Sampling, SceneSource};
+use crate::scene::{CameraOverride, Cylinders, Sampling, SceneSource};
 use crate::structure::BuildSettings;
 use std::fmt::Display;
 use std::path::absolute;
 
 /// The command that measures this tree of this scene: `bspscope measure SCENE …`, quoted for a
-/// POSIX shell. Options at their defaults are left out; files go by their absolute paths. Without a
-/// camera it is the scene's own.
+/// POSIX shell. Options at their defaults are left out; files go by their absolute paths.
 pub fn measure_command(
     source: &SceneSource,
-    camera: Option<&Camera>,
+    camera: &CameraOverride,
     settings: &TreeSettings,
 ) -> String {
     let TreeSettings {
@@ -53,11 +52,13 @@ pub fn measure_command(
     let center = picture.sampling == Sampling::Center;
     line.unless(center, "sampling", "corner");
     line.unless(picture.threads == 0, "threads", picture.threads);
-    if let Some(camera) = camera {
-        for (name, point) in [("from", camera.from), ("at", camera.at), ("up", camera.up)] {
+    for (name, point) in [("from", camera.from), ("at", camera.at), ("up", camera.up)] {
+        if let Some(point) = point {
             line.option(name, format!("{},{},{}", point.x, point.y, point.z));
         }
-        line.option("angle", camera.angle);
+    }
+    if let Some(angle) = camera.angle {
+        line.option("angle", angle);
     }
     shell_words::join(line.0)
 }

@@ -17,7 +17,7 @@ pub use view::{
 };
 
 use crate::files;
-use crate::scene::{Camera, SceneSource};
+use crate::scene::{CameraOverride, SceneSource};
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::{self, Read};
@@ -50,8 +50,9 @@ pub struct Workspace {
     #[serde(default)]
     pub notes: String,
     pub scene: SceneRecord,
-    /// `None` for the scene's own.
-    pub camera: Option<Camera>,
+    /// What differs from the scene's own camera.
+    #[serde(default, skip_serializing_if = "CameraOverride::is_none")]
+    pub camera: CameraOverride,
     /// The settings of the tree, or of the first of two.
     pub a: TreeSettings,
     /// The settings of the second tree of a comparison; `None` without one.
@@ -96,7 +97,7 @@ impl Workspace {
                 source,
                 sha256: None,
             },
-            camera: None,
+            camera: CameraOverride::default(),
             a,
             b: None,
             view: View::default(),

@@ -1,7 +1,7 @@
 //! The settings of one tree and its picture.
 
 use super::names;
-use crate::scene::{Camera, Cylinders, Sampling};
+use crate::scene::{CameraOverride, Cylinders, Sampling};
 use crate::structure::BuildSettings;
 use crate::trace::{KernelChoice, PrecisionChoice, RenderSettings};
 use serde::{Deserialize, Serialize};
@@ -87,7 +87,7 @@ impl PictureSettings {
             width,
             height,
             d_arec,
-            cut_off,
+            min_contribution: cut_off,
             precision,
             kernel,
             sampling,
@@ -107,14 +107,14 @@ impl PictureSettings {
     }
 
     /// The settings with a camera.
-    pub fn with(&self, camera: Camera) -> RenderSettings {
+    pub fn with(&self, camera: CameraOverride) -> RenderSettings {
         let [width, height] = self.resolution;
         RenderSettings {
             camera,
             width,
             height,
             d_arec: self.d_arec,
-            cut_off: self.cut_off,
+            min_contribution: self.cut_off,
             precision: self.precision,
             kernel: self.kernel,
             sampling: self.sampling,

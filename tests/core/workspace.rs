@@ -27,7 +27,7 @@ fn settings(method: &str) -> TreeSettings {
     TreeSettings {
         cylinders: Cylinders::Exact,
         build,
-        picture: PictureSettings::of(&RenderSettings::for_camera(CAMERA)),
+        picture: PictureSettings::of(&RenderSettings::default()),
     }
 }
 
@@ -60,7 +60,7 @@ fn changed() -> Workspace {
         settings("midpoint"),
     );
     workspace.notes = "Two lines,\nwith \"quotes\" and \\ and Δ.".into();
-    workspace.camera = Some(CAMERA);
+    workspace.camera = CAMERA.into();
     workspace.b = Some(b);
     workspace.view = View {
         front: Which::B,

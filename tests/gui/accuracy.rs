@@ -1,18 +1,19 @@
 //! The trade in the window: taken in the background, plotted, listed, loaded and looked at pixel by
 //! pixel.
 
-use crate::harness::{Window, click, finish, has, open, press, small, wait};
+use crate::harness::{Window, click, finish, has, open, press, small, text_with, wait};
 use bspscope::measure::accuracy::{choices, reference};
 use bspscope::progress::Progress;
 use bspscope::scene::load;
+use bspscope::setup::Setup;
 use bspscope::trace::{PrecisionChoice, RenderSettings};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 /// A window on the pane, with a finished picture.
 fn on_trade<'a>(scene: &str, size: u32) -> Window<'a> {
     let mut start = small(scene);
-    start.render.width = size;
-    start.render.height = size;
+    start.setup.render.width = size;
+    start.setup.render.height = size;
     let mut window = open(start);
     finish(&mut window);
     click(&mut window, "Trade");
@@ -22,13 +23,6 @@ fn on_trade<'a>(scene: &str, size: u32) -> Window<'a> {
 fn take(window: &mut Window<'_>) {
     click(window, "Run trade");
     wait(window, "the end of the trade", |w| has(w, "Run trade"));
-}
-
-/// The text of the one label that contains this.
-fn text_with(window: &Window<'_>, part: &str) -> String {
-    let node = window.get_by_label_contains(part);
-    let node = node.accesskit_node();
-    node.label().or(node.value()).unwrap_or_default()
 }
 
 /// Turns taken and turns in all.
@@ -44,15 +38,18 @@ fn a_trade_is_plotted_and_listed_with_every_choice() {
     let mut window = on_trade("teaching", 24);
     take(&mut window);
     let start = small("teaching");
-    let scene = load(&start.scene, &Progress::new()).unwrap();
+    let scene = load(&start.setup.scene, &Progress::new()).unwrap();
     let render = RenderSettings {
-        camera: *scene.camera(),
         width: 24,
         height: 24,
         samples: 8,
-        ..start.render
+        ..start.setup.render
     };
-    let expected = choices(&reference(&start.build, &render), &scene);
+    let setup = Setup {
+        render,
+        ..start.setup
+    };
+    let expected = choices(&reference(&setup), &scene);
     assert_eq!(turns(&window), [3 * expected.len(); 2]);
     let plot = format!("Plot of RMSE against time, {} choices", expected.len());
     window.get_by_label(&plot);
@@ -148,7 +145,7 @@ fn a_cancelled_trade_keeps_what_was_found() {
 #[test]
 fn the_precision_that_auto_takes_is_told_with_the_reason() {
     let mut start = small("teaching");
-    start.render.precision = PrecisionChoice::Auto;
+    start.setup.render.precision = PrecisionChoice::Auto;
     let mut window = open(start);
     finish(&mut window);
     window.get_by_label("took f32").hover();

@@ -11,8 +11,8 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 fn expected() -> (Tree, TreeIndex) {
     let start = small("balls:1");
     let progress = Progress::new();
-    let scene = load(&start.scene, &progress).unwrap();
-    let tree = build(&scene, &start.build, &progress).unwrap();
+    let scene = load(&start.setup.scene, &progress).unwrap();
+    let tree = build(&scene, &start.setup.build, &progress).unwrap();
     let index = TreeIndex::new(&tree, scene.objects().len());
     (tree, index)
 }

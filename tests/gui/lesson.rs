@@ -151,7 +151,7 @@ fn keys_will_do() {
 #[test]
 fn what_was_there_comes_back() {
     let mut start = small("balls:1");
-    start.build.n_oilf = 3;
+    start.setup.build.n_oilf = 3;
     let mut window = open(start);
     finish(&mut window);
     press(&mut window, Modifiers::COMMAND, Key::E);

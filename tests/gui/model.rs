@@ -1,15 +1,15 @@
 //! The time of the picture by term of equation (1), in the window: measured in the background, for the
 //! whole picture, a region and a pixel.
 
-use crate::harness::{SIZE, Window, click, finish, has, open, press, small, wait};
-use bspscope::measure::grouped;
+use crate::harness::{SIZE, Window, click, finish, has, open, press, small, text_with, wait};
 use bspscope::measure::model::{PictureTerms, Region, Term};
+use bspscope::present::number::grouped;
 use bspscope::primitive::PrimitiveKind;
 use bspscope::progress::Progress;
 use bspscope::scene::load;
 use bspscope::structure::build;
 use bspscope::trace::RenderSettings;
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::kittest::Queryable as _;
 
 const SCENE: &str = "balls:1";
 
@@ -31,12 +31,11 @@ fn measure(window: &mut Window<'_>) {
 /// What the library counts in every pixel.
 fn terms() -> PictureTerms {
     let (start, progress) = (small(SCENE), Progress::new());
-    let scene = load(&start.scene, &progress).unwrap();
+    let scene = load(&start.setup.scene, &progress).unwrap();
     let render = RenderSettings {
-        camera: *scene.camera(),
-        ..start.render
+        ..start.setup.render
     };
-    let tree = build(&scene, &start.build, &progress).unwrap();
+    let tree = build(&scene, &start.setup.build, &progress).unwrap();
     PictureTerms::count(&scene, &tree, &render, &progress).unwrap()
 }
 
@@ -48,13 +47,6 @@ fn has_counts(window: &Window<'_>, region: Option<Region>) -> bool {
         let count = grouped(sum.count(term) as f64);
         window.query_all_by_label(&count).next().is_some()
     })
-}
-
-/// The text of the one label that contains this.
-fn text_with(window: &Window<'_>, part: &str) -> String {
-    let node = window.get_by_label_contains(part);
-    let node = node.accesskit_node();
-    node.label().or(node.value()).unwrap_or_default()
 }
 
 #[test]
@@ -143,8 +135,8 @@ fn a_region_and_a_pixel_have_their_own_time() {
 #[test]
 fn timing_is_cancelled_and_what_was_found_stays() {
     let mut start = small("balls:2");
-    start.render.width = 256;
-    start.render.height = 256;
+    start.setup.render.width = 256;
+    start.setup.render.height = 256;
     let mut window = open(start);
     finish(&mut window);
     click(&mut window, "Time");

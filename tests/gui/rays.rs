@@ -19,13 +19,12 @@ fn start() -> bspscope::gui::StartOptions {
 fn expected() -> PixelRecord {
     let start = start();
     let progress = Progress::new();
-    let scene = load(&start.scene, &progress).unwrap();
-    let tree = build(&scene, &start.build, &progress).unwrap();
+    let scene = load(&start.setup.scene, &progress).unwrap();
+    let tree = build(&scene, &start.setup.build, &progress).unwrap();
     let render = RenderSettings {
         width: SIZE,
         height: SIZE,
-        camera: *scene.camera(),
-        ..start.render
+        ..start.setup.render
     };
     record_pixel(&scene, &tree, &render, [MIDDLE, MIDDLE]).unwrap()
 }

@@ -5,7 +5,7 @@ use crate::harness::{Window, click, finish, has, open, press, small, wait};
 use bspscope::measure::sweep::{Form, Plan, answers, read_rows, rule_depth};
 use bspscope::measure::{Class, PARAMETERS, parameter};
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, load};
+use bspscope::scene::load;
 use bspscope::structure::{BuildSettings, MaxDepth, Method};
 use bspscope::trace::RenderSettings;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -15,8 +15,8 @@ const SCENE: &str = "balls:1";
 /// A window on the pane, with a finished picture.
 fn on_sweep<'a>(scene: &str, size: u32) -> Window<'a> {
     let mut start = small(scene);
-    start.render.width = size;
-    start.render.height = size;
+    start.setup.render.width = size;
+    start.setup.render.height = size;
     let mut window = open(start);
     finish(&mut window);
     click(&mut window, "Sweep");
@@ -41,18 +41,17 @@ fn wait_for_sweep(window: &mut Window<'_>, points: usize) {
 }
 
 /// What the pane sweeps over by default, but for these leaf sizes.
-fn plan(scene: &Scene, size: u32, n_oilf: &[u32]) -> Plan {
+fn plan(size: u32, n_oilf: &[u32]) -> Plan {
     let start = small(SCENE);
     let render = RenderSettings {
-        camera: *scene.camera(),
         width: size,
         height: size,
-        ..start.render
+        ..start.setup.render
     };
     let methods = Method::of_the_paper();
     let methods: Vec<_> = methods.into_iter().map(BuildSettings::for_method).collect();
     let depths: Vec<_> = (6..=24).map(MaxDepth::Fixed).collect();
-    Plan::new(&start.scene, &methods, &depths, n_oilf, &render)
+    Plan::new(&start.setup.scene, &methods, &depths, n_oilf, &render)
 }
 
 /// The points of the map, by their names.
@@ -87,8 +86,8 @@ fn a_sweep_has_the_rows_of_the_command_line_as_curves_and_as_a_map() {
     let (rows, complete) = read_rows(&text, Form::Csv).unwrap();
     assert_eq!(complete, text.len());
     let progress = Progress::new();
-    let scene = load(&small(SCENE).scene, &progress).unwrap();
-    let plan = plan(&scene, 24, &[1, 3]);
+    let scene = load(&small(SCENE).setup.scene, &progress).unwrap();
+    let plan = plan(24, &[1, 3]);
     assert_eq!(rows.len(), plan.points.len());
     for point in [0, 20, 75] {
         let expected = plan.row(&scene, point, &progress).unwrap();

@@ -276,9 +276,9 @@ fn the_list_of_shortcuts_opens_and_closes() {
 #[test]
 fn cancelling_stops_and_resuming_finishes() {
     let mut start = small("balls:4");
-    start.render.width = 1024;
-    start.render.height = 1024;
-    start.render.samples = 500;
+    start.setup.render.width = 1024;
+    start.setup.render.height = 1024;
+    start.setup.render.samples = 500;
     let mut window = open(start);
     wait(&mut window, "a picture", |w| has(w, "balls:4 · midpoint"));
     window.key_press(egui::Key::Escape);

@@ -6,11 +6,11 @@ use crate::gui::layout::{Layout, Pane};
 use crate::gui::panels::{PANELS, Side};
 use crate::gui::state::{Current, State, Wanted};
 use crate::lesson::{
-    Answer, Difference, Figures, Lesson, LessonError, Named, Prediction, Setup, SideFigures,
-    SideSetup, Step, Verdict,
+    Answer, Difference, Figures, Lesson, LessonError, Named, Prediction, SideFigures, Step,
+    Subject, Verdict,
 };
 use crate::measure::heat::HEATMAPS;
-use crate::worker::Request;
+use crate::setup::Setup;
 
 /// A lesson and how far it is.
 pub struct Running {
@@ -75,7 +75,7 @@ impl Running {
         let mut running = Running {
             at: 0,
             taken: vec![Taken::default(); lesson.steps.len()],
-            wanted: wanted_of(&lesson.steps[0].setup, state),
+            wanted: wanted_of(&lesson.steps[0].subject, state),
             picked: false,
             is_new: true,
             before,
@@ -146,22 +146,22 @@ impl Running {
 
     /// Whether the user has changed what the step looks at.
     pub fn is_changed(&self, state: &State) -> bool {
-        !same(&state.all_wanted(), &self.wanted)
+        state.all_wanted() != self.wanted
     }
 
     /// Sets what the step looks at.
     pub fn set_up(&mut self, around: &mut Around<'_>) {
-        let setup = &self.lesson.steps[self.at].setup;
-        self.wanted = wanted_of(setup, around.state);
+        let subject = &self.lesson.steps[self.at].subject;
+        self.wanted = wanted_of(subject, around.state);
         self.picked = false;
         self.is_new = true;
         around.state.want(self.wanted.clone());
         around.state.show(Which::A);
-        let view = setup.look.view.as_ref();
+        let view = subject.look.view.as_ref();
         if let Some(view) = view.and_then(|named| view_of(&named.name)) {
             around.state.comparing.view = view;
         }
-        for pane in &setup.look.panes {
+        for pane in &subject.look.panes {
             if let Some(pane) = pane_of(&pane.name) {
                 around.layout.show(pane);
             }
@@ -171,7 +171,7 @@ impl Running {
 
     /// Shows what comes with the answer, or not yet.
     fn look(&self, around: &mut Around<'_>) {
-        let look = &self.step().setup.look;
+        let look = &self.step().subject.look;
         let told = look.heatmap.filter(|_| !self.asks());
         let place = told.and_then(|symbol| HEATMAPS.iter().position(|h| h.symbol == symbol));
         around.heat.show(place);
@@ -186,10 +186,9 @@ impl Running {
     /// Picks the step's pixel once its picture is there, and takes the figures once they are final.
     pub fn follow(&mut self, around: &mut Around<'_>) {
         let state = &mut *around.state;
-        let setup = &self.lesson.steps[self.at].setup;
-        let is_wanted =
-            |current: &&Current, wanted: &Request| same_request(&current.shown.request, wanted);
-        if let (Some(pixel), false) = (setup.pixel, self.picked)
+        let subject = &self.lesson.steps[self.at].subject;
+        let is_wanted = |current: &&Current, wanted: &Setup| current.shown.setup == *wanted;
+        if let (Some(pixel), false) = (subject.pixel, self.picked)
             && let [Some(a), _] = state.both_mut()
             && is_wanted(&&*a, &self.wanted.a)
         {
@@ -200,9 +199,9 @@ impl Running {
             return;
         }
         let [a, b] = state.both();
-        let final_one = |current: Option<&'_ Current>, wanted: &Request| {
+        let final_one = |current: Option<&'_ Current>, wanted: &Setup| {
             let current = current.filter(|current| is_wanted(current, wanted))?;
-            current.complete.then(|| side_figures(current, setup))
+            current.complete.then(|| side_figures(current, subject))
         };
         let of_a = final_one(a, &self.wanted.a);
         let of_b = self.wanted.b.as_ref().map(|wanted| final_one(b, wanted));
@@ -258,11 +257,11 @@ impl Running {
     }
 }
 
-fn side_figures(current: &Current, setup: &Setup) -> SideFigures {
+fn side_figures(current: &Current, subject: &Subject) -> SideFigures {
     let counts = current.pixel_counts.as_ref();
     SideFigures {
         measurement: current.shown.measurement.clone(),
-        pixel: setup.pixel.zip(counts).and_then(|([x, y], counts)| {
+        pixel: subject.pixel.zip(counts).and_then(|([x, y], counts)| {
             let place = y as usize * counts.width as usize + x as usize;
             counts.tallies.get(place).copied()
         }),
@@ -270,37 +269,16 @@ fn side_figures(current: &Current, setup: &Setup) -> SideFigures {
 }
 
 /// What a step asks the worker for.
-fn wanted_of(setup: &Setup, state: &State) -> Wanted {
-    let now = &state.wanted;
-    let request = |side: &SideSetup| Request {
-        scene: setup.scene(side),
-        build: side.build.clone(),
-        render: setup.render(side, now.render.camera, now.render.threads),
-        own_camera: setup.camera.is_some(),
-        reload: now.reload,
+fn wanted_of(subject: &Subject, state: &State) -> Wanted {
+    let on_threads = |setup: &Setup| {
+        let mut setup = setup.clone();
+        setup.render.threads = state.wanted.render.threads;
+        setup
     };
     Wanted {
-        a: request(&setup.a),
-        b: setup.b.as_ref().map(request),
+        a: on_threads(&subject.a),
+        b: subject.b.as_ref().map(on_threads),
     }
-}
-
-/// Whether two ask for the same; cameras count only where they are the window's own.
-fn same(a: &Wanted, b: &Wanted) -> bool {
-    same_request(&a.a, &b.a)
-        && match (&a.b, &b.b) {
-            (Some(a), Some(b)) => same_request(a, b),
-            (None, None) => true,
-            _ => false,
-        }
-}
-
-fn same_request(a: &Request, b: &Request) -> bool {
-    let mut b = b.clone();
-    if !a.own_camera && !b.own_camera {
-        b.render.camera = a.render.camera;
-    }
-    *a == b
 }
 
 fn pane_of(title: &str) -> Option<Pane> {
@@ -313,7 +291,7 @@ fn view_of(name: &str) -> Option<View> {
 
 /// The first name of a step that the window has nothing for.
 fn unknown(lesson: &Lesson, step: &Step) -> Option<LessonError> {
-    let look = &step.setup.look;
+    let look = &step.subject.look;
     let panel_is_known = |title: &str| {
         let mut right = PANELS.iter().filter(|panel| panel.side == Side::Right);
         right.any(|panel| panel.title == title)

@@ -107,7 +107,7 @@ fn lambda(ui: &mut egui::Ui, state: &mut State) {
                 ui.end_row();
             }
         });
-    let used = current.shown.render.kernel.description();
+    let used = current.shown.setup.render.kernel.description();
     ui.weak(format!("Timed kernel: {used}"))
         .on_hover_text("How timed passes walk rays through the tree; chosen under Picture");
 }

@@ -3,7 +3,7 @@
 use super::{Panel, Side, row};
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::State;
-use crate::scene::{Cylinders, Sampling};
+use crate::scene::{CameraOverride, Cylinders, Sampling};
 use crate::trace::{KernelChoice, PrecisionChoice};
 
 pub(super) const PANEL: Panel = Panel {
@@ -75,7 +75,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
                     let used = &current.shown.measurement.precision;
                     let about = format!("Used: {used}.");
                     list.response.on_hover_text(&about);
-                    let asked = current.shown.render.precision;
+                    let asked = current.shown.setup.render.precision;
                     if asked == PrecisionChoice::Auto {
                         let used = format!("took {}", used.precision.name());
                         ui.weak(used).on_hover_text(&about);
@@ -123,7 +123,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
             |ui| cylinders(ui, &mut wanted.scene.cylinders),
         );
     });
-    let own = wanted.own_camera;
+    let own = !wanted.render.camera.is_none();
     if ui
         .add_enabled(own, egui::Button::new("Scene's own camera"))
         .on_hover_text(tip(
@@ -132,7 +132,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         ))
         .clicked()
     {
-        wanted.own_camera = false;
+        wanted.render.camera = CameraOverride::default();
     }
 }
 

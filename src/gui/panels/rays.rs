@@ -109,7 +109,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
     ui.horizontal(|ui| {
         ui.label(step_text::count(n as u32, "ray", "rays")).on_hover_text(format!(
             "Of the pixel's first sample, down to D_AREC {}.\nShortcuts: {} and {} select a ray",
-            current.shown.render.d_arec,
+            current.shown.setup.render.d_arec,
             text(Action::PreviousRay),
             text(Action::NextRay)
         ));
@@ -118,7 +118,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         } else if let Some(counts) = &current.pixel_counts {
             // The same rays, counted apart from this record.
             let [x, y] = picked.pixel;
-            let place = y as usize * current.shown.render.width as usize + x as usize;
+            let place = y as usize * current.shown.setup.render.width as usize + x as usize;
             if counts.tally(place, RayFilter::All) == record.tallies().into_iter().sum() {
                 ui.weak("· sums as in the counted pass");
             } else {

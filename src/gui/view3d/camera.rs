@@ -16,15 +16,25 @@ pub struct ViewCamera {
 /// The closest that the view comes to straight up and straight down, in radians.
 const POLE: f64 = 0.01;
 
-impl ViewCamera {
-    pub fn new(camera: Camera) -> Self {
+impl Default for ViewCamera {
+    /// Stands in until a scene brings its own camera.
+    fn default() -> Self {
         ViewCamera {
-            camera,
+            camera: Camera {
+                from: Vec3::ZERO,
+                at: Vec3::Y,
+                up: Vec3::Z,
+                angle: 45.0,
+                near: 1.0,
+                resolution: [512, 512],
+            },
             orthographic: false,
             aspect: 1.0,
         }
     }
+}
 
+impl ViewCamera {
     /// Forward, right and up; the coordinate axes for a camera without a view.
     pub fn frame(&self) -> [Vec3; 3] {
         self.camera.frame().unwrap_or([Vec3::Y, Vec3::X, Vec3::Z])
@@ -172,14 +182,17 @@ mod tests {
     use super::*;
 
     fn camera() -> ViewCamera {
-        ViewCamera::new(Camera {
-            from: Vec3::new(0.0, -4.0, 1.0),
-            at: Vec3::ZERO,
-            up: Vec3::Z,
-            angle: 40.0,
-            near: 1.0,
-            resolution: [8, 8],
-        })
+        ViewCamera {
+            camera: Camera {
+                from: Vec3::new(0.0, -4.0, 1.0),
+                at: Vec3::ZERO,
+                up: Vec3::Z,
+                angle: 40.0,
+                near: 1.0,
+                resolution: [8, 8],
+            },
+            ..ViewCamera::default()
+        }
     }
 
     #[test]

@@ -12,14 +12,14 @@ mod ray_lines;
 mod renderer;
 mod scene_mesh;
 
-use super::background::Latest;
 use super::shortcuts::{Scope, pressed};
 use super::state::{Current, State};
-use super::visits::PictureVisits;
+use super::tasks::Latest;
 use crate::geometry::{Aabb, Vec3};
+use crate::jobs::PictureVisits;
 use crate::present::overlay::{self, Line};
 use crate::primitive::Precision;
-use crate::scene::{Camera, Scene};
+use crate::scene::Scene;
 use crate::trace::{Scratch, closest_hit};
 use crate::workspace::View3dSettings;
 use camera::ViewCamera;
@@ -81,7 +81,7 @@ impl PartialEq for SceneKey {
 }
 
 impl View3d {
-    pub fn new(graphics: Option<&egui_wgpu::RenderState>, start: Camera) -> Self {
+    pub fn new(graphics: Option<&egui_wgpu::RenderState>) -> Self {
         let adapter = graphics.map(|state| {
             renderer::install(state);
             Adapter {
@@ -90,7 +90,7 @@ impl View3d {
         });
         View3d {
             adapter,
-            camera: ViewCamera::new(start),
+            camera: ViewCamera::default(),
             settings: Settings::default(),
             scene: None,
             mesh: Latest::default(),
@@ -123,8 +123,7 @@ impl View3d {
         if self.steer(ui, &response, state) || framed {
             self.moved = ui.input(|i| i.time);
             if self.settings.linked {
-                state.wanted.render.camera = self.camera.camera;
-                state.wanted.own_camera = true;
+                state.wanted.render.camera = self.camera.camera.into();
             }
         }
         self.settings.filter.ranges = state.inspect.ranges;
@@ -133,7 +132,7 @@ impl View3d {
             self.settings.filter.moment = moment;
             self.moved = ui.input(|i| i.time);
         }
-        let visits = self.visits(state, ui.ctx());
+        let visits = self.visits(state);
         self.pick(rect, &response, state);
         let [r, g, b] = GROUND;
         ui.painter()
@@ -153,11 +152,7 @@ impl View3d {
 
     /// The visits that the boxes shown need: those of the picture, or why there are none yet. `None`
     /// where they need none.
-    fn visits(
-        &self,
-        state: &mut State,
-        ctx: &egui::Context,
-    ) -> Option<Result<Arc<PictureVisits>, String>> {
+    fn visits(&self, state: &mut State) -> Option<Result<Arc<PictureVisits>, String>> {
         let current = state.current.as_ref()?;
         let Settings {
             filter, coloring, ..
@@ -165,8 +160,7 @@ impl View3d {
         if !filter.needs_visits() && !coloring.needs_visits() {
             return None;
         }
-        let resting = state.work.is_none();
-        let visits = state.inspect.visits.of(current, resting, ctx);
+        let visits = state.inspect.visits.of(current, &state.jobs);
         Some(visits.ok_or_else(|| state.inspect.visits.note(current).unwrap_or_default()))
     }
 
@@ -218,9 +212,10 @@ impl View3d {
             .scene
             .as_ref()
             .is_some_and(|scene| Arc::ptr_eq(scene, &shown.scene));
-        let reset = self.settings.linked && !state.wanted.own_camera && !state.is_previous();
+        let reset =
+            self.settings.linked && state.wanted.render.camera.is_none() && !state.is_previous();
         if !known || reset {
-            self.camera.camera = shown.render.camera;
+            self.camera.camera = shown.measurement.camera;
         }
         if !known {
             self.scene = Some(Arc::clone(&shown.scene));
@@ -229,7 +224,7 @@ impl View3d {
         if !state.is_previous()
             && let Some(kept) = self.restoring.take()
         {
-            self.camera.camera = shown.render.camera;
+            self.camera.camera = shown.measurement.camera;
             self.take_over(&kept);
         }
     }
@@ -238,7 +233,7 @@ impl View3d {
     fn link(&mut self, linked: bool, state: &State) {
         self.settings.linked = linked;
         if linked && let Some(current) = &state.current {
-            self.camera.camera = current.shown.render.camera;
+            self.camera.camera = current.shown.measurement.camera;
         }
     }
 
@@ -367,7 +362,7 @@ impl View3d {
         let drawn_lines = ray_lines::bounds_of(&self.lines, center);
         let mut bounds = tree.root_cell().union(&drawn_lines);
         if !self.settings.linked {
-            let eye = current.shown.render.camera.from;
+            let eye = current.shown.measurement.camera.from;
             bounds = bounds.union(&Aabb::new(eye, eye));
         }
         let left_out = mesh.as_ref().map_or(0, |mesh| mesh.left_out);
@@ -441,15 +436,11 @@ impl View3d {
             lines.extend(overlay::box_lines(&bounds, center, WHITE, 1.0));
         }
         if !self.settings.linked {
-            let render = &current.shown.render;
+            let render = &current.shown.setup.render;
             let aspect = f64::from(render.width) / f64::from(render.height);
-            let length = render.camera.from.distance(render.camera.at);
-            lines.extend(overlay::frustum_lines(
-                &render.camera,
-                aspect,
-                length,
-                center,
-            ));
+            let camera = &current.shown.measurement.camera;
+            let length = camera.from.distance(camera.at);
+            lines.extend(overlay::frustum_lines(camera, aspect, length, center));
         }
         lines
     }

@@ -43,7 +43,7 @@ impl RayLines {
         };
         if self.made.as_ref().is_none_or(|(made, _)| *made != key) {
             let tree = &current.shown.tree;
-            let camera = &current.shown.render.camera;
+            let camera = &current.shown.measurement.camera;
             let root = tree.root_cell();
             let shown = RaysShown {
                 selected: picked.ray,

@@ -1,7 +1,7 @@
 //! What can be turned to trade accuracy for speed. A knob is one function and one line in [`KNOBS`].
 
-use super::Setting;
-use crate::scene::{Cylinders, Scene};
+use crate::scene::{Cylinders, Scene, SceneRequest};
+use crate::setup::Setup;
 use crate::structure::{BuildSettings, MaxDepth, Method};
 use crate::trace::{KernelChoice, PrecisionChoice, RenderSettings};
 
@@ -14,7 +14,7 @@ pub struct Knob {
     pub moves_image: bool,
     /// Its other values at a reference for a scene with exact cylinders, from dear to cheap, each in
     /// words; empty where the scene has nothing to turn.
-    pub values: fn(&Setting, &Scene) -> Vec<(String, Setting)>,
+    pub values: fn(&Setup, &Scene) -> Vec<(String, Setup)>,
 }
 
 /// All knobs, in the order of reports.
@@ -41,7 +41,7 @@ pub static KNOBS: &[Knob] = &[
         name: "cut-off",
         about: "least weight of a secondary ray",
         moves_image: true,
-        values: cut_off,
+        values: min_contribution,
     },
     Knob {
         name: "cylinders",
@@ -81,27 +81,27 @@ pub static KNOBS: &[Knob] = &[
     },
 ];
 
-fn with_render(at: &Setting, words: String, render: RenderSettings) -> (String, Setting) {
+fn with_render(at: &Setup, words: String, render: RenderSettings) -> (String, Setup) {
     (
         words,
-        Setting {
+        Setup {
             render,
             ..at.clone()
         },
     )
 }
 
-fn with_build(at: &Setting, words: String, build: BuildSettings) -> (String, Setting) {
+fn with_build(at: &Setup, words: String, build: BuildSettings) -> (String, Setup) {
     (
         words,
-        Setting {
+        Setup {
             build,
             ..at.clone()
         },
     )
 }
 
-fn precision(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
+fn precision(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
     let precision = PrecisionChoice::F32;
     vec![with_render(
         at,
@@ -113,7 +113,7 @@ fn precision(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
     )]
 }
 
-fn samples(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
+fn samples(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
     let fewer = [at.render.samples / 4, 1];
     let fewer = fewer.into_iter().enumerate();
     fewer
@@ -128,7 +128,7 @@ fn samples(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
         .collect()
 }
 
-fn d_arec(at: &Setting, scene: &Scene) -> Vec<(String, Setting)> {
+fn d_arec(at: &Setup, scene: &Scene) -> Vec<(String, Setup)> {
     let deepest = scene.requirements().secondary_depth(at.render.d_arec);
     [4, 2, 1, 0]
         .into_iter()
@@ -143,23 +143,23 @@ fn d_arec(at: &Setting, scene: &Scene) -> Vec<(String, Setting)> {
         .collect()
 }
 
-fn cut_off(at: &Setting, scene: &Scene) -> Vec<(String, Setting)> {
+fn min_contribution(at: &Setup, scene: &Scene) -> Vec<(String, Setup)> {
     if scene.requirements().secondary_depth(at.render.d_arec) == 0 {
         return Vec::new();
     }
     [0.01, 0.05, 0.2]
         .into_iter()
-        .map(|cut_off| {
+        .map(|min_contribution| {
             let render = RenderSettings {
-                cut_off,
+                min_contribution,
                 ..at.render
             };
-            with_render(at, cut_off.to_string(), render)
+            with_render(at, min_contribution.to_string(), render)
         })
         .collect()
 }
 
-fn cylinders(at: &Setting, scene: &Scene) -> Vec<(String, Setting)> {
+fn cylinders(at: &Setup, scene: &Scene) -> Vec<(String, Setup)> {
     use crate::primitive::PrimitiveKind::Cone;
     let primitives = &scene.requirements().primitives;
     if primitives.iter().all(|&(kind, _)| kind != Cone) {
@@ -168,16 +168,19 @@ fn cylinders(at: &Setting, scene: &Scene) -> Vec<(String, Setting)> {
     [64, 20, 10, 6]
         .into_iter()
         .map(|sides| {
-            let setting = Setting {
-                cylinders: Cylinders::Polygons(sides),
+            let setup = Setup {
+                scene: SceneRequest {
+                    cylinders: Cylinders::Polygons(sides),
+                    ..at.scene.clone()
+                },
                 ..at.clone()
             };
-            (format!("{sides} polygons"), setting)
+            (format!("{sides} polygons"), setup)
         })
         .collect()
 }
 
-fn resolution(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
+fn resolution(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
     [2, 4]
         .into_iter()
         .map(|by| {
@@ -192,7 +195,7 @@ fn resolution(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
         .collect()
 }
 
-fn kernel(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
+fn kernel(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
     [
         KernelChoice::Scalar,
         KernelChoice::Stream,
@@ -210,7 +213,7 @@ fn kernel(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
     .collect()
 }
 
-fn method(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
+fn method(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
     Method::all()
         .filter(|m| m.name != at.build.method.name && m.name != "none")
         .map(|method| {
@@ -224,7 +227,7 @@ fn method(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
         .collect()
 }
 
-fn d_max(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
+fn d_max(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
     [12, 16, 24]
         .map(MaxDepth::Fixed)
         .into_iter()
@@ -239,7 +242,7 @@ fn d_max(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
         .collect()
 }
 
-fn n_oilf(at: &Setting, _: &Scene) -> Vec<(String, Setting)> {
+fn n_oilf(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
     [1, 4, 8]
         .into_iter()
         .filter(|&n| n != at.build.n_oilf)

@@ -10,16 +10,19 @@ mod flip;
 mod front;
 mod knobs;
 mod measures;
+mod outcome;
 
 pub use error::{ImageError, pixel_errors};
 pub use front::pareto_front;
 pub use knobs::{KNOBS, Knob};
 pub use measures::{ERROR_MEASURES, ErrorMeasure};
+pub use outcome::{Choice, Outcome};
 
 use super::MeasureError;
 use crate::primitive::Primitive;
 use crate::progress::{Cancelled, Progress};
-use crate::scene::{Cylinders, Scene};
+use crate::scene::{Cylinders, Scene, SceneRequest};
+use crate::setup::Setup;
 use crate::structure::{BuildSettings, Tree, build};
 use crate::trace::{
     Picture, PrecisionChoice, RenderError, RenderSettings, Scratch, closest_hit, render_timed,
@@ -27,61 +30,6 @@ use crate::trace::{
 };
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
-
-/// Everything that a point of the trade is made with.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Setting {
-    pub cylinders: Cylinders,
-    pub build: BuildSettings,
-    pub render: RenderSettings,
-}
-
-/// What distinguishes a point from the reference.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Choice {
-    /// Knobs and what they are turned to; none at the reference.
-    pub turned: Vec<(&'static str, String)>,
-    /// Whether a knob among them moves the picture.
-    pub moves_image: bool,
-    pub setting: Setting,
-}
-
-impl Choice {
-    /// Such as `samples 4, precision f32`, or `reference`.
-    pub fn words(&self) -> String {
-        let words: Vec<_> = self
-            .turned
-            .iter()
-            .map(|(knob, value)| format!("{knob} {value}"))
-            .collect();
-        if words.is_empty() {
-            "reference".into()
-        } else {
-            words.join(", ")
-        }
-    }
-}
-
-/// A choice with its time and error.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
-    pub choice: Choice,
-    /// CPU seconds of every round, ascending; there is at least one.
-    pub seconds: Vec<f64>,
-    /// Share of the reference's pixels whose primary ray meets another object, or none, or one where
-    /// it should meet none. The polygons of a cylinder count as the cylinder.
-    pub wrong_hits: f64,
-    pub error: ImageError,
-    /// Bytes of the objects as intersection tests take them.
-    pub object_bytes: u64,
-}
-
-impl Outcome {
-    /// The median of an odd number of rounds, else the lower of the two in the middle.
-    pub fn median(&self) -> f64 {
-        self.seconds[(self.seconds.len() - 1) / 2]
-    }
-}
 
 /// All that was tried.
 #[derive(Clone, Debug, PartialEq)]
@@ -123,34 +71,37 @@ impl Trade {
     }
 }
 
-/// The reference of a trade: `f64`, exact cylinders, secondary rays at least 8 deep without a cut-off.
-pub fn reference(build: &BuildSettings, render: &RenderSettings) -> Setting {
-    Setting {
-        cylinders: Cylinders::Exact,
-        build: build.clone(),
+/// The reference of a trade: `f64`, exact cylinders, secondary rays at least 8 deep without a minimum contribution.
+pub fn reference(setup: &Setup) -> Setup {
+    Setup {
+        scene: SceneRequest {
+            cylinders: Cylinders::Exact,
+            ..setup.scene.clone()
+        },
+        build: setup.build.clone(),
         render: RenderSettings {
             precision: PrecisionChoice::F64,
-            d_arec: render.d_arec.max(8),
-            cut_off: 0.0,
-            ..*render
+            d_arec: setup.render.d_arec.max(8),
+            min_contribution: 0.0,
+            ..setup.render
         },
     }
 }
 
 /// The reference; every knob alone at every value; and those that move the picture together, all at
 /// their first value, all at their second, and so on, a knob without one at its last.
-pub fn choices(reference: &Setting, scene: &Scene) -> Vec<Choice> {
+pub fn choices(reference: &Setup, scene: &Scene) -> Vec<Choice> {
     let mut choices = vec![Choice {
         turned: Vec::new(),
         moves_image: false,
-        setting: reference.clone(),
+        setup: reference.clone(),
     }];
     for knob in KNOBS {
-        for (value, setting) in (knob.values)(reference, scene) {
+        for (value, setup) in (knob.values)(reference, scene) {
             choices.push(Choice {
                 turned: vec![(knob.name, value)],
                 moves_image: knob.moves_image,
-                setting,
+                setup,
             });
         }
     }
@@ -164,14 +115,12 @@ pub fn choices(reference: &Setting, scene: &Scene) -> Vec<Choice> {
             let Some(step) = count.checked_sub(1).map(|last| step.min(last)) else {
                 continue;
             };
-            let Some((value, setting)) = (knob.values)(&together.setting, scene)
-                .into_iter()
-                .nth(step)
+            let Some((value, setup)) = (knob.values)(&together.setup, scene).into_iter().nth(step)
             else {
                 continue;
             };
             together.turned.push((knob.name, value));
-            together.setting = setting;
+            together.setup = setup;
         }
         together.moves_image = true;
         choices.push(together);
@@ -232,7 +181,7 @@ impl<'a> Trading<'a> {
     /// # Errors
     /// The reference's threads cannot be had.
     pub fn new(exact: &'a Scene, choices: Vec<Choice>, rounds: u32) -> Result<Self, MeasureError> {
-        let threads = choices.first().map_or(0, |c| c.setting.render.threads);
+        let threads = choices.first().map_or(0, |c| c.setup.render.threads);
         Ok(Trading {
             exact,
             choices,
@@ -268,15 +217,15 @@ impl<'a> Trading<'a> {
         let (made, exact) = (&mut self.made, self.exact);
         let (scene, tree) = self
             .pool
-            .install(|| made.get(exact, &choice.setting, progress))?;
-        let render = &choice.setting.render;
+            .install(|| made.get(exact, &choice.setup, progress))?;
+        let render = &choice.setup.render;
         let (picture, seconds) = traced(scene, tree, render, &self.pool, progress)?;
         let mut pixel_errors = None;
         if place == self.outcomes.len() {
-            let owners = owners(self.exact, choice.setting.cylinders);
+            let owners = owners(self.exact, choice.setup.scene.cylinders);
             let objects = objects(scene, tree, render, &owners, &self.pool)?;
             let precision = render.precision_for(scene).precision;
-            let first = &self.choices[0].setting.render;
+            let first = &self.choices[0].setup.render;
             let seen = View::new(&picture, &objects, [first.width, first.height]);
             let right = self.reference.get_or_insert_with(|| seen.clone());
             pixel_errors = Some(error::pixel_errors(&seen.colors, &right.colors));
@@ -309,10 +258,10 @@ impl Made {
     fn get(
         &mut self,
         exact: &Scene,
-        setting: &Setting,
+        setup: &Setup,
         progress: &Progress,
     ) -> Result<(&Scene, &Tree), MeasureError> {
-        let cylinders = setting.cylinders;
+        let cylinders = setup.scene.cylinders;
         let scene = match self.scenes.iter().position(|(c, _)| *c == cylinders) {
             Some(place) => place,
             None => {
@@ -322,11 +271,11 @@ impl Made {
             }
         };
         let scene = &self.scenes[scene].1;
-        let key = (cylinders, setting.build.clone());
+        let key = (cylinders, setup.build.clone());
         let tree = match self.trees.iter().position(|(k, _)| *k == key) {
             Some(place) => place,
             None => {
-                let tree = build(scene, &setting.build, progress)?;
+                let tree = build(scene, &setup.build, progress)?;
                 self.trees.push((key, tree));
                 self.trees.len() - 1
             }
@@ -381,7 +330,7 @@ fn objects(
     owners: &[u32],
     pool: &rayon::ThreadPool,
 ) -> Result<Vec<u32>, RenderError> {
-    let view = render.view()?;
+    let view = render.view(scene)?;
     let shapes = scene.shapes(render.precision_for(scene).precision);
     Ok(pool.install(|| {
         (0..render.height)

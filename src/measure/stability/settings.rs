@@ -1,7 +1,8 @@
 //! Settings at the ends of their ranges.
 
+use super::case::Case;
 use super::scenes::{aims, base, polygon, scene_of, sphere};
-use super::{Case, Outcome, Trial};
+use super::trial::{Outcome, Trial};
 use crate::geometry::Vec3;
 use crate::measure::unsplit;
 use crate::scene::{Camera, CameraError, Material, Scene, SceneParts};
@@ -292,10 +293,10 @@ fn no_view(trial: &Trial<'_>) -> Outcome {
     ];
     Outcome::all(cases.map(|(camera, expected)| {
         let settings = RenderSettings {
-            camera,
+            camera: camera.into(),
             ..small(&scene, 4)
         };
-        let found = settings.view().err();
+        let found = settings.view(&scene).err();
         Outcome::check(found == Some(RenderError::Camera(expected)), || {
             format!("expected '{expected}', found {found:?}")
         })
@@ -311,7 +312,7 @@ fn large_picture(trial: &Trial<'_>) -> Outcome {
     const MOST_GROWTH: usize = 1 << 30;
     let scene = scene_of(vec![sphere(Vec3::ZERO, 1.0)]);
     let side = if trial.quick { 512 } else { 8192 };
-    let refused = small(&scene, 16_385).view().err();
+    let refused = small(&scene, 16_385).view(&scene).err();
     let tree = match trial.tree(&scene, &trial.settings()) {
         Ok(tree) => tree,
         Err(outcome) => return outcome,

@@ -84,7 +84,7 @@ fn picture(render: &RenderSettings) -> String {
         render.width,
         render.height,
         render.d_arec,
-        render.cut_off,
+        render.min_contribution,
         render.precision.name(),
         match render.sampling {
             Sampling::Center => "centres",

@@ -80,12 +80,10 @@ fn heatmaps(
 /// The command that measures a run again.
 fn command(report: &Report, run: &Measurement) -> String {
     let request = &report.scene.request;
-    let own = run.render.camera != report.scene.camera;
     let settings = TreeSettings {
         cylinders: request.cylinders,
         build: run.build.clone(),
         picture: PictureSettings::of(&run.render),
     };
-    let camera = own.then_some(&run.render.camera);
-    measure_command(&request.source, camera, &settings)
+    measure_command(&request.source, &run.render.camera, &settings)
 }

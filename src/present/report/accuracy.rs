@@ -1,8 +1,8 @@
 //! The trade of time for accuracy: text for people, JSON and CSV for programs.
 
-use super::plain_table;
+use super::table::plain_table;
 use crate::measure::accuracy::{Outcome, Trade};
-use crate::measure::significant;
+use crate::present::number::significant;
 use serde_json::{Value, json};
 use std::io::{Result, Write};
 
@@ -34,8 +34,8 @@ const TITLES: [&str; 12] = [
 pub fn write_text(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
     let trade = report.trade;
     if let Some(first) = trade.outcomes.first() {
-        let setting = &first.choice.setting;
-        let render = &setting.render;
+        let setup = &first.choice.setup;
+        let render = &setup.render;
         writeln!(
             out,
             "Scene {}. Reference: f64, exact shapes, D_AREC {}, {} samples a pixel, {} × {} pixels, \
@@ -46,7 +46,7 @@ pub fn write_text(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
             render.samples,
             render.width,
             render.height,
-            setting.build.method.name,
+            setup.build.method.name,
             significant(first.median()),
             first.seconds.len()
         )?;

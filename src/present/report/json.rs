@@ -1,6 +1,9 @@
 //! JSON for programs: the paper's symbols as keys, shares as fractions, times in seconds.
 
-use super::{Report, SceneSummary, Writer, exact_value, per_kind};
+use super::content::{Report, SceneSummary};
+use super::exact::exact_value;
+use super::per_kind;
+use super::writer::Writer;
 use crate::measure::{DELTA, LAMBDA, Measurement, PARAMETERS, parameter};
 use crate::structure::MaxDepth;
 use serde_json::{Map, Value, json};
@@ -93,7 +96,7 @@ fn settings(run: &Measurement) -> Result<Value> {
         "memory_limit": build.memory_limit >> 20,
         "resolution": [render.width, render.height],
         "d_arec": render.d_arec,
-        "cut_off": render.cut_off,
+        "min_contribution": render.min_contribution,
         "precision": {
             "asked": name(&render.precision)?,
             "used": run.precision.precision.name(),
@@ -104,8 +107,8 @@ fn settings(run: &Measurement) -> Result<Value> {
             "used": render.kernel.description(),
         },
         "sampling": name(&render.sampling)?,
-        "threads": render.threads,
-        "camera": render.camera,
+        "threads": run.building.threads,
+        "camera": run.camera,
     }))
 }
 

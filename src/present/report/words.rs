@@ -1,6 +1,6 @@
 //! What a report says in sentences: the scene, the settings, the times.
 
-use super::Report;
+use super::content::Report;
 use crate::geometry::Vec3;
 use crate::measure::Measurement;
 use crate::scene::Sampling;
@@ -51,7 +51,7 @@ pub fn scene(report: &Report) -> Vec<String> {
 pub fn settings(report: &Report) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(run) = report.runs.first() {
-        let (render, camera) = (&run.render, &run.render.camera);
+        let (render, camera) = (&run.render, &run.camera);
         lines.push(format!(
             "Picture: {} × {} pixels, D_AREC {}, samples at the {}; eye {}, looking at {}, angle {}°",
             render.width,
@@ -79,15 +79,18 @@ pub fn times(report: &Report) -> Vec<String> {
         .iter()
         .map(|run| {
             let mut line = format!(
-                "{}: tree built in {:.1?} ({:.1?} CPU) on 1 thread",
-                run.build.method.name, run.building.wall, run.building.cpu,
+                "{}: tree built in {:.1?} ({:.1?} CPU) on {}",
+                run.build.method.name,
+                run.building.wall,
+                run.building.cpu,
+                threads(run.building.threads)
             );
             if let Some(rendering) = run.rendering {
                 line += &format!(
                     "; picture traced in {:.1?} ({:.1?} CPU) on {}",
                     rendering.wall,
                     rendering.cpu,
-                    threads(run.render.threads)
+                    threads(rendering.threads)
                 );
             }
             line
@@ -120,7 +123,6 @@ fn tree(run: &Measurement) -> String {
 
 fn threads(count: usize) -> String {
     match count {
-        0 => "all cores".into(),
         1 => "1 thread".into(),
         n => format!("{n} threads"),
     }

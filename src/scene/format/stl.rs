@@ -9,11 +9,14 @@
 //! facets, the size decides, because many writers never fill in the number.
 
 use super::builder::SceneBuilder;
+use super::entry::Format;
+use super::error::ReadError;
 use super::lines::{number, quoted, wide_text};
-use super::{Format, Place, ReadError};
+use super::place::Place;
 use crate::geometry::Vec3;
 use crate::progress::Progress;
-use crate::scene::{NoteKind, SceneParts};
+use crate::scene::note::NoteKind;
+use crate::scene::parts::SceneParts;
 
 pub(super) const FORMAT: Format = Format {
     name: "stl",

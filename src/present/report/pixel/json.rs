@@ -1,7 +1,7 @@
 //! A pixel's record for programs. Lengths are in scene units; null where a ray has no end, no hit
 //! or no parent, and where it runs along a plane.
 
-use super::PixelReport;
+use super::report::PixelReport;
 use crate::trace::{PixelRecord, RayKind, RecordedRay, Tally, srgb8};
 use serde_json::{Map, Value, json};
 use std::io::{Result, Write};
@@ -20,7 +20,7 @@ pub fn write(report: &PixelReport<'_>, out: &mut dyn Write) -> Result<()> {
         "scene": report.scene.name(),
         "resolution": [report.render.width, report.render.height],
         "d_arec": report.render.d_arec,
-        "cut_off": report.render.cut_off,
+        "min_contribution": report.render.min_contribution,
         "precision": report.render.precision_for(report.scene).precision,
         "pixel": report.records.first().map(|(_, record)| record.pixel),
         "methods": methods,

@@ -2,7 +2,8 @@
 
 use super::json::{Root, Whole};
 use crate::geometry::Vec3;
-use crate::scene::format::{Place, ReadError};
+use crate::scene::format::error::ReadError;
+use crate::scene::format::place::Place;
 use std::borrow::Cow;
 
 /// The type of a component.

@@ -2,9 +2,10 @@
 
 use super::json::{Extensions, Root};
 use crate::scene::format::builder::SceneBuilder;
+use crate::scene::format::error::ReadError;
 use crate::scene::format::lines::quoted;
-use crate::scene::format::{Place, ReadError};
-use crate::scene::{Note, NoteKind};
+use crate::scene::format::place::Place;
+use crate::scene::note::{Note, NoteKind};
 use std::collections::BTreeMap;
 
 pub(super) const LIGHTS: &str = "KHR_lights_punctual";

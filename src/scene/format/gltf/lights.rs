@@ -3,7 +3,8 @@
 use super::nodes::{LightKind, PlacedLight};
 use crate::geometry::{Aabb, Vec3};
 use crate::scene::format::builder::SceneBuilder;
-use crate::scene::{Light, NoteKind};
+use crate::scene::material::Light;
+use crate::scene::note::NoteKind;
 
 /// Distance of directional lights, in diagonals of the scene.
 const FAR: f64 = 1000.0;

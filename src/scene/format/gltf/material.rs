@@ -3,9 +3,10 @@
 use super::extensions::{INDEX_OF_REFRACTION, SPECULAR_GLOSSINESS, TRANSMISSION};
 use super::json::Fields;
 use crate::geometry::Vec3;
-use crate::scene::format::Place;
 use crate::scene::format::builder::SceneBuilder;
-use crate::scene::{Material, NoteKind};
+use crate::scene::format::place::Place;
+use crate::scene::material::Material;
+use crate::scene::note::NoteKind;
 use serde_json::Value;
 
 /// A material of a file, converted.

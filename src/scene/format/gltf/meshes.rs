@@ -7,9 +7,12 @@ use super::material::{self, Converted};
 use super::nodes::{PlacedMesh, rotation};
 use crate::geometry::Vec3;
 use crate::progress::Progress;
+use crate::scene::format::builder::MAX_FACES;
 use crate::scene::format::builder::SceneBuilder;
-use crate::scene::format::{MAX_FACES, Place, ReadError};
-use crate::scene::{Material, NoteKind};
+use crate::scene::format::error::ReadError;
+use crate::scene::format::place::Place;
+use crate::scene::material::Material;
+use crate::scene::note::NoteKind;
 use glam::{DMat3, DMat4};
 use std::borrow::Cow;
 

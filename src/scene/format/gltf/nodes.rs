@@ -4,9 +4,10 @@ use super::extensions::{INSTANCING, LIGHTS, VISIBILITY};
 use super::json::{Fields, Node, Root, Whole};
 use crate::geometry::Vec3;
 use crate::progress::Progress;
-use crate::scene::NoteKind;
 use crate::scene::format::builder::SceneBuilder;
-use crate::scene::format::{Place, ReadError};
+use crate::scene::format::error::ReadError;
+use crate::scene::format::place::Place;
+use crate::scene::note::NoteKind;
 use glam::{DMat4, DQuat};
 use serde_json::Value;
 

@@ -31,7 +31,8 @@ pub use write::write;
 
 use words::Words;
 
-use super::{Format, complete};
+use super::complete;
+use super::entry::Format;
 use crate::progress::Progress;
 
 pub(super) const FORMAT: Format = Format {

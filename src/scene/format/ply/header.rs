@@ -1,8 +1,9 @@
 //! The header: which elements follow, with which properties.
 
 use crate::progress::Progress;
+use crate::scene::format::error::ReadError;
 use crate::scene::format::lines::{Line, Lines, quoted, refuse_wide_text, whole};
-use crate::scene::format::{Place, ReadError};
+use crate::scene::format::place::Place;
 
 /// How the values after the header are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -17,11 +17,14 @@ mod header;
 mod values;
 
 use super::builder::{MAX_VERTICES, SceneBuilder};
+use super::entry::Format;
+use super::error::ReadError;
 use super::lines::quoted;
-use super::{Format, Place, ReadError};
+use super::place::Place;
 use crate::geometry::Vec3;
 use crate::progress::Progress;
-use crate::scene::{NoteKind, SceneParts};
+use crate::scene::note::NoteKind;
+use crate::scene::parts::SceneParts;
 use header::{Element, Encoding, Header, Kind, Property, Scalar, unusable};
 use std::collections::HashMap;
 use values::{Failure, Layout, Values};

@@ -2,8 +2,8 @@
 
 use super::header::{Encoding, Kind, Scalar};
 use crate::progress::{Cancelled, Progress};
-use crate::scene::format::Place;
 use crate::scene::format::lines::{number, quoted, whole, whole_of};
+use crate::scene::format::place::Place;
 
 /// Elements between two checks for cancellation.
 const ELEMENTS_PER_CHECK: u64 = 4096;

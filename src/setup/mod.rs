@@ -1,0 +1,46 @@
+//! The whole experiment as one value: which scene, which structure, how it is rendered, and from
+//! where.
+
+use crate::scene::{Cylinders, Scene, SceneRequest, SceneSource};
+use crate::structure::BuildSettings;
+use crate::trace::RenderSettings;
+
+/// Everything that decides the structure, the picture and what is counted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setup {
+    pub scene: SceneRequest,
+    pub build: BuildSettings,
+    pub render: RenderSettings,
+}
+
+impl Setup {
+    /// This scene with the paper's settings.
+    pub fn new(scene: SceneRequest) -> Self {
+        Setup {
+            scene,
+            build: BuildSettings::default(),
+            render: RenderSettings::default(),
+        }
+    }
+
+    /// This setup with the camera that it uses of a scene spelled out, so that it stays the same
+    /// when the scene's own camera changes.
+    #[must_use]
+    pub fn with_camera_of(mut self, scene: &Scene) -> Self {
+        self.render.camera = self.render.camera.resolve(scene.camera()).into();
+        self
+    }
+}
+
+impl Default for Setup {
+    /// The paper's `balls` with the paper's settings.
+    fn default() -> Self {
+        Setup::new(SceneRequest {
+            source: SceneSource::Builtin {
+                name: "balls".into(),
+                size: None,
+            },
+            cylinders: Cylinders::Exact,
+        })
+    }
+}
