@@ -29,5 +29,6 @@ mod reconstructions;
 mod record;
 mod scheduler;
 mod stability;
+mod tolerant;
 mod visits;
 mod workspace;

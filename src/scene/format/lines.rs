@@ -204,6 +204,18 @@ fn unusual_number(word: &[u8]) -> Option<f64> {
     parse(&word)
 }
 
+/// Returns where a comment that begins with `#` starts, if there is one. The `#` in the names that C
+/// libraries give to what is not a number (`-1.#IND00`) starts none.
+pub(super) fn comment_start(line: &[u8]) -> Option<usize> {
+    let starts_one = |i: usize| {
+        let is_name =
+            line[..i].ends_with(b"1.") && line.get(i + 1).is_some_and(u8::is_ascii_alphabetic);
+        !is_name
+    };
+    let mut marks = line.iter().enumerate().filter(|(_, byte)| **byte == b'#');
+    marks.find(|(i, _)| starts_one(*i)).map(|(i, _)| i)
+}
+
 /// Parses a whole number, which may be written as a decimal (`4.0`).
 pub(super) fn whole(word: &[u8]) -> Option<i64> {
     // Longer numbers are left to the general case, which notices an overflow.

@@ -189,15 +189,17 @@ fn read_binary(bytes: &[u8], progress: &Progress) -> Result<SceneBuilder, ReadEr
 struct Tokens<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// The line of the last token, counted from 1.
+    /// The current line, counted from 1.
     line: usize,
+    /// The line of the last token.
+    last_line: usize,
     taken: usize,
     progress: &'a Progress,
 }
 
 impl<'a> Tokens<'a> {
     fn place(&self) -> Place {
-        Place::Line(self.line)
+        Place::Line(self.last_line)
     }
 
     /// Returns the next token; `None` at the end of the file.
@@ -221,14 +223,17 @@ impl<'a> Tokens<'a> {
         let is_blank = |b: &u8| matches!(b, b'\t'..=b'\r' | b' ');
         let length = rest.iter().position(is_blank).unwrap_or(rest.len());
         self.at += length;
+        if length > 0 {
+            self.last_line = self.line;
+        }
         Ok((length > 0).then(|| &rest[..length]))
     }
 
     /// Returns the next token without reading it.
     fn peek(&mut self) -> Result<Option<&'a [u8]>, ReadError> {
-        let (at, line, taken) = (self.at, self.line, self.taken);
+        let before = (self.at, self.line, self.last_line, self.taken);
         let token = self.next();
-        (self.at, self.line, self.taken) = (at, line, taken);
+        (self.at, self.line, self.last_line, self.taken) = before;
         token
     }
 
@@ -243,11 +248,11 @@ impl<'a> Tokens<'a> {
                 return Ok(*keyword);
             }
             if !second.is_empty() && is(word, first) {
-                let (at, line) = (self.at, self.line);
+                let before = (self.at, self.line, self.last_line);
                 if self.next()?.is_some_and(|next| is(next, second)) {
                     return Ok(*keyword);
                 }
-                (self.at, self.line) = (at, line);
+                (self.at, self.line, self.last_line) = before;
             }
         }
         Ok(Keyword::Other(word))
@@ -268,13 +273,14 @@ impl<'a> Tokens<'a> {
     }
 
     fn vertex(&mut self) -> Result<Vec3, ReadError> {
+        let place = self.place();
         let mut vertex = [0.0; 3];
         for (coordinate, name) in vertex.iter_mut().zip(["x", "y", "z"]) {
             let word = self.next()?;
             let finite = word.and_then(number).filter(|n| n.is_finite());
             *coordinate = finite.ok_or_else(|| {
                 let expected = format_args!("{name} of the vertex (a finite number)");
-                ReadError::at(self.place(), expected, found(word))
+                ReadError::at(place, expected, found(word))
             })?;
         }
         Ok(Vec3::from_array(vertex))
@@ -332,6 +338,7 @@ fn read_text(bytes: &[u8], progress: &Progress) -> Result<SceneBuilder, ReadErro
         bytes: without_mark(bytes),
         at: 0,
         line: 1,
+        last_line: 1,
         taken: 0,
         progress,
     };

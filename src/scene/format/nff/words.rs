@@ -4,7 +4,7 @@ use super::write::NOTE;
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::format::error::ReadError;
-use crate::scene::format::lines::{number, parse, quoted};
+use crate::scene::format::lines::{comment_start, number, parse, quoted};
 use crate::scene::format::place::Place;
 use std::fmt::Display;
 
@@ -126,8 +126,9 @@ impl<'a> Words<'a> {
         }
         self.skip_blanks();
         let rest = &self.bytes[self.at..];
-        let is_end = |b: &u8| matches!(b, b'\t'..=b'\r' | b' ' | b'#');
+        let is_end = |b: &u8| matches!(b, b'\t'..=b'\r' | b' ');
         let length = rest.iter().position(is_end).unwrap_or(rest.len());
+        let length = comment_start(&rest[..length]).unwrap_or(length);
         let comment = rest[..length].windows(2).position(|two| two == b"/*");
         let length = comment.unwrap_or(length);
         self.at += length;

@@ -24,7 +24,7 @@ use super::builder::{MAX_VERTICES, SceneBuilder};
 use super::entry::Format;
 use super::error::ReadError;
 use super::input::{Input, SiblingError};
-use super::lines::{Line, Lines, Words, quoted, refuse_wide_text, whole};
+use super::lines::{Line, Lines, Words, comment_start, quoted, refuse_wide_text, whole};
 use super::place::Place;
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
@@ -137,8 +137,7 @@ fn without_backslash(line: &[u8]) -> &[u8] {
 
 /// Returns the part of a line before its comment.
 fn without_comment(line: &[u8]) -> &[u8] {
-    let end = line.iter().position(|b| *b == b'#');
-    &line[..end.unwrap_or(line.len())]
+    &line[..comment_start(line).unwrap_or(line.len())]
 }
 
 struct Reader<'a> {

@@ -15,7 +15,7 @@
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::format::error::ReadError;
-use crate::scene::format::lines::{Line, Lines, Words, quoted, wide_text};
+use crate::scene::format::lines::{Line, Lines, Words, comment_start, quoted, wide_text};
 use crate::scene::format::place::Place;
 use crate::scene::material::Material;
 use crate::scene::note::NoteKind;
@@ -83,7 +83,7 @@ pub(super) fn read(
                 }
             }
             (Some(keyword), Some((found, _))) => {
-                let end = line.bytes.iter().position(|b| *b == b'#');
+                let end = comment_start(line.bytes);
                 let bytes = &line.bytes[..end.unwrap_or(line.bytes.len())];
                 let mut words = Line { bytes, ..line }.words();
                 words.next();

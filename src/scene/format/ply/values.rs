@@ -33,6 +33,8 @@ pub(super) struct Values<'a> {
     layout: Layout,
     /// The current line of a text file, counted from 1.
     line: usize,
+    /// The line of the last value of a text file.
+    last_line: usize,
     /// Whether a value of the current line was read.
     in_line: bool,
     /// The first element of a text file that does not begin on a new line.
@@ -59,6 +61,7 @@ impl<'a> Values<'a> {
             encoding,
             layout,
             line: lines + 1,
+            last_line: lines,
             in_line: false,
             misaligned: None,
             surplus: None,
@@ -94,6 +97,9 @@ impl<'a> Values<'a> {
             }
         }
         self.skip_blanks();
+        if self.left() == 0 {
+            return Ok(Place::Line(self.last_line));
+        }
         let place = Place::Line(self.line);
         if self.in_line {
             self.misaligned.get_or_insert(place);
@@ -138,13 +144,16 @@ impl<'a> Values<'a> {
         let is_blank = |b: &u8| matches!(b, b'\t'..=b'\r' | b' ');
         let length = rest.iter().position(is_blank).unwrap_or(rest.len());
         self.at += length;
-        self.in_line |= length > 0;
+        if length > 0 {
+            self.in_line = true;
+            self.last_line = self.line;
+        }
         (length > 0).then(|| &rest[..length])
     }
 
     /// Returns the line of the last token of a text file.
     pub fn line(&self) -> Place {
-        Place::Line(self.line)
+        Place::Line(self.last_line)
     }
 
     /// Returns the place of what follows the last element, if there is anything.
