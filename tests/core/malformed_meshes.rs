@@ -465,9 +465,5 @@ fn few_bytes_never_become_endless_work() {
     json["scenes"][0]["nodes"] = (0..20_000).collect();
     json["accessors"][1]["count"] = json!(0);
     let bytes = serde_json::to_vec(&json).unwrap();
-    refused(
-        "gltf",
-        &bytes,
-        &["at most", "mesh parts and triangles"],
-    );
+    refused("gltf", &bytes, &["at most", "mesh parts and triangles"]);
 }

@@ -16,13 +16,13 @@ use crate::geometry::Vec3;
 pub struct Builtin {
     /// Name on the command line and in lists.
     pub name: &'static str,
-    /// One sentence: what it shows.
+    /// A short description.
     pub about: &'static str,
-    /// The size that the paper used; 1 where there is no other.
+    /// The size that the paper used; 1 if there is only one.
     pub default_size: u32,
-    /// The sizes allowed.
+    /// The allowed sizes.
     pub sizes: std::ops::RangeInclusive<u32>,
-    /// Makes the scene of this size.
+    /// Generates the scene of a size.
     pub generate: fn(u32) -> SceneParts,
 }
 
@@ -37,24 +37,24 @@ pub static BUILTINS: &[Builtin] = &[
     teaching::BUILTIN,
 ];
 
-/// Linear background colour of the Standard Procedural Databases.
+/// Linear background color of the Standard Procedural Databases.
 const SPD_BACKGROUND: Vec3 = Vec3::new(0.078, 0.361, 0.753);
 
-/// What a scene says that stands in for one that was never published.
+/// Returns the note of a scene that replaces one that was never published.
 fn reconstruction_note(name: &str) -> Note {
     let text = format!(
-        "A reconstruction: the scene '{name}' of the paper was never published. This one was made \
-         anew to meet its figures in Table 4 and the directions in Table 6."
+        "A reconstruction: the scene '{name}' of the paper was never published. This one was designed \
+         to match its figures in Table 4 and the directions in Table 6."
     );
     Note::new(NoteKind::Remark, text)
 }
 
-/// Why a generator gave no scene.
+/// Why a scene could not be generated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BuiltinError {
-    #[error("no generator is called '{0}'")]
+    #[error("there is no generator '{0}'")]
     Unknown(String),
-    #[error("{name} takes sizes {lowest} to {highest}, found {found}")]
+    #[error("the size of {name} must be from {lowest} to {highest}, found {found}")]
     Size {
         name: &'static str,
         lowest: u32,
@@ -63,15 +63,15 @@ pub enum BuiltinError {
     },
 }
 
-/// The generator of this name.
+/// Returns the generator with this name.
 pub fn find(name: &str) -> Option<&'static Builtin> {
     BUILTINS.iter().find(|b| b.name == name)
 }
 
-/// Generates a scene; without a size, the paper's.
+/// Generates a scene; the default size is that of the paper.
 ///
 /// # Errors
-/// An unknown name or a size out of range.
+/// The name is unknown or the size out of range.
 pub fn generate(name: &str, size: Option<u32>) -> Result<SceneParts, BuiltinError> {
     let builtin = find(name).ok_or_else(|| BuiltinError::Unknown(name.to_owned()))?;
     let size = size.unwrap_or(builtin.default_size);

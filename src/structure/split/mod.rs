@@ -31,30 +31,30 @@ pub static SPLIT_RULES: &[MethodInfo] = &[
     none::METHOD,
 ];
 
-/// What is known of a build method before it is used.
+/// The description of a build method.
 pub struct MethodInfo {
     /// Name on the command line and in files.
     pub name: &'static str,
-    /// Name in lists for people.
+    /// Name in lists for users.
     pub title: &'static str,
-    /// One sentence: how it splits.
+    /// A short description of how it splits.
     pub about: &'static str,
-    /// Who described it.
+    /// Publications that describe it.
     pub source: &'static str,
     /// Its number in the paper, if it is one of the paper's methods.
     pub paper: Option<u32>,
-    /// What [`OverlapRule::Paper`] means for it: whether spheres are held against cells exactly.
+    /// What [`OverlapRule::Paper`] means for it: whether spheres are tested against cells exactly.
     pub paper_spheres_exactly: bool,
-    /// What its cells form.
+    /// The structure that its cells form.
     pub structure: Structure,
-    /// Its own constants.
+    /// The settings of this method.
     pub constants: &'static [Constant],
-    /// Makes the rule for checked settings.
+    /// Creates the rule for valid settings.
     pub rule: fn(&BuildSettings) -> Box<dyn SplitRule>,
 }
 
 impl MethodInfo {
-    /// The overlap rule in words, for reports.
+    /// Describes the overlap rule, for reports.
     pub fn overlap_text(&self, rule: OverlapRule) -> &'static str {
         match rule {
             OverlapRule::Paper if self.paper_spheres_exactly => {
@@ -66,21 +66,22 @@ impl MethodInfo {
     }
 }
 
-/// What the cells of a method form, and so where they may end and how rays walk through them.
+/// The structure that the cells of a method form. It determines where cells may become leaves and how
+/// rays traverse them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Structure {
     /// A cell with at most `N_OILF` objects or at depth `D_MAX` is a leaf.
     Bintree,
-    /// The same, but only at every third level: the three levels of planes between are one node of an
-    /// octree with its eight children.
+    /// Like [`Structure::Bintree`], but cells become leaves only at every third level: three levels of
+    /// planes are one octree node with eight children.
     Octree,
-    /// The leaves are the voxels of a uniform grid. `D_MAX` and `N_OILF` do not apply, and rays go from
-    /// voxel to voxel: the planes are passed by none, and only say where the voxels are.
+    /// The leaves are the voxels of a uniform grid. `D_MAX` and `N_OILF` do not apply. Rays step from voxel
+    /// to voxel; the planes only define where the voxels are.
     Grid,
 }
 
 impl Structure {
-    /// Whether a cell at this depth may become a leaf for holding few objects or for its depth.
+    /// Returns whether a cell at this depth may become a leaf because of `N_OILF` or `D_MAX`.
     pub(super) fn ends_at(self, depth: u32) -> bool {
         match self {
             Structure::Bintree => true,
@@ -89,7 +90,7 @@ impl Structure {
         }
     }
 
-    /// Levels that a cell is split by at once.
+    /// Returns the number of levels by which a cell is split at once.
     pub(super) fn levels(self) -> u32 {
         match self {
             Structure::Octree => 3,
@@ -97,7 +98,7 @@ impl Structure {
         }
     }
 
-    /// What to do for a smaller tree.
+    /// Returns advice on how to get a smaller tree.
     pub(super) fn how_to_shrink(self) -> &'static str {
         match self {
             Structure::Bintree | Structure::Octree => "lower D_MAX, raise N_OILF",
@@ -106,16 +107,16 @@ impl Structure {
     }
 }
 
-/// A constant of a build method that can be set.
+/// A setting of a build method.
 pub struct Constant {
     /// Name on the command line and in files.
     pub name: &'static str,
     pub default: f64,
     pub lowest: f64,
     pub highest: f64,
-    /// 0 for any number, 1 for whole numbers (switches go from 0 to 1).
+    /// 0 for any number, 1 for integers (0 and 1 for switches).
     pub step: f64,
-    /// Unit, or an empty string for a plain number.
+    /// Unit; empty for a number without a unit.
     pub unit: &'static str,
     /// What it does.
     pub about: &'static str,
@@ -123,13 +124,13 @@ pub struct Constant {
     pub source: &'static str,
 }
 
-/// Says where, if anywhere, a cell is split.
+/// Decides whether and where a cell is split.
 pub trait SplitRule: Send + Sync {
-    /// The cell holds more than `N_OILF` objects and lies above `D_MAX`.
+    /// Decides on a cell that contains more than `N_OILF` objects and is above depth `D_MAX`.
     fn decide(&self, cell: &Cell<'_>) -> Decision;
 }
 
-/// What becomes of a cell. Planes are in the coordinates of the root cell ([`Frame`]).
+/// A decision on a cell. Planes are in local coordinates ([`Frame`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Decision {
     Leaf(StopReason),
@@ -137,8 +138,8 @@ pub enum Decision {
         axis: Axis,
         plane: f32,
     },
-    /// A split that gains too little to be worth itself, made in the hope of better ones below it:
-    /// see [`Cell::failed_splits`].
+    /// A split that does not lower the cost enough, made in the hope of better ones below it; see
+    /// [`Cell::failed_splits`].
     FailedSplit {
         axis: Axis,
         plane: f32,
@@ -150,55 +151,55 @@ pub enum Decision {
     },
 }
 
-/// A cell as a rule sees it.
+/// The cell that a rule decides on.
 pub struct Cell<'a> {
     pub frame: &'a Frame,
-    /// The cell in the world.
+    /// The cell in world coordinates.
     pub bounds: Aabb,
-    /// The cell in the coordinates of the root cell: lower and upper end by axis.
+    /// The cell in local coordinates: lower and upper end along each axis.
     pub local: [[f32; 2]; 3],
     pub depth: u32,
     pub depth_limit: u32,
-    /// How many of the splits between the root and the cell were [`Decision::FailedSplit`]s.
+    /// Number of [`Decision::FailedSplit`]s between the root and the cell.
     pub failed_splits: u32,
-    /// Numbers of its objects that do more than touch it from outside, in any order.
+    /// Objects that overlap the cell, by number, in any order.
     pub inside: &'a [u32],
-    /// Those that only touch it.
+    /// Objects that only touch the cell from outside.
     pub touching: &'a [u32],
     /// All objects of the scene, by number.
     pub primitives: &'a [Primitive],
-    /// Their bounds.
+    /// The bounds of all objects.
     pub object_bounds: &'a [Aabb],
-    /// Their bounds as planes.
+    /// The bounds of all objects, as planes.
     pub object_planes: &'a [ObjectPlanes],
-    /// Rules that take long look at it and decide anything once the build is cancelled.
+    /// Slow rules check this and may return any decision once the build is cancelled.
     pub progress: &'a Progress,
 }
 
 impl Cell<'_> {
-    /// Numbers of its objects, in any order.
+    /// Returns the objects of the cell, in any order.
     pub fn objects(&self) -> impl Iterator<Item = u32> + '_ {
         self.inside.iter().chain(self.touching).copied()
     }
 
-    /// How many objects it has.
+    /// Returns the number of objects of the cell.
     pub fn object_count(&self) -> usize {
         self.inside.len() + self.touching.len()
     }
 
-    /// The plane through the middle of the cell.
+    /// Returns the plane through the middle of the cell.
     pub fn midpoint(&self, axis: Axis) -> f32 {
         let [lo, hi] = self.local[axis.index()];
         lo * 0.5 + hi * 0.5
     }
 
-    /// Whether a plane lies strictly inside the cell.
+    /// Returns whether a plane is strictly inside the cell.
     pub fn divides(&self, axis: Axis, plane: f32) -> bool {
         let [lo, hi] = self.local[axis.index()];
         lo < plane && plane < hi
     }
 
-    /// The extent of an object along an axis, clipped to the cell, in the world.
+    /// Returns the extent of an object along an axis, clipped to the cell, in world coordinates.
     pub fn clipped(&self, object: u32, axis: Axis) -> [f64; 2] {
         let (bounds, k) = (&self.object_bounds[object as usize], axis.index());
         [
