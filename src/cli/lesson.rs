@@ -45,7 +45,7 @@ fn check_all(names: &[String]) -> Result<Outcome> {
                 let steps = lesson.steps.len();
                 writeln!(
                     out,
-                    "{}: {steps} steps, all {conditions} conditions hold",
+                    "{}: {steps} steps, {conditions} of {conditions} conditions hold",
                     lesson.name
                 )?;
             }

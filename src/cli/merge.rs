@@ -29,7 +29,11 @@ pub fn run(args: &MergeArgs) -> Result<Outcome> {
     }
     output::write_to(None, |out| {
         let numbers: Vec<_> = missing.iter().map(|point| point.to_string()).collect();
-        writeln!(out, "missing points (counted from 0): {}", numbers.join(" "))
+        writeln!(
+            out,
+            "missing points (counted from 0): {}",
+            numbers.join(" ")
+        )
     })?;
     Ok(Outcome::CheckFailed)
 }

@@ -270,7 +270,10 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
         }
         for file in &finding.files {
             let file = file.display();
-            writeln!(out, "{name}: to repeat it, run bspscope verify --replay {file}")?;
+            writeln!(
+                out,
+                "{name}: to repeat it, run bspscope verify --replay {file}"
+            )?;
         }
     }
     let wrong = findings.iter().filter(|f| !f.passed()).count();

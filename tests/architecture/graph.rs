@@ -3,12 +3,11 @@
 use crate::source::{Module, Path, read};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// An import of a file by another, with where it is written and how.
+/// An import of a file by another, and the path it is written with.
 #[derive(Clone, Debug)]
 pub struct Import {
     pub from: usize,
     pub to: usize,
-    pub line: usize,
     pub path: String,
 }
 
@@ -17,6 +16,7 @@ pub struct Graph {
     /// Paths such as `src/scene/mod.rs`.
     pub files: Vec<String>,
     pub imports: Vec<Import>,
+    texts: Vec<String>,
     /// The files that each file imports.
     imported_by: Vec<BTreeSet<usize>>,
 }
@@ -54,6 +54,7 @@ impl Graph {
         }
         Graph {
             files: sources.iter().map(|(path, _)| path.clone()).collect(),
+            texts: sources.iter().map(|(_, text)| text.clone()).collect(),
             imports,
             imported_by,
         }
@@ -91,8 +92,23 @@ impl Graph {
 
     pub fn describe(&self, import: &Import) -> String {
         let [from, to] = [&self.files[import.from], &self.files[import.to]];
-        format!("{from}:{} imports {} of {to}", import.line, import.path)
+        let line = line_of(&self.texts[import.from], &import.path);
+        format!("{from}:{line} imports {} of {to}", import.path)
     }
+}
+
+/// Returns the number of the first line of code with this path, or with its last segment, which is all
+/// that stands there in a `use` with braces.
+fn line_of(text: &str, path: &str) -> usize {
+    let last = path.rsplit("::").next().unwrap();
+    let is_word = |line: &str| {
+        let mut words = line.split(|c: char| !c.is_alphanumeric() && c != '_');
+        words.any(|word| word == last)
+    };
+    let mut lines = text.lines().map(|line| line.split("//").next().unwrap());
+    let whole = lines.clone().position(|line| line.contains(path));
+    let line = whole.or_else(|| lines.position(is_word));
+    line.map_or(1, |line| line + 1)
 }
 
 /// Returns the module of a file: `src/scene/mod.rs` is `scene`.
@@ -110,14 +126,9 @@ fn module_path(file: &str) -> Path {
 
 impl Resolver {
     fn imports_of(&self, module: &Module, imports: &mut Vec<Import>) {
-        let mut add = |to: usize, line: usize, path: String| {
+        let mut add = |to: usize, path: String| {
             let from = module.file;
-            imports.push(Import {
-                from,
-                to,
-                line,
-                path,
-            });
+            imports.push(Import { from, to, path });
         };
         for import in &module.uses {
             let is_named = module.identifiers.contains(&import.name);
@@ -126,28 +137,28 @@ impl Resolver {
                 match target {
                     // A re-export alone is no dependency.
                     Target::Item(file) if !import.is_public || is_named => {
-                        add(file, import.line, path.clone());
+                        add(file, path.clone());
                     }
                     Target::Module(imported) if import.name == "*" => {
                         let names = module.identifiers.iter();
                         for target in names.flat_map(|name| self.find(imported, name, 0)) {
                             if let Target::Item(file) = target {
-                                add(file, import.line, format!("{path}::*"));
+                                add(file, format!("{path}::*"));
                             }
                         }
                     }
                     // Paths that begin with the module's name say which of its items are meant.
                     Target::Module(imported) if !import.is_public && !is_named => {
-                        add(self.modules[imported].file, import.line, path.clone());
+                        add(self.modules[imported].file, path.clone());
                     }
                     _ => {}
                 }
             }
         }
-        for (path, line) in &module.paths {
+        for path in &module.paths {
             for target in self.resolve(module, path, 0) {
                 if let Target::Item(file) = target {
-                    add(file, *line, path.join("::"));
+                    add(file, path.join("::"));
                 }
             }
         }

@@ -14,7 +14,6 @@ pub struct Use {
     pub name: String,
     /// Whether other modules may import the name from here.
     pub is_public: bool,
-    pub line: usize,
 }
 
 /// A module: a whole file, or the body of an inline `mod`.
@@ -29,8 +28,8 @@ pub struct Module {
     /// Names of child modules.
     pub children: BTreeSet<String>,
     pub uses: Vec<Use>,
-    /// Paths of at least two segments in code, with their lines.
-    pub paths: Vec<(Path, usize)>,
+    /// Paths of at least two segments in code.
+    pub paths: BTreeSet<Path>,
     /// Every identifier in code.
     pub identifiers: BTreeSet<String>,
 }
@@ -111,7 +110,7 @@ fn read_tokens(
                 if !follows_path_separator(&tokens, at) {
                     let path = path_at(&tokens, at);
                     if path.len() > 1 {
-                        module.paths.push((path, line(&tokens[at])));
+                        module.paths.insert(path);
                     }
                 }
             }
@@ -126,7 +125,6 @@ fn read_tokens(
 fn read_use(tree: &[TokenTree], prefix: &Path, is_public: bool, uses: &mut Vec<Use>) {
     let mut path = prefix.clone();
     let mut name = None;
-    let mut first_line = None;
     let mut at = 0;
     while at < tree.len() {
         match &tree[at] {
@@ -134,14 +132,8 @@ fn read_use(tree: &[TokenTree], prefix: &Path, is_public: bool, uses: &mut Vec<U
                 name = tree.get(at + 1).map(ToString::to_string);
                 break;
             }
-            TokenTree::Ident(word) => {
-                path.push(word.to_string());
-                first_line.get_or_insert(line(&tree[at]));
-            }
-            TokenTree::Punct(p) if p.as_char() == '*' => {
-                name = Some("*".into());
-                first_line.get_or_insert(line(&tree[at]));
-            }
+            TokenTree::Ident(word) => path.push(word.to_string()),
+            TokenTree::Punct(p) if p.as_char() == '*' => name = Some("*".into()),
             TokenTree::Group(group) => {
                 let inner: Vec<TokenTree> = group.stream().into_iter().collect();
                 let is_comma =
@@ -163,7 +155,6 @@ fn read_use(tree: &[TokenTree], prefix: &Path, is_public: bool, uses: &mut Vec<U
         name: name.unwrap_or_else(|| path.last().unwrap().clone()),
         path,
         is_public,
-        line: first_line.unwrap(),
     });
 }
 
@@ -237,8 +228,4 @@ fn braces(token: &TokenTree) -> Option<&Group> {
         TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => Some(group),
         _ => None,
     }
-}
-
-fn line(token: &TokenTree) -> usize {
-    token.span().start().line
 }
