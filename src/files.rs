@@ -5,8 +5,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a file completely or not at all: writes a temporary file in the same folder and renames it when
-/// it is complete. Devices and pipes are written to directly.
+/// Writes a file completely or not at all: writes a temporary file in the same folder and renames
+/// it when it is complete. Devices and pipes are written to directly.
 ///
 /// # Errors
 /// I/O errors, and errors of `write`.
@@ -52,8 +52,8 @@ fn beside(path: &Path) -> io::Result<PathBuf> {
     )))
 }
 
-/// Converts the name of a scene to a file name: `balls:3` becomes `balls-3`. Returns `scene` if nothing is
-/// left.
+/// Converts the name of a scene to a file name: `balls:3` becomes `balls-3`. Returns `scene` if
+/// nothing is left.
 pub fn stem(name: &str) -> String {
     let stem: String = name
         .chars()

@@ -1,4 +1,5 @@
-//! The command line: raw arguments ([`args`]), what they resolve to ([`resolve`]), one file per command.
+//! The command line: raw arguments ([`args`]), what they resolve to ([`resolve`]), one file per
+//! command.
 //!
 //! Exit codes: 0 done, 1 a check failed, 2 invalid use or input.
 

@@ -62,7 +62,8 @@ pub enum Name {
     Parameter(Side, &'static Parameter),
     /// `a.N_IT`: the value of a heatmap for the whole picture, if it is a sum of parameters.
     Total(Side, &'static Heatmap),
-    /// `a.pixel.N_IT` or `a.ray.N_IT`: the value for all rays of the step's pixel, or for its primary ray.
+    /// `a.pixel.N_IT` or `a.ray.N_IT`: the value for all rays of the step's pixel, or for its
+    /// primary ray.
     Pixel(Side, &'static Heatmap, RayFilter),
     /// `differing`: number of pixels in which the pictures of A and B differ.
     Differing,

@@ -1,4 +1,5 @@
-//! Formulas and conditions on measured figures, such as `b.N_IT / a.N_IT` and `b.N_LS < 2 * a.N_LS`.
+//! Formulas and conditions on measured figures, such as `b.N_IT / a.N_IT` and `b.N_LS < 2 *
+//! a.N_LS`.
 
 use super::figures::{Figures, Name, Side};
 use crate::measure::{grouped, significant};

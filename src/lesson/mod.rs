@@ -1,11 +1,11 @@
-//! Lessons: short guided tours in plain text. A lesson is one file in `assets/lessons/` and one line
-//! in [`LESSONS`].
+//! Lessons: short guided tours in plain text. A lesson is one file in `assets/lessons/` and one
+//! line in [`LESSONS`].
 //!
-//! Each step defines what is built and shown, explains what to look at, and asks for a prediction before
-//! it shows the figures. A lesson never contains figures: [`Prose`] has formulas in braces, and the right
-//! answer to a [`Question`] follows from what was measured. The conditions under which the text of a step
-//! is true are listed in the step, and [`check`] verifies them. `assets/lessons/README.md` explains how to
-//! write a lesson.
+//! Each step defines what is built and shown, explains what to look at, and asks for a prediction
+//! before it shows the figures. A lesson never contains figures: [`Prose`] has formulas in braces,
+//! and the right answer to a [`Question`] follows from what was measured. The conditions under
+//! which the text of a step is true are listed in the step, and [`check`] verifies them.
+//! `assets/lessons/README.md` explains how to write a lesson.
 
 mod check;
 mod figures;
@@ -112,8 +112,8 @@ pub enum OpenError {
 }
 
 impl Lesson {
-    /// Parses a lesson. `name` is its file name for error messages. Paths of scenes are relative to the
-    /// working directory.
+    /// Parses a lesson. `name` is its file name for error messages. Paths of scenes are relative to
+    /// the working directory.
     ///
     /// # Errors
     /// The first error, with its line.
@@ -121,8 +121,8 @@ impl Lesson {
         read::read(text, name, None)
     }
 
-    /// Returns the embedded lesson of this name, or else reads a file. Paths of scenes in a file are relative
-    /// to its folder.
+    /// Returns the embedded lesson of this name, or else reads a file. Paths of scenes in a file
+    /// are relative to its folder.
     ///
     /// # Errors
     /// The file cannot be read, or the first error in it, with its line.

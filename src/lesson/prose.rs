@@ -52,8 +52,8 @@ impl Prose {
         Ok(Prose { pieces })
     }
 
-    /// Returns the Markdown with all figures filled in, or with `…` in place of each if there are no
-    /// figures yet.
+    /// Returns the Markdown with all figures filled in, or with `…` in place of each if there are
+    /// no figures yet.
     pub fn fill(&self, figures: Option<&Figures>) -> String {
         let pieces = self.pieces.iter().map(|piece| match (piece, figures) {
             (Piece::Text(text), _) => text.clone(),

@@ -1,5 +1,5 @@
-//! Questions: a number, or a choice of answers. The right answer is never written down; it follows from
-//! what was measured.
+//! Questions: a number, or a choice of answers. The right answer is never written down; it follows
+//! from what was measured.
 
 use super::figures::Figures;
 use super::formula::{Condition, Formula, Operator, Relation, Style};
@@ -94,8 +94,8 @@ impl std::fmt::Display for Tolerance {
 }
 
 impl Answer {
-    /// Creates the choice "more", "the same" or "less" for the first formula compared with the second.
-    /// Differences smaller than the fraction `same_within` of the second count as the same.
+    /// Creates the choice "more", "the same" or "less" for the first formula compared with the
+    /// second. Differences smaller than the fraction `same_within` of the second count as the same.
     pub fn comparison(first: &Formula, second: &Formula, same_within: f64) -> Answer {
         let scaled = |factor: f64| {
             let factor = Box::new(Formula::Number(factor));
@@ -149,8 +149,8 @@ impl Answer {
             .collect()
     }
 
-    /// Compares a prediction with what was measured. Returns `None` if the answer has no value or the
-    /// prediction is of another kind.
+    /// Compares a prediction with what was measured. Returns `None` if the answer has no value or
+    /// the prediction is of another kind.
     pub fn judge(&self, prediction: Prediction, figures: &Figures) -> Option<Verdict> {
         match (self, prediction) {
             (Answer::Number { formula, within }, Prediction::Number(predicted)) => {

@@ -385,8 +385,9 @@ impl Step {
         self.check_names()
     }
 
-    /// Checks that every figure is available and that the text before the prediction does not give the
-    /// answer away. It may contain only specified figures and, in a step with two trees, figures of A.
+    /// Checks that every figure is available and that the text before the prediction does not give
+    /// the answer away. It may contain only specified figures and, in a step with two trees,
+    /// figures of A.
     fn check_names(&self) -> Result<(), Wrong> {
         let answer = self.question.iter().flat_map(|question| {
             let formulas = question.answer.formulas().into_iter();

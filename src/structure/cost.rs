@@ -3,8 +3,8 @@
 //! The cost is the expected number of intersection tests of a ray through the cell if both parts
 //! become leaves: the number of objects in a part times the ratio of its area to the cell's area,
 //! summed over both parts (J. D. MacDonald and K. S. Booth, Heuristics for ray tracing using space
-//! subdivision, 1990). Traversal costs nothing here, as in the paper's method 2. Objects are counted
-//! by their bounds, clipped to the cell, whatever rule the tree was built with.
+//! subdivision, 1990). Traversal costs nothing here, as in the paper's method 2. Objects are
+//! counted by their bounds, clipped to the cell, whatever rule the tree was built with.
 
 use super::{Tree, TreeIndex};
 use crate::geometry::{Aabb, Axis};
@@ -179,8 +179,8 @@ impl CostCurve {
         samples
     }
 
-    /// Returns the curve in about `max_points` points at most, for drawing. Of a run of samples, only
-    /// the lowest and the highest are kept.
+    /// Returns the curve in about `max_points` points at most, for drawing. Of a run of samples,
+    /// only the lowest and the highest are kept.
     pub fn simplified(&self, max_points: usize) -> Vec<SplitCost> {
         let samples = self.samples();
         if samples.len() <= max_points {

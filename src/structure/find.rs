@@ -112,8 +112,8 @@ impl Query {
         matches!(self, Query::Number(Field::Visits, ..))
     }
 
-    /// Returns all matching nodes in array order. `visits` has the visit count of every node; without
-    /// it, no node matches a query on visits.
+    /// Returns all matching nodes in array order. `visits` has the visit count of every node;
+    /// without it, no node matches a query on visits.
     pub fn find(&self, tree: &Tree, index: &TreeIndex, visits: Option<&[u64]>) -> Vec<u32> {
         let nodes = 0..index.len() as u32;
         match self {

@@ -1,9 +1,10 @@
 //! Local coordinates, in which split planes are stored.
 //!
-//! In local coordinates the root cell is the cube from −1 to 1. This has three advantages. Midpoints
-//! are exact in `f32`, because halving the cube twenty times needs only 20 bits. A scene that is moved
-//! or scaled as a whole keeps its tree. And a node needs only 8 bytes, while scenes and rays stay in
-//! `f64`. Rays are transformed to local coordinates once; their parameter `t` does not change.
+//! In local coordinates the root cell is the cube from −1 to 1. This has three advantages.
+//! Midpoints are exact in `f32`, because halving the cube twenty times needs only 20 bits. A scene
+//! that is moved or scaled as a whole keeps its tree. And a node needs only 8 bytes, while scenes
+//! and rays stay in `f64`. Rays are transformed to local coordinates once; their parameter `t` does
+//! not change.
 
 use crate::geometry::{Aabb, Axis, Vec3};
 
@@ -20,7 +21,8 @@ pub struct Frame {
 
 impl Frame {
     /// Returns the frame of the root cell around `bounds`, enlarged by the length `margin` on every
-    /// side. Flat and empty bounds get the smallest extent that arithmetic can distinguish from zero.
+    /// side. Flat and empty bounds get the smallest extent that arithmetic can distinguish from
+    /// zero.
     pub fn around(bounds: &Aabb, margin: f64) -> Self {
         let bounds = if bounds.is_empty() {
             Aabb::new(Vec3::ZERO, Vec3::ZERO)
@@ -76,7 +78,8 @@ impl Frame {
         ((world - self.center[axis.index()]) / self.half[axis.index()]) as f32
     }
 
-    /// Returns the representable planes nearest to the lower and upper ends of a box along each axis.
+    /// Returns the representable planes nearest to the lower and upper ends of a box along each
+    /// axis.
     #[inline]
     pub fn planes_around(&self, bounds: &Aabb) -> ObjectPlanes {
         let lo = self.point_to_local(bounds.lo).as_vec3();
@@ -106,8 +109,8 @@ impl Frame {
     }
 }
 
-/// Returns whether a box overlaps a cell, as opposed to only touching it from outside. Both are given
-/// by their planes. A flat box in the plane between two cells overlaps both.
+/// Returns whether a box overlaps a cell, as opposed to only touching it from outside. Both are
+/// given by their planes. A flat box in the plane between two cells overlaps both.
 #[inline]
 pub fn is_inside(planes: &ObjectPlanes, cell: &[[f32; 2]; 3]) -> bool {
     // Branchless: whether an object only touches the cell is hard to predict.

@@ -23,8 +23,8 @@ pub struct NodeFacts {
     pub area: f64,
     /// Volume of the cell, in cubed units of length.
     pub volume: f64,
-    /// Expected number of nodes of the subtree, including this one, that a ray through the cell visits
-    /// if nothing stops it; at least 1.
+    /// Expected number of nodes of the subtree, including this one, that a ray through the cell
+    /// visits if nothing stops it; at least 1.
     pub expected_visits: f64,
     /// Expected number of intersection tests of such a ray.
     pub tests: f64,
@@ -141,7 +141,8 @@ fn leaves_by_object(tree: &Tree, objects: usize) -> (Vec<u32>, Vec<u32>) {
     (starts, leaves)
 }
 
-/// Sums over subtrees. Children come after their parents, so in reverse order every child is complete.
+/// Sums over subtrees. Children come after their parents, so in reverse order every child is
+/// complete.
 fn sum_up(tree: &Tree, nodes: &mut [NodeFacts]) {
     for node in (0..nodes.len()).rev() {
         let (first, rest) = nodes[node..].split_at_mut(1);
@@ -171,8 +172,9 @@ fn sum_up(tree: &Tree, nodes: &mut [NodeFacts]) {
     }
 }
 
-/// Counts the distinct objects of each subtree. An object with leaves on both sides of a node would be
-/// counted twice there; two consecutive leaves of its list separate at their lowest common ancestor.
+/// Counts the distinct objects of each subtree. An object with leaves on both sides of a node would
+/// be counted twice there; two consecutive leaves of its list separate at their lowest common
+/// ancestor.
 fn count_objects(nodes: &mut [NodeFacts], tree: &Tree, starts: &[u32], leaves: &[u32]) {
     let mut duplicates = vec![0_u32; nodes.len()];
     for range in starts.windows(2) {

@@ -31,8 +31,8 @@ use crate::geometry::{Aabb, Axis};
 
 /// A finished, immutable tree. Node 0 is the root, at depth 0.
 ///
-/// Nodes are stored in depth-first order: the lower child of an inner node directly follows it, so the
-/// subtree of a node is one contiguous range of the array.
+/// Nodes are stored in depth-first order: the lower child of an inner node directly follows it, so
+/// the subtree of a node is one contiguous range of the array.
 #[derive(Debug)]
 pub struct Tree {
     nodes: Vec<Node>,
@@ -163,8 +163,8 @@ impl Tree {
         cell
     }
 
-    /// Returns the cells of the two children of an inner node, below and above its plane; `None` for a
-    /// leaf.
+    /// Returns the cells of the two children of an inner node, below and above its plane; `None`
+    /// for a leaf.
     pub fn children(&self, cell: &CellOfNode) -> Option<[CellOfNode; 2]> {
         let NodeKind::Inner {
             axis,
@@ -187,8 +187,8 @@ impl Tree {
         )
     }
 
-    /// Returns whether a node is the second plane of a cut, below which is the slab that was cut out.
-    /// It does not count as a level of its own.
+    /// Returns whether a node is the second plane of a cut, below which is the slab that was cut
+    /// out. It does not count as a level of its own.
     fn is_second_plane(&self, node: u32) -> bool {
         let cut_out = |below| {
             matches!(

@@ -1,5 +1,5 @@
-//! The state of a tree at a moment of its build. It is derived from the finished tree, because nodes
-//! were decided in array order, depth first.
+//! The state of a tree at a moment of its build. It is derived from the finished tree, because
+//! nodes were decided in array order, depth first.
 
 use super::{CellOfNode, NodeKind, Tree};
 use serde::{Deserialize, Serialize};
@@ -8,16 +8,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Moment {
-    /// All cells above this depth are decided, as if the tree had been built level by level, and so are
-    /// the leaves at this depth.
+    /// All cells above this depth are decided, as if the tree had been built level by level, and so
+    /// are the leaves at this depth.
     Depth(u32),
     /// All nodes before this one are decided; this one is next.
     Node(u32),
 }
 
 impl Tree {
-    /// Returns whether a node of this depth was already a leaf or split at this moment. If it was not,
-    /// but all its ancestors were split, it was an undecided cell.
+    /// Returns whether a node of this depth was already a leaf or split at this moment. If it was
+    /// not, but all its ancestors were split, it was an undecided cell.
     pub fn is_decided(&self, node: u32, depth: u32, moment: Moment) -> bool {
         match moment {
             Moment::Depth(limit) => {

@@ -113,8 +113,8 @@ impl Node {
         }
     }
 
-    /// Returns the node with its indices moved by the given numbers of nodes and references, to append
-    /// its subtree to another.
+    /// Returns the node with its indices moved by the given numbers of nodes and references, to
+    /// append its subtree to another.
     pub(super) fn moved(self, nodes: u32, references: u32) -> Self {
         if self.is_leaf() {
             Node {

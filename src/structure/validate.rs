@@ -28,18 +28,19 @@ pub enum Invalid {
     Missing { node: u32, object: u32 },
 }
 
-/// Checks structure, depth, volumes and counts. For every leaf and a sample of the objects, also checks
-/// that the leaf refers to every object that overlaps the interior of its cell.
+/// Checks structure, depth, volumes and counts. For every leaf and a sample of the objects, also
+/// checks that the leaf refers to every object that overlaps the interior of its cell.
 ///
 /// # Errors
 /// The first violation found.
 pub fn validate(scene: &Scene, tree: &Tree) -> Result<(), Invalid> {
     let nodes = tree.nodes().len();
     let (mut reached, mut leaves, mut inner, mut volume) = (0, 0, 0, 0.0);
-    // Overlap tests are conservative within rounding. An object that overlaps a cell only by a sliver,
-    // or by less than the tolerance, does not count as missing.
+    // Overlap tests are conservative within rounding. An object that overlaps a cell only by a
+    // sliver, or by less than the tolerance, does not count as missing.
     let uncertain = tree.root_cell().size().max_element() * 1e-10;
-    // Every leaf against a stride of objects: exhaustive for small trees, about 10⁷ pairs for large.
+    // Every leaf against a stride of objects: exhaustive for small trees, about 10⁷ pairs for
+    // large.
     let stride = (scene.objects().len() * nodes / 10_000_000).max(1);
     for cell in tree.cells() {
         reached += 1;

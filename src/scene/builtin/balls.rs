@@ -106,7 +106,8 @@ fn add_sphere(ball: Ball, levels: u32, directions: &[Vec3; 9], objects: &mut Vec
     }
 }
 
-/// Returns the directions of the children of a ball that points along +z: three trios around the z axis.
+/// Returns the directions of the children of a ball that points along +z: three trios around the z
+/// axis.
 fn child_directions() -> [Vec3; 9] {
     let d = FRAC_1_SQRT_2;
     let trio = [
@@ -121,8 +122,8 @@ fn child_directions() -> [Vec3; 9] {
     })
 }
 
-/// Returns the smallest rotation from +z to a unit direction. If z is beyond ±0.9999 it is the identity or
-/// the half turn around y, because a test for exactly ±1 would depend on rounding.
+/// Returns the smallest rotation from +z to a unit direction. If z is beyond ±0.9999 it is the
+/// identity or the half turn around y, because a test for exactly ±1 would depend on rounding.
 fn rotation_from_z(direction: Vec3) -> DMat3 {
     if direction.z >= 0.9999 {
         DMat3::IDENTITY
@@ -134,7 +135,8 @@ fn rotation_from_z(direction: Vec3) -> DMat3 {
     }
 }
 
-/// Returns the right-handed rotation around a unit axis. Uses libm to be the same on every platform.
+/// Returns the right-handed rotation around a unit axis. Uses libm to be the same on every
+/// platform.
 fn rotation(axis: Vec3, angle: f64) -> DMat3 {
     let (sin, cos) = libm::sincos(angle);
     let turned = |v: Vec3| v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos));

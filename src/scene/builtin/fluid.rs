@@ -1,10 +1,10 @@
-//! `fluid`: a flow around a ball, visualized by spheres along its streamlines. A reconstruction: the
-//! data of the paper were never published.
+//! `fluid`: a flow around a ball, visualized by spheres along its streamlines. A reconstruction:
+//! the data of the paper were never published.
 //!
-//! The original has 2514 spheres, a bounding box of about 4.07 : 1 : 2.29, and the figures of the paper's
-//! Tables 4 and 6. Here an ideal fluid flows along x around a ball (potential flow, as in L. M.
-//! Milne-Thomson, Theoretical Hydrodynamics, chapter 15), with beads on every streamline at equal time
-//! steps.
+//! The original has 2514 spheres, a bounding box of about 4.07 : 1 : 2.29, and the figures of the
+//! paper's Tables 4 and 6. Here an ideal fluid flows along x around a ball (potential flow, as in
+//! L. M. Milne-Thomson, Theoretical Hydrodynamics, chapter 15), with beads on every streamline at
+//! equal time steps.
 
 use super::Builtin;
 use super::percent_g::round_point;

@@ -1,9 +1,9 @@
-//! `m-fluid`: [`super::fluid`] inside a hoop, above a large mirror. A reconstruction: the data of the paper
-//! were never published.
+//! `m-fluid`: [`super::fluid`] inside a hoop, above a large mirror. A reconstruction: the data of
+//! the paper were never published.
 //!
-//! The original is *fluid* with a torus and a large mirror below, 2899 objects in total. Here these are 2514
-//! spheres, 384 quadrilaterals of a 24 × 16 torus, and the mirror, which makes the bounding box so large that
-//! R_BBSC is only 1.32 %.
+//! The original is *fluid* with a torus and a large mirror below, 2899 objects in total. Here these
+//! are 2514 spheres, 384 quadrilaterals of a 24 × 16 torus, and the mirror, which makes the
+//! bounding box so large that R_BBSC is only 1.32 %.
 
 use super::percent_g::round_point;
 use super::{Builtin, fluid};
@@ -95,7 +95,8 @@ fn hoop() -> impl Iterator<Item = Primitive> {
     })
 }
 
-/// Returns the angle of `i` of `n` parts of a full turn. The last angle is exactly equal to the first.
+/// Returns the angle of `i` of `n` parts of a full turn. The last angle is exactly equal to the
+/// first.
 fn turn(i: u32, n: u32) -> f64 {
     TAU * f64::from(i % n) / f64::from(n)
 }

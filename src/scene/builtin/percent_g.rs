@@ -2,8 +2,8 @@
 
 use crate::geometry::Vec3;
 
-/// Returns the value of `printf("%g", x)` read back: `x` rounded to 6 significant digits. Keeps the sign
-/// of zero. `x` must be finite.
+/// Returns the value of `printf("%g", x)` read back: `x` rounded to 6 significant digits. Keeps the
+/// sign of zero. `x` must be finite.
 pub fn round_g(x: f64) -> f64 {
     format!("{x:.5e}")
         .parse()

@@ -106,8 +106,8 @@ fn wall(spacing: f64, layers: f64) -> Primitive {
     Primitive::Polygon(square.expect("a square is a polygon"))
 }
 
-/// Returns the joints of the six pentagons of a group around the origin: the faces of half a dodecahedron,
-/// one upright and five around it.
+/// Returns the joints of the six pentagons of a group around the origin: the faces of half a
+/// dodecahedron, one upright and five around it.
 fn six_rings() -> [[Vec3; 5]; 6] {
     let degrees = |angle: f64| angle * PI / 180.0;
     let upright: [Vec3; 5] = std::array::from_fn(|i| {

@@ -1,11 +1,12 @@
-//! `room`: a furnished room, all polygons, as exported by a CAD system. A reconstruction: the data of the
-//! paper were never published.
+//! `room`: a furnished room, all polygons, as exported by a CAD system. A reconstruction: the data
+//! of the paper were never published.
 //!
-//! The original has 7788 polygons and the figures of the paper's Tables 4 and 6, which reveal more than it
-//! seems. With method 1, R_FVWV of 12 % and 8 references per leaf mean that 150,000 deepest leaves are where
-//! the bounding boxes of about ten slanted polygons coincide: a sloping roof in layers. With method 2, 5.4
-//! references per leaf and R_FVWV of 41 % mean closed boxes that are not split. So furniture, walls and goods
-//! on shelves are boxes of thin sheets (an outer and an inner skin).
+//! The original has 7788 polygons and the figures of the paper's Tables 4 and 6, which reveal more
+//! than it seems. With method 1, R_FVWV of 12 % and 8 references per leaf mean that 150,000 deepest
+//! leaves are where the bounding boxes of about ten slanted polygons coincide: a sloping roof in
+//! layers. With method 2, 5.4 references per leaf and R_FVWV of 41 % mean closed boxes that are not
+//! split. So furniture, walls and goods on shelves are boxes of thin sheets (an outer and an inner
+//! skin).
 
 use super::Builtin;
 use super::percent_g::round_point;
@@ -35,8 +36,8 @@ const WALL: f64 = 0.3;
 /// Thickness of the sheets of hollow objects.
 const SKIN: f64 = 0.004;
 
-/// The roof: number of layers, thickness of a layer, and rise toward the back. The rise is chosen to match
-/// R_BBSC of the paper.
+/// The roof: number of layers, thickness of a layer, and rise toward the back. The rise is chosen
+/// to match R_BBSC of the paper.
 const LAYERS: u32 = 6;
 const LAYER: f64 = 0.005;
 const RISE: f64 = 0.1315;
@@ -245,7 +246,8 @@ impl Room {
         }
     }
 
-    /// Adds four cupboards at the back wall with shelves above them; returns the center of each shelf.
+    /// Adds four cupboards at the back wall with shelves above them; returns the center of each
+    /// shelf.
     fn cupboards(&mut self) -> Vec<Vec3> {
         let mut shelves = Vec::new();
         for cupboard in 0..4 {
@@ -265,8 +267,8 @@ impl Room {
         shelves
     }
 
-    /// Adds boxes side by side on the shelves until the number of polygons is reached. If it is odd, one
-    /// more box stands on the table.
+    /// Adds boxes side by side on the shelves until the number of polygons is reached. If it is
+    /// odd, one more box stands on the table.
     fn goods(&mut self, shelves: &[Vec3]) {
         let left = (POLYGONS - self.objects.len()) / FACES;
         if left % 2 == 1 {
@@ -290,8 +292,8 @@ impl Room {
     }
 }
 
-/// Pseudo-random numbers from 0 to 1 (linear congruential generator with the constants of D. Knuth, The Art
-/// of Computer Programming 2, 3.3.4, line 16).
+/// Pseudo-random numbers from 0 to 1 (linear congruential generator with the constants of D. Knuth,
+/// The Art of Computer Programming 2, 3.3.4, line 16).
 struct Random(u32);
 
 impl Random {

@@ -1,4 +1,5 @@
-//! `teaching`: a small scene with every kind of primitive, small enough to follow every step in the tree.
+//! `teaching`: a small scene with every kind of primitive, small enough to follow every step in the
+//! tree.
 
 use super::Builtin;
 use super::percent_g::round_point;
@@ -14,10 +15,11 @@ pub(super) const BUILTIN: Builtin = Builtin {
     generate,
 };
 
-/// Generates a floor at z = 0 and eleven objects on it, whose bounding boxes do not touch each other.
+/// Generates a floor at z = 0 and eleven objects on it, whose bounding boxes do not touch each
+/// other.
 ///
-/// The directions of slanted objects and vertex normals are Pythagorean (such as 0.6, 0.8), so that all numbers
-/// are short and normals have unit length.
+/// The directions of slanted objects and vertex normals are Pythagorean (such as 0.6, 0.8), so that
+/// all numbers are short and normals have unit length.
 fn generate(size: u32) -> SceneParts {
     let (materials, objects): (Vec<_>, Vec<_>) = pieces().into_iter().unzip();
     SceneParts {

@@ -3,8 +3,8 @@
 use crate::structure::ObjectPlanes;
 use crate::structure::frame::is_inside;
 
-/// The objects of a cell by number: those that overlap it, and those that only touch it from outside.
-/// The latter do not overlap any part of the cell either.
+/// The objects of a cell by number: those that overlap it, and those that only touch it from
+/// outside. The latter do not overlap any part of the cell either.
 #[derive(Default)]
 pub(super) struct CellObjects {
     pub(super) inside: Vec<u32>,
@@ -19,7 +19,8 @@ impl CellObjects {
         CellObjects { inside, touching }
     }
 
-    /// Returns whether objects inside the cell and objects that only touch it are in the right lists.
+    /// Returns whether objects inside the cell and objects that only touch it are in the right
+    /// lists.
     pub(super) fn are_partitioned(&self, planes: &[ObjectPlanes], cell: &[[f32; 2]; 3]) -> bool {
         let is_inside = |object: &u32| is_inside(&planes[*object as usize], cell);
         self.inside.iter().all(is_inside) && !self.touching.iter().any(is_inside)

@@ -6,8 +6,9 @@ use crate::structure::ObjectPlanes;
 use crate::structure::split::Structure;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// Counts the memory that all parts of a build use together. Whether a tree fits does not depend on the
-/// order in which its parts are built, because counts only grow and the estimate follows from them.
+/// Counts the memory that all parts of a build use together. Whether a tree fits does not depend on
+/// the order in which its parts are built, because counts only grow and the estimate follows from
+/// them.
 pub(super) struct Limits {
     /// Bytes.
     limit: u64,
@@ -19,8 +20,8 @@ pub(super) struct Limits {
     pending: AtomicUsize,
 }
 
-/// Arrays take up to this many times the size of their content: twice after they have just grown, and
-/// once more while parts that were built separately are joined.
+/// Arrays take up to this many times the size of their content: twice after they have just grown,
+/// and once more while parts that were built separately are joined.
 const GROWTH: usize = 3;
 
 impl Limits {

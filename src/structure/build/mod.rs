@@ -1,7 +1,7 @@
 //! The one build driver: termination, distribution of objects, threads, memory, cancellation.
 //!
-//! Large cells are split into tasks. Each task builds a subtree in its own arrays, which are joined in
-//! depth-first order. The tree is the same for any number of threads.
+//! Large cells are split into tasks. Each task builds a subtree in its own arrays, which are joined
+//! in depth-first order. The tree is the same for any number of threads.
 
 mod cell_objects;
 mod limits;
@@ -48,8 +48,8 @@ pub enum BuildError {
     TooManyObjects(usize),
 }
 
-/// Builds the tree of a scene on the threads of the current `rayon` pool, or of the global pool. The
-/// same scene and settings always give the same tree.
+/// Builds the tree of a scene on the threads of the current `rayon` pool, or of the global pool.
+/// The same scene and settings always give the same tree.
 ///
 /// The tree of a scene without objects is one empty leaf.
 ///
@@ -171,8 +171,8 @@ struct Driver<'a> {
     bounds: &'a [Aabb],
     planes: &'a [ObjectPlanes],
     limits: Limits,
-    /// Fraction of the work that is done, where a child counts half as much as its parent; the bits of
-    /// an `f64`.
+    /// Fraction of the work that is done, where a child counts half as much as its parent; the bits
+    /// of an `f64`.
     done: AtomicU64,
 }
 

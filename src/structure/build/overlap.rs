@@ -76,8 +76,8 @@ impl<'a> Overlap<'a> {
         }
     }
 
-    /// Adds those of `objects` that belong to a part of the cell to the objects of the part. Either all
-    /// of `objects` are inside the cell, or all only touch it.
+    /// Adds those of `objects` that belong to a part of the cell to the objects of the part. Either
+    /// all of `objects` are inside the cell, or all only touch it.
     pub(super) fn select(
         &self,
         part: &HalfCell,
@@ -151,8 +151,8 @@ impl<'a> Overlap<'a> {
         list.truncate(kept);
     }
 
-    /// Returns, from the stored planes, whether an object certainly reaches into the part, and otherwise
-    /// whether it is so close that its exact bounds must decide.
+    /// Returns, from the stored planes, whether an object certainly reaches into the part, and
+    /// otherwise whether it is so close that its exact bounds must decide.
     #[inline]
     fn reach(&self, part: &HalfCell, object: u32) -> [bool; 2] {
         let [lo, hi] = self.planes[object as usize][part.axis.index()];

@@ -66,7 +66,8 @@ impl Part {
         }
     }
 
-    /// Updates [`Limits`] before one node and `references` references are added, if a batch is complete.
+    /// Updates [`Limits`] before one node and `references` references are added, if a batch is
+    /// complete.
     fn count(&mut self, limits: &Limits, depth: u32, references: usize) -> Result<(), BuildError> {
         let [nodes, known] = self.counted;
         let held = [self.nodes.len() + 1, self.references.len() + references];

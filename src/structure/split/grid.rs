@@ -9,8 +9,9 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "grid",
     title: "Uniform grid",
     about: "Divides the scene into equal, approximately cubic voxels, and rays step from one to the \
-            next. D_MAX and N_OILF do not apply, and there are no inner nodes to pass: the window's \
-            tree panes show planes between the voxels that only SIMD rays (--kernel stream) traverse.",
+            next. D_MAX and N_OILF do not apply, and rays traverse no inner nodes. The tree panes of \
+            the window show the planes between the voxels; only SIMD kernels (--kernel stream) \
+            traverse these planes.",
     source: "A. Fujimoto, T. Tanaka and K. Iwata, ARTS: accelerated ray-tracing system, 1986; \
              J. G. Cleary and G. Wyvill, Analysis of an algorithm for fast ray tracing using uniform \
              space subdivision, 1988; J. Amanatides and A. Woo, A fast voxel traversal algorithm for \

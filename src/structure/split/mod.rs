@@ -66,17 +66,17 @@ impl MethodInfo {
     }
 }
 
-/// The structure that the cells of a method form. It determines where cells may become leaves and how
-/// rays traverse them.
+/// The structure that the cells of a method form. It determines where cells may become leaves and
+/// how rays traverse them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Structure {
     /// A cell with at most `N_OILF` objects or at depth `D_MAX` is a leaf.
     Bintree,
-    /// Like [`Structure::Bintree`], but cells become leaves only at every third level: three levels of
-    /// planes are one octree node with eight children.
+    /// Like [`Structure::Bintree`], but cells become leaves only at every third level: three levels
+    /// of planes are one octree node with eight children.
     Octree,
-    /// The leaves are the voxels of a uniform grid. `D_MAX` and `N_OILF` do not apply. Rays step from voxel
-    /// to voxel; the planes only define where the voxels are.
+    /// The leaves are the voxels of a uniform grid. `D_MAX` and `N_OILF` do not apply. Rays step
+    /// from voxel to voxel; the planes only define where the voxels are.
     Grid,
 }
 

@@ -1,7 +1,8 @@
 //! An octree: every node is split in the middle along all three axes.
 //!
-//! Its leaves, and all parameters of leaves, are those of an octree with eight children per node. Its
-//! inner nodes are the planes that separate the children, seven per octree node: x, then y, then z.
+//! Its leaves, and all parameters of leaves, are those of an octree with eight children per node.
+//! Its inner nodes are the planes that separate the children, seven per octree node: x, then y,
+//! then z.
 
 use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
 use crate::geometry::Axis;

@@ -1,11 +1,11 @@
 //! The surface-area heuristic for kernels that test a block of objects at once.
 //!
-//! The cost of a leaf is the number of blocks that its objects fill, not the number of objects: testing 1
-//! object takes as long as testing 8 or 16. Candidates are the ends of the objects' bounds, rounded to the
-//! nearest plane that a node can store, so that neighboring triangles of a mesh are separated exactly.
-//! Large cells try only the limits of bins, so that building takes O(N log N) time. Objects that only
-//! touch a cell from outside are not counted: kernels that read leaves in blocks skip them, because the
-//! neighboring cell contains them.
+//! The cost of a leaf is the number of blocks that its objects fill, not the number of objects:
+//! testing 1 object takes as long as testing 8 or 16. Candidates are the ends of the objects'
+//! bounds, rounded to the nearest plane that a node can store, so that neighboring triangles of a
+//! mesh are separated exactly. Large cells try only the limits of bins, so that building takes O(N
+//! log N) time. Objects that only touch a cell from outside are not counted: kernels that read
+//! leaves in blocks skip them, because the neighboring cell contains them.
 
 mod bins;
 mod every_plane;
@@ -118,7 +118,8 @@ struct Best {
 }
 
 impl Best {
-    /// Takes a plane if it is cheaper. Among planes of equal cost, the lowest on the first axis wins.
+    /// Takes a plane if it is cheaper. Among planes of equal cost, the lowest on the first axis
+    /// wins.
     fn offer(&mut self, axis: Axis, at: f32, cost: f32) {
         let earlier = |(other, plane): (Axis, f32)| (axis.index(), at) < (other.index(), plane);
         let earlier = self.plane.is_some_and(earlier);
@@ -146,8 +147,8 @@ impl Sah {
         (objects as u32).div_ceil(self.block) as f32
     }
 
-    /// Returns the expected cost of a ray through the split cell, in block tests, without the factor for
-    /// empty sides.
+    /// Returns the expected cost of a ray through the split cell, in block tests, without the
+    /// factor for empty sides.
     fn cost_of_parts(&self, plane: &Plane, areas: &Areas) -> f32 {
         let work = areas.below(plane.at) * self.blocks(plane.below)
             + areas.above(plane.at) * self.blocks(plane.above);

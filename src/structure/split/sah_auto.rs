@@ -1,9 +1,9 @@
 //! The surface-area heuristic with automatic termination.
 //!
-//! A split that does not lower the expected cost enough counts as failed. It is made anyway, because
-//! there may be better splits below it, but only a limited number of times on the path from the root to a
-//! leaf. With a limit of 0 and a quality ratio of 1, a cell becomes a leaf if no split costs less than
-//! the leaf. The method is meant for automatic `D_MAX`.
+//! A split that does not lower the expected cost enough counts as failed. It is made anyway,
+//! because there may be better splits below it, but only a limited number of times on the path from
+//! the root to a leaf. With a limit of 0 and a quality ratio of 1, a cell becomes a leaf if no
+//! split costs less than the leaf. The method is meant for automatic `D_MAX`.
 
 use super::sah::CLIP;
 use super::sweep::{Areas, Sweep};
@@ -114,7 +114,8 @@ impl SahAuto {
         }
     }
 
-    /// Returns the cheapest plane, or the first of several, with its expected cost in intersection tests.
+    /// Returns the cheapest plane, or the first of several, with its expected cost in intersection
+    /// tests.
     fn cheapest(&self, cell: &Cell<'_>) -> Option<(f64, Axis, f32)> {
         let parts: Vec<Aabb> = cell
             .objects()

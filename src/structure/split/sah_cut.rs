@@ -1,9 +1,9 @@
 //! The paper's method 2: the surface-area heuristic, and cutting off empty space.
 //!
-//! The paper gives no details. This is rule Q, which came closest to the paper's figures in a search over
-//! many variants; every choice of that search is a setting here. Candidates are planes just outside the
-//! bounds of the objects, clipped to the cell. A gap is cut only if the best split is cheaper than a leaf.
-//! A cut takes out the gap with two planes and counts as one level.
+//! The paper gives no details. This is rule Q, which came closest to the paper's figures in a
+//! search over many variants; every choice of that search is a setting here. Candidates are planes
+//! just outside the bounds of the objects, clipped to the cell. A gap is cut only if the best split
+//! is cheaper than a leaf. A cut takes out the gap with two planes and counts as one level.
 
 use super::sweep::{Areas, CandidatePlane, Sweep};
 use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
@@ -108,8 +108,8 @@ impl SahCut {
         }
     }
 
-    /// Updates `best` with the planes of an axis. Returns the widest gap between objects, if it is wide
-    /// enough to cut: its fraction of the cell's width, and its ends.
+    /// Updates `best` with the planes of an axis. Returns the widest gap between objects, if it is
+    /// wide enough to cut: its fraction of the cell's width, and its ends.
     fn search(
         &self,
         cell: &Cell<'_>,
@@ -164,9 +164,9 @@ impl SahCut {
 }
 
 impl Candidate {
-    /// Returns whether this candidate is cheaper, or equally cheap and nearer to the middle of the cell.
-    /// Costs that differ only by rounding count as equal, or noise would decide the many ties of symmetric
-    /// scenes.
+    /// Returns whether this candidate is cheaper, or equally cheap and nearer to the middle of the
+    /// cell. Costs that differ only by rounding count as equal, or noise would decide the many ties
+    /// of symmetric scenes.
     fn beats(&self, other: &Candidate) -> bool {
         let rounding = 1e-12 * other.cost;
         self.cost < other.cost - rounding

@@ -1,8 +1,8 @@
 //! The surface-area heuristic at a few equally spaced planes, after Octree-R.
 //!
 //! Octree-R is an octree in which the three planes of a node are not in the middle, but where the
-//! estimated number of tests is lowest. This method does the same for one plane at a time, along the
-//! cheapest axis or along the axes in cyclic order.
+//! estimated number of tests is lowest. This method does the same for one plane at a time, along
+//! the cheapest axis or along the axes in cyclic order.
 
 use super::sweep::Areas;
 use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
@@ -87,7 +87,8 @@ impl SahSampled {
         let parts = self.samples + 1;
         (1..parts).map(move |sample| {
             let plane = lo + (hi - lo) * (sample as f32 / parts as f32);
-            // As in the driver, up to rounding: an object that touches the plane counts on both sides.
+            // As in the driver, up to rounding: an object that touches the plane counts on both
+            // sides.
             let (mut below, mut above) = (0, 0);
             for object in cell.objects() {
                 let [begin, end] = cell.object_planes[object as usize][k];

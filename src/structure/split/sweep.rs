@@ -28,8 +28,8 @@ impl Sweep {
         Sweep { lows, highs }
     }
 
-    /// Returns the planes inside the cell that are more than the length `epsilon` below the start of an
-    /// object, then those above the end of an object; both in ascending order.
+    /// Returns the planes inside the cell that are more than the length `epsilon` below the start
+    /// of an object, then those above the end of an object; both in ascending order.
     pub(super) fn planes<'a>(
         &'a self,
         cell: &'a Cell<'_>,
@@ -88,8 +88,8 @@ impl Areas {
         }
     }
 
-    /// Returns the number of objects on each side of a plane (world coordinate) times the area of that
-    /// side, summed over both sides.
+    /// Returns the number of objects on each side of a plane (world coordinate) times the area of
+    /// that side, summed over both sides.
     pub(super) fn weigh(&self, plane: f64, below: usize, above: usize) -> f64 {
         below as f64 * self.below(plane) + above as f64 * self.above(plane)
     }

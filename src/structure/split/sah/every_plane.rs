@@ -1,7 +1,7 @@
 //! All planes at which an object begins or ends as candidates, for cells with few objects.
 //!
-//! The planes are sorted into bins. A bin is searched only if the counts at its limits allow one of its
-//! planes to be the cheapest. The result is the same as for trying every plane.
+//! The planes are sorted into bins. A bin is searched only if the counts at its limits allow one of
+//! its planes to be the cheapest. The result is the same as for trying every plane.
 
 use super::extents::{Along, Scratch};
 use super::grid::{BINS, Grid, count_bins};
@@ -118,8 +118,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Offers the planes at the first start and the last end of an object: the only ones that can have an
-    /// empty side.
+    /// Offers the planes at the first start and the last end of an object: the only ones that can
+    /// have an empty side.
     fn outermost(&mut self, extents: Along<'_>, flat: &[f32]) {
         let objects = extents.begins.len();
         let [first, last] = extents.hull();
@@ -135,8 +135,9 @@ impl<'a> Search<'a> {
         });
     }
 
-    /// Returns a lower bound for the cost of all planes between two limits, except the outermost ones,
-    /// given the minimum number of objects on each side. The cost with fixed counts is linear in between.
+    /// Returns a lower bound for the cost of all planes between two limits, except the outermost
+    /// ones, given the minimum number of objects on each side. The cost with fixed counts is linear
+    /// in between.
     fn lower_bound(&self, limits: Extent, below: usize, above: usize) -> f32 {
         /// An upper bound for the relative rounding error of a cost.
         const ROUNDING: f32 = 32.0 * f32::EPSILON;

@@ -12,13 +12,14 @@ pub(super) struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// With `clip`, extents are those of the part of an object within the cell; otherwise, those of its
-    /// bounds clipped to the cell.
+    /// With `clip`, extents are those of the part of an object within the cell; otherwise, those of
+    /// its bounds clipped to the cell.
     pub(super) fn new(cell: &'a Cell<'a>, clip: bool) -> Self {
         Source { cell, clip }
     }
 
-    /// Returns the extent of the part of an object within the cell; `None` if there is no such part.
+    /// Returns the extent of the part of an object within the cell; `None` if there is no such
+    /// part.
     fn clipped(&self, object: u32) -> Option<ObjectPlanes> {
         let planes = &self.cell.object_planes[object as usize];
         let cut = clamp_to_cell(planes, &self.cell.local);
@@ -28,8 +29,8 @@ impl<'a> Source<'a> {
         self.part(object, &cut)
     }
 
-    /// Returns the extent of the part within the cell of an object whose bounds, clipped to the cell, are
-    /// `cut`.
+    /// Returns the extent of the part within the cell of an object whose bounds, clipped to the
+    /// cell, are `cut`.
     fn part(&self, object: u32, cut: &ObjectPlanes) -> Option<ObjectPlanes> {
         let primitive = &self.cell.primitives[object as usize];
         let part = primitive.bounds_within(&self.cell.bounds)?;
@@ -107,7 +108,8 @@ impl Extents {
                 .filter_map(|&object| source.clipped(object))
                 .for_each(put);
         } else {
-            // Copied because the compiler must assume that writing to the lists changes the originals.
+            // Copied because the compiler must assume that writing to the lists changes the
+            // originals.
             let (planes, local) = (source.cell.object_planes, source.cell.local);
             for &object in objects {
                 put(clamp_to_cell(&planes[object as usize], &local));
@@ -141,8 +143,8 @@ impl Along<'_> {
     }
 }
 
-/// Returns the smaller of two numbers, the first if they are equal. Unlike `f32::min`, this compiles to one
-/// instruction, because it does not handle NaN.
+/// Returns the smaller of two numbers, the first if they are equal. Unlike `f32::min`, this
+/// compiles to one instruction, because it does not handle NaN.
 #[inline]
 fn min(a: f32, b: f32) -> f32 {
     if b < a { b } else { a }

@@ -16,8 +16,8 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// Creates `bins` bins, from 1 to [`BINS`]; only one if the cell is so thin that the limits of several
-    /// might coincide.
+    /// Creates `bins` bins, from 1 to [`BINS`]; only one if the cell is so thin that the limits of
+    /// several might coincide.
     pub(super) fn new([lo, hi]: Extent, bins: usize) -> Self {
         let width = (hi - lo) / bins as f32;
         let thick = width > 16.0 * f32::EPSILON * lo.abs().max(hi.abs());
@@ -40,8 +40,8 @@ impl Grid {
         self.last as usize + 1
     }
 
-    /// Computes the bin of each plane. A plane is at or above the rounded lower limit of its bin and below
-    /// the upper one, except at the ends of the cell.
+    /// Computes the bin of each plane. A plane is at or above the rounded lower limit of its bin
+    /// and below the upper one, except at the ends of the cell.
     pub(super) fn bins_of(&self, planes: &[f32], bins: &mut Vec<u8>) {
         bins.resize(planes.len(), 0);
         #[cfg(target_arch = "x86_64")]
@@ -60,11 +60,12 @@ impl Grid {
         self.bins_of_here(planes, bins);
     }
 
-    /// Contains no branches and no conversions, so that it compiles to SIMD instructions. The result is the
-    /// same on every instruction set, because each operation is rounded separately.
+    /// Contains no branches and no conversions, so that it compiles to SIMD instructions. The
+    /// result is the same on every instruction set, because each operation is rounded separately.
     #[inline(always)]
     fn bins_of_here(&self, planes: &[f32], bins: &mut [u8]) {
-        /// From here on an `f32` has no fraction: adding it rounds and leaves the integer in the low bits.
+        /// From here on an `f32` has no fraction: adding it rounds and leaves the integer in the
+        /// low bits.
         const INTEGERS: f32 = (1 << 23) as f32;
         for (bin, &at) in bins.iter_mut().zip(planes) {
             let guess = (at - self.lo) * self.scale - 0.5;
@@ -83,7 +84,8 @@ impl Grid {
 /// Counts the elements of each bin.
 #[inline]
 pub(super) fn count_bins(bins: &[u8], counts: &mut [u32; BINS]) {
-    // Two tables, because neighbors are often equal and increments of one counter depend on each other.
+    // Two tables, because neighbors are often equal and increments of one counter depend on each
+    // other.
     let mut others = [0; BINS];
     let (pairs, rest) = bins.as_chunks::<2>();
     for &[one, other] in pairs {
