@@ -2,10 +2,10 @@
 
 use super::args::{ListFormat, ModelArgs};
 use super::{Outcome, bar, output, resolve};
-use crate::measure::grouped;
 use crate::measure::model::{
     Equation, Fit, InPlace, Observation, Term, fit, observe, parted, time_in_place, trees,
 };
+use crate::present::number::grouped;
 use crate::present::report::grid::Grid;
 use crate::scene::Scene;
 use crate::trace::RenderSettings;

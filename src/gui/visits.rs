@@ -4,8 +4,8 @@
 use super::picture_pass::{PicturePass, Standing};
 use super::state::Current;
 use super::symbol::grouped;
+use crate::measure::heat::PIXEL_COUNTS_LIMIT;
 use crate::trace::{Visits, count_visits, thread_pool};
-use crate::worker::PIXEL_COUNTS_LIMIT;
 use std::ops::Deref;
 use std::sync::Arc;
 

@@ -1,6 +1,8 @@
 //! Search for nodes: `depth 12`, `objects > 8`, `object 138`, `stop depth`.
 
-use super::{NodeKind, StopReason, Tree, TreeIndex};
+use super::index::TreeIndex;
+use super::node::{NodeKind, StopReason};
+use super::tree::Tree;
 
 /// A search query; parsed by [`Query::parse`].
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 //! Facts on every node, computed once per tree: sums over subtrees, expected work of rays, and the
 //! leaves of each object.
 
-use super::{NodeKind, Tree};
+use super::node::NodeKind;
+use super::tree::Tree;
 use std::ops::Range;
 
 /// Facts on a node in addition to those in [`Tree`].

@@ -1,7 +1,8 @@
 //! The state of a tree at a moment of its build. It is derived from the finished tree, because
 //! nodes were decided in array order, depth first.
 
-use super::{CellOfNode, NodeKind, Tree};
+use super::node::NodeKind;
+use super::tree::{CellOfNode, Tree};
 use serde::{Deserialize, Serialize};
 
 /// A moment of the build.

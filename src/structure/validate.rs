@@ -1,6 +1,7 @@
 //! Validation of a finished tree, independent of the build driver.
 
-use super::{NodeKind, Tree};
+use super::node::NodeKind;
+use super::tree::Tree;
 use crate::geometry::Aabb;
 use crate::primitive::Shape;
 use crate::scene::Scene;

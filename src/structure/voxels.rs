@@ -1,6 +1,6 @@
 //! The voxels of a uniform grid by position, so that rays can step from one to the next.
 
-use super::{Node, NodeKind};
+use super::node::{Node, NodeKind};
 
 /// All voxels of a grid with their leaves, and the planes between them.
 #[derive(Debug)]

@@ -7,7 +7,7 @@
 //! beside another's.
 
 use crate::geometry::Vec3;
-use crate::measure::heat::PixelCounts;
+use crate::measure::heat::{PIXEL_COUNTS_LIMIT, PixelCounts};
 use crate::measure::{Measurement, Times};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{LoadError, Scene, SceneRequest, load};
@@ -399,9 +399,6 @@ impl Reporter<'_> {
 
 /// Edge, in pixels, of the squares of the coarse first picture.
 const PREVIEW_STEP: u32 = 8;
-
-/// The most pixels of which the counts are kept, at about 100 bytes each.
-pub const PIXEL_COUNTS_LIMIT: u64 = 4_000_000;
 
 /// How often provisional figures are sent while counting.
 const FIGURES_EVERY: Duration = Duration::from_millis(150);

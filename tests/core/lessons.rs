@@ -77,14 +77,14 @@ fn figures_are_filled_in_from_what_was_measured() {
     assert_eq!(step.before.fill(None).trim(), "…");
     assert_eq!(
         step.before.fill(Some(&figures)).trim(),
-        bspscope::measure::grouped(a.tree.leaves as f64)
+        bspscope::present::number::grouped(a.tree.leaves as f64)
     );
     let in_ray = of_b.pixel.unwrap()[0].tests;
     assert_eq!(
         in_ray, 16,
         "without a tree the ray is tested against all objects"
     );
-    let tests_of_a = bspscope::measure::grouped(tests(a) as f64);
+    let tests_of_a = bspscope::present::number::grouped(tests(a) as f64);
     assert_eq!(
         step.after.fill(Some(&figures)).trim(),
         format!("1 {tests_of_a} {in_ray} 0 6 25.00 %")

@@ -133,7 +133,7 @@ fn both_pictures_share_range_pointer_and_pick() {
         both[0].lowest.min(both[1].lowest),
         both[0].highest.max(both[1].highest),
     ]
-    .map(bspscope::measure::grouped);
+    .map(bspscope::present::number::grouped);
     wait_for(
         &mut window,
         &format!("Legend from {lowest} to {highest} nodes"),
@@ -193,7 +193,7 @@ fn unequal_conditions_are_refused_and_the_pixels_shown() {
     ];
     let differing = bspscope::measure::differing_pixels(&a, &b).len();
     assert!(differing > 0, "nothing is tested");
-    let count = bspscope::measure::grouped(differing as f64);
+    let count = bspscope::present::number::grouped(differing as f64);
     assert!(has(&window, &format!("{differing} pixels differ: ")));
     click(&mut window, "Show the pixels");
     wait_for(

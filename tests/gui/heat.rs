@@ -193,7 +193,7 @@ fn pointer_and_picked_pixel_have_the_librarys_values() {
     let ratios = library_image("N_RPRT", RayFilter::Reflected);
     let without = ratios.values.iter().filter(|v| v.is_nan()).count();
     assert!(without > 0, "nothing is tested");
-    let without = bspscope::measure::grouped(without as f64);
+    let without = bspscope::present::number::grouped(without as f64);
     assert!(has(&window, &format!("white: no value ({without})")));
 }
 

@@ -2,8 +2,8 @@
 //! whole picture, a region and a pixel.
 
 use crate::harness::{SIZE, Window, click, finish, has, open, press, small, text_with, wait};
-use bspscope::measure::grouped;
 use bspscope::measure::model::{PictureTerms, Region, Term};
+use bspscope::present::number::grouped;
 use bspscope::primitive::PrimitiveKind;
 use bspscope::progress::Progress;
 use bspscope::scene::load;

@@ -3,9 +3,8 @@
 use super::{Panel, Side};
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::State;
-use crate::measure::paper::{
-    Cell, Conditions, Mark, Reproduction, Row, SCENES, printed_unit, reproduce,
-};
+use crate::measure::paper::{Cell, Conditions, Mark, Reproduction, Row, SCENES, reproduce};
+use crate::present::words::printed_unit;
 use crate::progress::Progress;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 

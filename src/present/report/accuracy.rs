@@ -2,7 +2,7 @@
 
 use super::plain_table;
 use crate::measure::accuracy::{Outcome, Trade};
-use crate::measure::significant;
+use crate::present::number::significant;
 use serde_json::{Value, json};
 use std::io::{Result, Write};
 

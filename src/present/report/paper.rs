@@ -2,8 +2,9 @@
 
 use super::grid::Grid;
 use super::{Writer, markdown};
-use crate::measure::paper::{CHARACTERISTICS, Cell, Mark, Reproduction, printed_unit};
+use crate::measure::paper::{CHARACTERISTICS, Cell, Mark, Reproduction};
 use crate::measure::parameter;
+use crate::present::words::printed_unit;
 use serde_json::{Map, Value, json};
 use std::io::{Result, Write};
 

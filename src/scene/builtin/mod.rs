@@ -1,6 +1,7 @@
 //! Generated scenes. A generator is one file here and one line in [`BUILTINS`].
 
 mod balls;
+mod entry;
 mod fluid;
 mod m_fluid;
 mod percent_g;
@@ -9,22 +10,9 @@ mod room;
 mod teaching;
 mod tetra;
 
-use super::{Note, NoteKind, SceneParts};
-use crate::geometry::Vec3;
+pub use entry::Builtin;
 
-/// A scene generator.
-pub struct Builtin {
-    /// Name on the command line and in lists.
-    pub name: &'static str,
-    /// A short description.
-    pub about: &'static str,
-    /// The size that the paper used; 1 if there is only one.
-    pub default_size: u32,
-    /// The allowed sizes.
-    pub sizes: std::ops::RangeInclusive<u32>,
-    /// Generates the scene of a size.
-    pub generate: fn(u32) -> SceneParts,
-}
+use crate::scene::parts::SceneParts;
 
 /// All generators.
 pub static BUILTINS: &[Builtin] = &[
@@ -36,18 +24,6 @@ pub static BUILTINS: &[Builtin] = &[
     room::BUILTIN,
     teaching::BUILTIN,
 ];
-
-/// Linear background color of the Standard Procedural Databases.
-const SPD_BACKGROUND: Vec3 = Vec3::new(0.078, 0.361, 0.753);
-
-/// Returns the note of a scene that replaces one that was never published.
-fn reconstruction_note(name: &str) -> Note {
-    let text = format!(
-        "A reconstruction: the scene '{name}' of the paper was never published. This one was designed \
-         to match its figures in Table 4 and the directions in Table 6."
-    );
-    Note::new(NoteKind::Remark, text)
-}
 
 /// Why a scene could not be generated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,7 +1,6 @@
 //! The objects of a cell.
 
-use crate::structure::ObjectPlanes;
-use crate::structure::frame::is_inside;
+use crate::structure::frame::{ObjectPlanes, is_inside};
 
 /// The objects of a cell by number: those that overlap it, and those that only touch it from
 /// outside. The latter do not overlap any part of the cell either.

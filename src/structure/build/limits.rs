@@ -1,9 +1,10 @@
 //! The memory limit of a build.
 
-use super::{BuildError, Node};
+use super::error::BuildError;
 use crate::geometry::Aabb;
-use crate::structure::ObjectPlanes;
-use crate::structure::split::Structure;
+use crate::structure::frame::ObjectPlanes;
+use crate::structure::method::Structure;
+use crate::structure::node::Node;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Counts the memory that all parts of a build use together. Whether a tree fits does not depend on

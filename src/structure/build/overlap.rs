@@ -1,9 +1,10 @@
 //! Distributes the objects of a cell to its parts.
 
-use super::CellObjects;
+use super::cell_objects::CellObjects;
 use crate::geometry::{Aabb, Axis};
 use crate::primitive::{Primitive, PrimitiveKind, Shape};
-use crate::structure::{BuildSettings, Frame, ObjectPlanes, OverlapRule};
+use crate::structure::frame::{Frame, ObjectPlanes};
+use crate::structure::settings::{BuildSettings, OverlapRule};
 
 /// Decides whether an object of a cell belongs to one of its parts.
 pub(super) struct Overlap<'a> {

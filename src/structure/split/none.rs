@@ -1,8 +1,10 @@
 //! No tree: one leaf that contains all objects. This is the naive ray tracer, and the reference for
 //! all other methods.
 
-use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
-use crate::structure::StopReason;
+use super::rule::{Cell, Decision, SplitRule};
+use crate::structure::method::Structure;
+use crate::structure::node::StopReason;
+use crate::structure::settings::MethodInfo;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "none",

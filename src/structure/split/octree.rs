@@ -4,8 +4,10 @@
 //! Its inner nodes are the planes that separate the children, seven per octree node: x, then y,
 //! then z.
 
-use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
+use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::Axis;
+use crate::structure::method::Structure;
+use crate::structure::settings::MethodInfo;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "octree",

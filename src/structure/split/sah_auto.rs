@@ -5,12 +5,14 @@
 //! the root to a leaf. With a limit of 0 and a quality ratio of 1, a cell becomes a leaf if no
 //! split costs less than the leaf. The method is meant for automatic `D_MAX`.
 
+use super::rule::{Cell, Decision, SplitRule};
 use super::sah::CLIP;
 use super::sweep::{Areas, Sweep};
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
 use crate::geometry::{Aabb, Axis};
 use crate::primitive::Shape;
-use crate::structure::{BuildSettings, StopReason};
+use crate::structure::method::{Constant, Structure};
+use crate::structure::node::StopReason;
+use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-auto",

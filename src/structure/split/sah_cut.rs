@@ -5,10 +5,12 @@
 //! just outside the bounds of the objects, clipped to the cell. A gap is cut only if the best split
 //! is cheaper than a leaf. A cut takes out the gap with two planes and counts as one level.
 
+use super::rule::{Cell, Decision, SplitRule};
 use super::sweep::{Areas, CandidatePlane, Sweep};
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
 use crate::geometry::Axis;
-use crate::structure::{BuildSettings, StopReason};
+use crate::structure::method::{Constant, Structure};
+use crate::structure::node::StopReason;
+use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-cut",

@@ -4,10 +4,12 @@
 //! estimated number of tests is lowest. This method does the same for one plane at a time, along
 //! the cheapest axis or along the axes in cyclic order.
 
+use super::rule::{Cell, Decision, SplitRule};
 use super::sweep::Areas;
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
 use crate::geometry::Axis;
-use crate::structure::{BuildSettings, StopReason};
+use crate::structure::method::{Constant, Structure};
+use crate::structure::node::StopReason;
+use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-sampled",

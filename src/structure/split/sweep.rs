@@ -1,6 +1,6 @@
 //! Candidate planes just outside the ends of the objects of a cell, with the objects on both sides.
 
-use super::Cell;
+use super::rule::Cell;
 use crate::geometry::{Aabb, Axis};
 
 /// The lower and upper ends of the objects of a cell along an axis, both sorted.

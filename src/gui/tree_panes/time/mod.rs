@@ -10,9 +10,9 @@ use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::{Current, State};
 use crate::gui::symbol::grouped;
 use crate::gui::turns::End;
+use crate::measure::heat::PIXEL_COUNTS_LIMIT;
 use crate::measure::model::{Part, PictureTerms, Region, TermTimes};
-use crate::measure::significant;
-use crate::worker::PIXEL_COUNTS_LIMIT;
+use crate::present::number::significant;
 use std::sync::Arc;
 
 /// Which part of the picture is asked about.

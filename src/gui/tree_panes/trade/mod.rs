@@ -11,7 +11,7 @@ use crate::gui::state::State;
 use crate::gui::trading::Found;
 use crate::gui::turns::End;
 use crate::measure::accuracy::{ERROR_MEASURES, ErrorMeasure, Outcome, Trade};
-use crate::measure::significant;
+use crate::present::number::significant;
 use egui::vec2;
 
 /// From this width on, in points, table and error map both stand beside the plot.

@@ -1,9 +1,10 @@
 //! Bin limits as candidate planes, for cells with many objects.
 
+use super::cost::Plane;
 use super::extents::{Extents, Scratch, Source};
 use super::grid::{BINS, Grid, count_bins};
-use super::{Cell, Plane};
 use crate::geometry::Axis;
+use crate::structure::split::rule::Cell;
 use rayon::prelude::*;
 
 /// The number of objects that begin and end in each bin along each axis.

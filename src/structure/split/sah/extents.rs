@@ -1,9 +1,10 @@
 //! The extents of the objects of a cell, clipped to it.
 
-use super::{Cell, Extent};
+use super::cost::Extent;
 use crate::geometry::Axis;
 use crate::primitive::Shape;
-use crate::structure::ObjectPlanes;
+use crate::structure::frame::ObjectPlanes;
+use crate::structure::split::rule::Cell;
 
 /// Computes the extents of the objects of a cell.
 pub(super) struct Source<'a> {

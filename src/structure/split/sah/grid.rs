@@ -1,6 +1,6 @@
 //! Equally wide bins along an axis.
 
-use super::Extent;
+use super::cost::Extent;
 
 /// Maximum number of bins.
 pub(super) const BINS: usize = 64;
