@@ -15,8 +15,10 @@ mod measure;
 mod merge;
 mod methods;
 mod model;
+mod outcome;
 mod output;
 mod paper;
+mod picture;
 mod probe;
 mod render;
 mod report;
@@ -29,15 +31,9 @@ mod window;
 
 use args::{Arguments, Command};
 use clap::Parser;
+use outcome::Outcome;
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
-
-/// The result of a command that completed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Outcome {
-    Done,
-    CheckFailed,
-}
 
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {

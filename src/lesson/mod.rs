@@ -8,6 +8,7 @@
 //! `assets/lessons/README.md` explains how to write a lesson.
 
 mod check;
+mod content;
 mod figures;
 mod formula;
 mod prose;
@@ -16,6 +17,7 @@ mod read;
 mod subject;
 
 pub use check::{Measurer, check, check_step};
+pub use content::{Expectation, Lesson, LessonError, Step};
 pub use figures::{Difference, Figures, Name, Side, SideFigures};
 pub use formula::{Condition, Formula, Operator, Relation, Style};
 pub use prose::{Placeholder, Prose};
@@ -48,55 +50,6 @@ lessons! {
     "empty-space"
     "how-deep"
     "speed-and-accuracy"
-}
-
-/// A lesson.
-#[derive(Clone, Debug)]
-pub struct Lesson {
-    /// The name of its file, for error messages.
-    pub name: String,
-    pub title: String,
-    /// What it is about, in one sentence.
-    pub about: String,
-    /// The steps; at least one.
-    pub steps: Vec<Step>,
-}
-
-/// A step of a lesson.
-#[derive(Clone, Debug)]
-pub struct Step {
-    /// Line of its heading, counted from 1.
-    pub line: usize,
-    pub title: String,
-    /// Line of the key `scene`.
-    scene_line: usize,
-    pub subject: Subject,
-    /// Text before the question.
-    pub before: Prose,
-    /// `None` if nothing is asked; then `after` is empty.
-    pub question: Option<Question>,
-    /// Text that is shown after the prediction.
-    pub after: Prose,
-    /// Conditions that must hold for the text to be true.
-    pub expectations: Vec<Expectation>,
-}
-
-/// A condition that must hold for a text to be true.
-#[derive(Clone, Debug)]
-pub struct Expectation {
-    pub line: usize,
-    pub text: String,
-    pub condition: Condition,
-}
-
-/// An error in a lesson, with its position.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{file}:{line}: {reason}")]
-pub struct LessonError {
-    pub file: String,
-    /// Counted from 1.
-    pub line: usize,
-    pub reason: String,
 }
 
 /// Why a lesson could not be opened.
@@ -136,15 +89,6 @@ impl Lesson {
             reason,
         })?;
         Ok(read::read(&text, name_or_path, path.parent())?)
-    }
-
-    /// Creates an error in a line of this lesson.
-    fn error(&self, line: usize, reason: String) -> LessonError {
-        LessonError {
-            file: self.name.clone(),
-            line,
-            reason,
-        }
     }
 }
 

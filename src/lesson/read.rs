@@ -1,12 +1,12 @@
 //! Parses a lesson: TOML between lines `+++`, then one step per heading `# `, with a block of TOML
 //! settings, text, and after a line `---` the text with the answer.
 
+use super::content::{Expectation, Lesson, LessonError, Step};
 use super::figures::Side;
 use super::formula::{Condition, Formula};
 use super::prose::Prose;
 use super::question::{Answer, Choice, Question, Tolerance};
 use super::subject::{self, Look, Named, Subject};
-use super::{Expectation, Lesson, LessonError, Step};
 use crate::geometry::Vec3;
 use crate::measure::heat::heatmap;
 use crate::scene::{Camera, CameraOverride, Cylinders, SceneRequest, SceneSource};

@@ -1,6 +1,6 @@
 //! The trade of time for accuracy: text for people, JSON and CSV for programs.
 
-use super::plain_table;
+use super::table::plain_table;
 use crate::measure::accuracy::{Outcome, Trade};
 use crate::present::number::significant;
 use serde_json::{Value, json};
