@@ -108,15 +108,15 @@ impl SceneBuilder {
         self.slot = None;
     }
 
-    /// Sets the material of the objects that follow to one that [`SceneBuilder::define`] defines once
-    /// everything is read.
+    /// Sets the material of the objects that follow to one that [`SceneBuilder::define`] defines
+    /// once everything is read.
     pub fn set_named_material(&mut self, number: usize) {
         self.material = Current::Named(number);
         self.slot = self.named.get(&number).copied();
     }
 
-    /// Defines the materials that [`SceneBuilder::set_named_material`] announced, each by its number.
-    /// Equal materials are merged.
+    /// Defines the materials that [`SceneBuilder::set_named_material`] announced, each by its
+    /// number. Equal materials are merged.
     pub fn define(&mut self, materials: &[Material]) {
         if self.named.is_empty() {
             return;
@@ -137,8 +137,8 @@ impl SceneBuilder {
         (self.materials, self.slots, self.slot) = (merged, slots, None);
     }
 
-    /// Notes that something was skipped or changed. Notes are counted by reason, with the position of
-    /// the first.
+    /// Notes that something was skipped or changed. Notes are counted by reason, with the position
+    /// of the first.
     pub fn note(&mut self, kind: NoteKind, text: &str, place: Place) {
         self.note_times(kind, text, 1, place);
     }
@@ -346,8 +346,8 @@ impl SceneBuilder {
         }
     }
 
-    /// Returns the scene of a format without background colors, with default camera and lights if it
-    /// has none. `up` is the format's up direction.
+    /// Returns the scene of a format without background colors, with default camera and lights if
+    /// it has none. `up` is the format's up direction.
     pub fn finish_mesh(mut self, up: Vec3) -> SceneParts {
         self.background = Some(complete::BACKGROUND);
         let text = "no background color in the file; using gray";

@@ -160,8 +160,8 @@ impl<'a> Words<'a> {
 }
 
 /// Parses a number as programs write it: also with the exponents of Fortran (`1.5D+02`), and with
-/// the names that C libraries give to what is not a number (`-1.#IND00`, `nan(ind)`). Returns `None`
-/// for anything else.
+/// the names that C libraries give to what is not a number (`-1.#IND00`, `nan(ind)`). Returns
+/// `None` for anything else.
 pub(super) fn number(word: &[u8]) -> Option<f64> {
     parse(word).or_else(|| unusual_number(word))
 }
@@ -204,8 +204,8 @@ fn unusual_number(word: &[u8]) -> Option<f64> {
     parse(&word)
 }
 
-/// Returns where a comment that begins with `#` starts, if there is one. The `#` in the names that C
-/// libraries give to what is not a number (`-1.#IND00`) starts none.
+/// Returns where a comment that begins with `#` starts, if there is one. The `#` in the names that
+/// C libraries give to what is not a number (`-1.#IND00`) starts none.
 pub(super) fn comment_start(line: &[u8]) -> Option<usize> {
     let starts_one = |i: usize| {
         let is_name =

@@ -3,13 +3,15 @@
 //! # What is read, reported and refused
 //!
 //! - **What is unambiguous is read,** even if a specification forbids it: text in tokens instead of
-//!   lines, byte-order marks, whole numbers written as decimals, `-1.#IND` for what is not a number.
-//! - **What was changed or ignored is reported,** with its count and its first place: the load report
-//!   consists of the scene's [`Note`]s.
-//! - **Only what would give wrong geometry is refused,** with file, line and reason: a coordinate that
-//!   is not a finite number, the index of a vertex that does not exist, missing data, compressed
-//!   meshes. A bad normal, texture coordinate, color, material, light or camera never refuses the
-//!   geometry. Normals are replaced by the face normal, materials and the rest by defaults.
+//!   lines, byte-order marks, whole numbers written as decimals, `-1.#IND` for what is not a
+//!   number.
+//! - **What was changed or ignored is reported,** with its count and its first place: the load
+//!   report consists of the scene's [`Note`]s.
+//! - **Only what would give wrong geometry is refused,** with file, line and reason: a coordinate
+//!   that is not a finite number, the index of a vertex that does not exist, missing data,
+//!   compressed meshes. A bad normal, texture coordinate, color, material, light or camera never
+//!   refuses the geometry. Normals are replaced by the face normal, materials and the rest by
+//!   defaults.
 //! - **Another format or encoding is named:** UTF-16, glTF 1.0, the NFF of Sense8, AFF.
 //!
 //! `docs/formats.md` lists the details per format.
@@ -21,7 +23,8 @@
 //!
 //! - `tobj` 4.0.5 panics on a material with `Kd 1 2`, reports no line numbers and silently ignores
 //!   unknown statements.
-//! - `stl_io` 0.11 reads binary files that begin with `solid` as text and stops after the first solid.
+//! - `stl_io` 0.11 reads binary files that begin with `solid` as text and stops after the first
+//!   solid.
 //! - `ply-rs-bw` 4.0.1 reads text in lines instead of tokens and refuses byte-order marks, blank
 //!   header lines and whole numbers written as decimals.
 //! - `gltf-json` 1.4.1 refuses a file for a single bad material and for whole numbers written as
@@ -31,8 +34,8 @@
 //!
 //! Memory use is bounded by the actual size of a file, not by the counts that it declares. A file
 //! can have at most [`MAX_BYTES`] bytes and [`MAX_FACES`] objects of at most [`BYTES_PER_TRIANGLE`]
-//! bytes per triangle; polygons take memory in proportion to their vertices. A mesh that a glTF file
-//! places many times takes memory for each of its triangles, as if it were written out.
+//! bytes per triangle; polygons take memory in proportion to their vertices. A mesh that a glTF
+//! file places many times takes memory for each of its triangles, as if it were written out.
 
 mod builder;
 mod choose;

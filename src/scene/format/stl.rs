@@ -1,12 +1,12 @@
 //! STL (3D Systems, StereoLithography Interface Specification, 1989): triangles, as text or binary.
 //!
 //! Facet normals are ignored: they follow from the vertices, and many writers set them to 0. A text
-//! file can contain several solids, and facets with more than three vertices, which become polygons.
-//! The up direction is Z, as on the machines that STL was designed for.
+//! file can contain several solids, and facets with more than three vertices, which become
+//! polygons. The up direction is Z, as on the machines that STL was designed for.
 //!
-//! Text is read as tokens, in any case and with or without `solid` and `endsolid`; line breaks matter
-//! only for the names of solids. In a binary file whose size disagrees with the declared number of
-//! facets, the size decides, because many writers never fill in the number.
+//! Text is read as tokens, in any case and with or without `solid` and `endsolid`; line breaks
+//! matter only for the names of solids. In a binary file whose size disagrees with the declared
+//! number of facets, the size decides, because many writers never fill in the number.
 
 use super::builder::SceneBuilder;
 use super::entry::Format;
@@ -64,8 +64,8 @@ fn head(bytes: &[u8]) -> Vec<u8> {
     head[..head.len().min(SNIFFED_BYTES)].to_ascii_lowercase()
 }
 
-/// Returns whether the file begins like a text file. Binary files with `solid` in their free text do,
-/// too, but contain zeros.
+/// Returns whether the file begins like a text file. Binary files with `solid` in their free text
+/// do, too, but contain zeros.
 fn is_text(head: &[u8]) -> bool {
     let start = head.trim_ascii_start();
     (start.starts_with(b"solid") || start.starts_with(b"facet")) && !head.contains(&0)
@@ -140,7 +140,8 @@ fn is_plausible(facet: &[u8]) -> bool {
     vertices.iter().all(|v| v.to_array().into_iter().all(usual))
 }
 
-/// Returns the number of facets to read, and notes it if it is not the one that the header declares.
+/// Returns the number of facets to read, and notes it if it is not the one that the header
+/// declares.
 fn facets(bytes: &[u8], builder: &mut SceneBuilder) -> Result<usize, ReadError> {
     let declared = declared_facets(bytes).ok_or_else(|| {
         let expected = "'solid', or a binary header of 84 bytes";

@@ -1,8 +1,8 @@
 //! glTF 2.0 and its binary form GLB (Khronos Group, glTF 2.0 Specification, 2021).
 //!
-//! Reads the meshes of the file's scene with the transformations of its nodes, the first perspective
-//! camera and base colors. Buffers can be in the file, in data URIs, or in files in its folder or
-//! below. These extensions are read:
+//! Reads the meshes of the file's scene with the transformations of its nodes, the first
+//! perspective camera and base colors. Buffers can be in the file, in data URIs, or in files in its
+//! folder or below. These extensions are read:
 //!
 //! | extension | meaning |
 //! |---|---|
@@ -13,9 +13,9 @@
 //! | `KHR_materials_pbrSpecularGlossiness` | diffuse and specular color |
 //! | `KHR_materials_transmission`, `KHR_materials_ior` | glass |
 //!
-//! Textures, vertex colors, emission, lines, points, orthographic cameras, animations, skins and all
-//! other extensions are skipped and named in the load report. A file that requires an extension which
-//! changes the geometry, such as mesh compression, is refused.
+//! Textures, vertex colors, emission, lines, points, orthographic cameras, animations, skins and
+//! all other extensions are skipped and named in the load report. A file that requires an extension
+//! which changes the geometry, such as mesh compression, is refused.
 //!
 //! Every index and range in the JSON is checked where it is used.
 
@@ -130,8 +130,8 @@ fn note_skipped(root: &Root, builder: &mut SceneBuilder) {
     }
 }
 
-/// Converts a camera; it looks at the point on its line of sight that is nearest to the center of the
-/// scene.
+/// Converts a camera; it looks at the point on its line of sight that is nearest to the center of
+/// the scene.
 fn camera(placed: &nodes::PlacedCamera, center: Vec3) -> Option<Camera> {
     let near = placed.near.max(f64::MIN_POSITIVE);
     let distance = (center - placed.from).dot(placed.forward).max(near);

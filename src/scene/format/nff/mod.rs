@@ -1,7 +1,8 @@
 //! Neutral File Format (E. Haines, Standard Procedural Databases, NFF 3.1).
 //!
 //! A file is a stream of words, separated by white space and line breaks. `#` starts a comment that
-//! extends to the end of its line; `/* */` encloses one, too, as in the examples of many courses. An entity is a keyword followed by its numbers:
+//! extends to the end of its line; `/* */` encloses one, too, as in the examples of many courses.
+//! An entity is a keyword followed by its numbers:
 //!
 //! | entity | what follows |
 //! |---|---|
@@ -18,8 +19,8 @@
 //! both sides here, so that it is read as the positive radius, with a note. What can be repaired is
 //! repaired and noted (see [`read`]).
 //!
-//! Two formats that are easily mistaken for this one are refused by name: the Neutral File Format of
-//! Sense8's WorldToolKit, and AFF, the Animated File Format of BART (J. Lext, U. Assarsson and
+//! Two formats that are easily mistaken for this one are refused by name: the Neutral File Format
+//! of Sense8's WorldToolKit, and AFF, the Animated File Format of BART (J. Lext, U. Assarsson and
 //! T. Möller, 2000), which extends NFF by animations.
 
 mod read;

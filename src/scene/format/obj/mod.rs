@@ -15,8 +15,8 @@
 //! the next line begins with a statement of its own: names such as `D:\\lab\\` end in a backslash,
 //! too. A material may be defined after its use, by a `mtllib` anywhere in the file.
 //!
-//! A coordinate that is not a finite number is an error only if a face uses the vertex. Normals that
-//! cannot be read, and indices of normals that do not exist, are replaced by the face normal.
+//! A coordinate that is not a finite number is an error only if a face uses the vertex. Normals
+//! that cannot be read, and indices of normals that do not exist, are replaced by the face normal.
 
 mod mtl;
 

@@ -186,8 +186,8 @@ fn property<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> Option<Property> 
     Some(Property { name, kind })
 }
 
-/// Returns where the values begin: after the line break of the header's last line. A CR LF counts as
-/// one line break only if the header's first line ends with one, because in a binary file the LF
+/// Returns where the values begin: after the line break of the header's last line. A CR LF counts
+/// as one line break only if the header's first line ends with one, because in a binary file the LF
 /// could be the first value.
 fn end_of_header(bytes: &[u8], last: &Line<'_>) -> usize {
     let at = last.bytes.as_ptr() as usize - bytes.as_ptr() as usize + last.bytes.len();

@@ -1,8 +1,8 @@
 //! PLY (G. Turk, "The PLY Polygon File Format", Stanford, 1994), as text or binary of either byte
 //! order.
 //!
-//! Reads the properties x, y, z and nx, ny, nz of the element `vertex`, the list `vertex_indices` or
-//! `vertex_index` of `face`, and that of `tristrips`: strips of triangles, where −1 begins a new
+//! Reads the properties x, y, z and nx, ny, nz of the element `vertex`, the list `vertex_indices`
+//! or `vertex_index` of `face`, and that of `tristrips`: strips of triangles, where −1 begins a new
 //! strip. Everything else is skipped and counted. The up direction is Y.
 //!
 //! Text is read as tokens: an element may extend over several lines, and a line may hold several
