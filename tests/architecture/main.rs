@@ -9,19 +9,21 @@ use std::path::Path;
 
 /// The cycles that are left, each as its files. This test fails when one of them is gone, so that the
 /// list shrinks.
-const KNOWN_CYCLES: &[&[&str]] = &[&[
-    "src/measure/heat/depth_complexity.rs",
-    "src/measure/heat/empty_leaves.rs",
-    "src/measure/heat/full_leaves.rs",
-    "src/measure/heat/inner_nodes.rs",
-    "src/measure/heat/intersection_tests.rs",
-    "src/measure/heat/leaves.rs",
-    "src/measure/heat/mod.rs",
-    "src/measure/heat/nodes.rs",
-    "src/measure/heat/rays.rs",
-    "src/measure/heat/tests_per_hit.rs",
-    "src/measure/heat/time.rs",
-]];
+const KNOWN_CYCLES: &[&[&str]] = &[
+    &[
+        "src/measure/heat/depth_complexity.rs",
+        "src/measure/heat/empty_leaves.rs",
+        "src/measure/heat/full_leaves.rs",
+        "src/measure/heat/inner_nodes.rs",
+        "src/measure/heat/intersection_tests.rs",
+        "src/measure/heat/leaves.rs",
+        "src/measure/heat/mod.rs",
+        "src/measure/heat/nodes.rs",
+        "src/measure/heat/rays.rs",
+        "src/measure/heat/tests_per_hit.rs",
+        "src/measure/heat/time.rs",
+    ],
+];
 
 /// The one cycle that may stay, by a file of it: the window around its state. All its files are the
 /// window's.

@@ -30,5 +30,6 @@ mod record;
 mod scheduler;
 mod simd;
 mod stability;
+mod tolerant;
 mod visits;
 mod workspace;
