@@ -29,13 +29,14 @@
 //! | [`measure::stability`] | trees at the extremes | an entry of [`measure::stability::CASES`] |
 //! | [`measure::accuracy`] | what accuracy costs: time and error of every choice | a line in [`measure::accuracy::KNOBS`] |
 //! | [`measure::heat`] | heatmaps: what each pixel costs | |
-//! | [`jobs`] | background work: the scheduler with progress, pause, cancel and results | one job |
+//! | [`jobs`] | work in the background and the one scheduler: progress, pause, cancel, partial results | a file with one [`jobs::Job`] |
+//! | [`present::number`] [`present::words`] | numbers and results as text | |
+//! | [`present::chart`] | charts of a sweep | |
 //! | [`present::overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves and rays | a line in [`present::overlay::COLORINGS`], [`present::overlay::COLORMAPS`] or [`present::overlay::HISTOGRAMS`] |
 //! | [`present::report`] | text, JSON, CSV, Markdown, LaTeX; the page of HTML | a line in [`present::report::WRITERS`] |
 //! | [`present::export`] | pictures, heatmaps with legends, leaf boxes, the report put together | a line in [`present::export::LEAF_WRITERS`] |
 //! | [`lesson`] | guided tours in plain text: what they look at, ask and tell; whether it holds | a line in [`lesson::LESSONS`] |
 //! | [`workspace`] | what was looked at and how, as a file; settings as a command | a field with a default |
-//! | [`worker`] | the thread between a window and all of the above: latest request wins | |
 //! | [`cli`], `gui` | the two faces; they never import each other but to start the window | |
 //!
 //! # The one data flow
@@ -88,5 +89,4 @@ pub mod scene;
 pub mod setup;
 pub mod structure;
 pub mod trace;
-pub mod worker;
 pub mod workspace;

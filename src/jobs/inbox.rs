@@ -1,6 +1,7 @@
 //! What has arrived from a job and was not received yet.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 /// How a job ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,7 +23,10 @@ pub struct News<P, O> {
     pub end: Option<End<O>>,
 }
 
-pub(super) struct Inbox<P, O>(Mutex<State<P, O>>);
+pub(super) struct Inbox<P, O> {
+    state: Mutex<State<P, O>>,
+    closed: Condvar,
+}
 
 struct State<P, O> {
     partials: Vec<P>,
@@ -32,15 +36,18 @@ struct State<P, O> {
 
 impl<P, O> Inbox<P, O> {
     pub fn new() -> Self {
-        Inbox(Mutex::new(State {
-            partials: Vec::new(),
-            end: None,
-            closed: false,
-        }))
+        Inbox {
+            state: Mutex::new(State {
+                partials: Vec::new(),
+                end: None,
+                closed: false,
+            }),
+            closed: Condvar::new(),
+        }
     }
 
     fn lock(&self) -> MutexGuard<'_, State<P, O>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Adds a partial result; ignored once the job has ended.
@@ -62,6 +69,15 @@ impl<P, O> Inbox<P, O> {
         }
         state.end = Some(end);
         state.closed = true;
+        self.closed.notify_all();
+    }
+
+    /// Waits until the job has ended, at most this long. Returns whether it has.
+    pub fn wait(&self, patience: Duration) -> bool {
+        let waited = self
+            .closed
+            .wait_timeout_while(self.lock(), patience, |state| !state.closed);
+        waited.unwrap_or_else(PoisonError::into_inner).0.closed
     }
 
     pub fn is_closed(&self) -> bool {

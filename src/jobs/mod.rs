@@ -17,16 +17,44 @@
 //! The modules import from each other in this order: `slot`, `inbox`, `board`, `context`, `job`,
 //! `scheduler`; then one file per job.
 
+mod accuracy;
 mod board;
+mod build;
+mod cache;
 mod context;
+mod export;
 mod inbox;
 mod job;
+mod load;
+mod paper;
+mod picture;
+mod picture_terms;
+mod pixel_counts;
+mod pixel_times;
 mod scheduler;
 mod slot;
+mod sweep;
+mod time_model;
+mod verification;
+mod visits;
 
+pub use accuracy::{Measured, StudyAccuracy};
 pub use board::{JobStatus, Standing};
+pub use build::Build;
+pub use cache::{Built, Cache};
 pub use context::{Context, JobError};
+pub use export::{Export, MakeBytes};
 pub use inbox::{End, News};
 pub use job::{Job, Run};
+pub use load::Load;
+pub use paper::RepeatPaper;
+pub use picture::{RenderPicture, Shown, Stage, Update};
+pub use picture_terms::CountTerms;
+pub use pixel_counts::{CountPixels, CountedPixels};
+pub use pixel_times::TimePixels;
 pub use scheduler::{Handle, Scheduler, Starter};
 pub use slot::{Priority, Slot};
+pub use sweep::Sweep;
+pub use time_model::{FitTimeModel, Timed};
+pub use verification::Verify;
+pub use visits::{CountVisits, PictureVisits};

@@ -9,6 +9,7 @@ use crate::progress::Progress;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Runs all jobs, each on a thread of its own. Dropping it cancels all jobs and waits for the end of
 /// their threads.
@@ -196,6 +197,11 @@ impl<J: Job> Handle<J> {
     /// What arrived since the last call.
     pub fn receive(&self) -> News<J::Partial, J::Output> {
         self.inbox.receive()
+    }
+
+    /// Waits until it has ended, at most this long. Returns whether it has.
+    pub fn wait(&self, patience: Duration) -> bool {
+        self.inbox.wait(patience)
     }
 
     /// Whether it has not ended.

@@ -1,8 +1,8 @@
 //! The chosen outcome's error of every pixel, in colours.
 
-use crate::gui::background::Latest;
 use crate::gui::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::gui::state::State;
+use crate::gui::tasks::Latest;
 use crate::gui::trading::Found;
 use crate::measure::heat::HeatImage;
 use crate::present::number::significant;
