@@ -1,5 +1,14 @@
-//! The whole experiment as one value: which scene, which structure, how it is rendered, and from
-//! where.
+//! The whole experiment as one value, [`Setup`]: which scene, which structure, how it is rendered,
+//! and from where. Each setting is declared once, in [`SETTINGS`]: options, widgets, files, axes of
+//! sweeps and lines in reports are made from that list.
+
+mod edits;
+mod setting;
+mod settings;
+
+pub use edits::{Edits, any_setting};
+pub use setting::{Affects, Choice, Group, Kind, Range, Setting, Value};
+pub use settings::{SETTINGS, setting};
 
 use crate::scene::{Cylinders, Scene, SceneRequest, SceneSource};
 use crate::structure::BuildSettings;

@@ -16,6 +16,11 @@ impl Method {
         Method(info)
     }
 
+    /// What is known of it.
+    pub const fn info(self) -> &'static MethodInfo {
+        self.0
+    }
+
     /// All methods in the order of the registry.
     pub fn all() -> impl Iterator<Item = Method> {
         SPLIT_RULES.iter().map(Method)
