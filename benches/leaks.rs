@@ -2,10 +2,16 @@
 //!
 //! `cargo bench --bench leaks -- [RAYS]`, 10⁸ without a number. Prints how many left each mesh.
 
-#[path = "../tests/support/closed_meshes.rs"]
-mod closed_meshes;
+#[path = "../tests/support"]
+#[allow(dead_code)] // The tests use the rest.
+mod support {
+    pub mod closed_meshes;
+    pub mod random;
+    pub mod scenes;
+}
 
 use std::time::Instant;
+use support::closed_meshes;
 
 fn main() {
     let count = std::env::args().skip(1).find_map(|arg| arg.parse().ok());

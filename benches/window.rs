@@ -1,12 +1,12 @@
 //! How long a person waits: from a change to the first coarse picture and to the full pass, how soon
 //! work that is not wanted any more stops, and what an idle window costs. `cargo bench --bench window`.
 
+use bspscope::jobs::{Cache, End, Handle, RenderPicture, Scheduler, Stage, Update};
 use bspscope::progress::Progress;
 use bspscope::scene::{CameraOverride, Cylinders, SceneRequest, load};
 use bspscope::setup::Setup;
 use bspscope::structure::{BuildSettings, MaxDepth, Method};
 use bspscope::trace::RenderSettings;
-use bspscope::worker::{Stage, Update, Worker};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
@@ -37,44 +37,62 @@ fn first_request() -> Setup {
     }
 }
 
-fn start() -> (Worker, Receiver<()>) {
-    let (wake, woken) = channel();
-    let worker = Worker::start(move || {
-        // The end of the benchmark may come first.
-        let _ = wake.send(());
-    });
-    (worker, woken)
+/// A scheduler with the cache that its pictures share.
+struct Pictures {
+    scheduler: Scheduler,
+    cache: Cache,
+    woken: Receiver<()>,
 }
 
-/// Waits until an update of this request is `wanted`; gives the time when it came.
-fn until(
-    worker: &Worker,
-    woken: &Receiver<()>,
-    number: u64,
-    wanted: impl Fn(&Update) -> bool,
-) -> Instant {
-    loop {
-        let _ = woken.recv_timeout(Duration::from_millis(50));
-        let now = Instant::now();
-        let mut found = false;
-        for news in worker.updates() {
-            if let Update::Failed(reason) = &news.update {
-                panic!("{reason}");
+impl Pictures {
+    fn new() -> Pictures {
+        let (wake, woken) = channel();
+        Pictures {
+            scheduler: Scheduler::new(move || {
+                // The end of the benchmark may come first.
+                let _ = wake.send(());
+            }),
+            cache: Cache::default(),
+            woken,
+        }
+    }
+
+    fn request(&self, setup: Setup) -> Handle<RenderPicture> {
+        self.scheduler.start(RenderPicture {
+            setup,
+            reload: 0,
+            cache: self.cache.clone(),
+        })
+    }
+
+    /// Waits until an update of this request is `wanted`, or until it is done if none is. Returns the
+    /// time when it arrived.
+    fn until(&self, job: &Handle<RenderPicture>, wanted: impl Fn(&Update) -> bool) -> Instant {
+        loop {
+            let _ = self.woken.recv_timeout(Duration::from_millis(50));
+            let now = Instant::now();
+            let news = job.receive();
+            if news.partials.iter().any(&wanted) {
+                return now;
             }
-            found |= news.request == number && wanted(&news.update);
+            match news.end {
+                Some(End::Done(())) => return now,
+                Some(end) => panic!("{end:?}"),
+                None => {}
+            }
         }
-        if found {
-            return now;
-        }
+    }
+
+    fn until_done(&self, job: &Handle<RenderPicture>) -> Instant {
+        self.until(job, |_| false)
     }
 }
 
 /// From each change to the first picture and to complete figures.
 fn changes() {
-    let (worker, woken) = start();
+    let pictures = Pictures::new();
     let mut wanted = first_request();
-    let number = worker.request(wanted.clone(), 0);
-    until(&worker, &woken, number, |u| matches!(u, Update::Done));
+    pictures.until_done(&pictures.request(wanted.clone()));
     type Change = fn(&mut Setup, usize);
     let kinds: [(&str, Change); 4] = [
         ("method", |request, round| {
@@ -99,11 +117,10 @@ fn changes() {
         for round in 0..ROUNDS {
             change(&mut wanted, round);
             let begun = Instant::now();
-            let number = worker.request(wanted.clone(), 0);
-            let shown = until(&worker, &woken, number, |u| matches!(u, Update::Shown(_)));
+            let job = pictures.request(wanted.clone());
+            let shown = pictures.until(&job, |u| matches!(u, Update::Shown(_)));
             first.push(shown - begun);
-            let done = until(&worker, &woken, number, |u| matches!(u, Update::Done));
-            full.push(done - begun);
+            full.push(pictures.until_done(&job) - begun);
         }
         println!("change of {name}");
         report("to the first coarse picture", first);
@@ -111,32 +128,33 @@ fn changes() {
     }
 }
 
-/// From a new request to the moment when the worker has put down what it was doing.
+/// From a new request to the moment when the old one has stopped and the new one's small scene is
+/// loaded.
 fn stops() {
-    let (worker, woken) = start();
+    let pictures = Pictures::new();
     let first = first_request();
     for (name, stage) in [
         ("building", Stage::Building),
-        ("tracing", Stage::Tracing),
+        ("rendering", Stage::Rendering),
         ("counting", Stage::Counting),
     ] {
         let mut times = Vec::new();
         for _ in 0..ROUNDS {
             let stale = first.clone();
-            let number = worker.request(stale, 0);
-            let begun = |u: &Update| matches!(u, Update::Stage(s, _) if *s == stage);
-            until(&worker, &woken, number, begun);
+            let job = pictures.request(stale);
+            pictures.until(&job, |u| matches!(u, Update::Stage(s) if *s == stage));
             std::thread::sleep(Duration::from_millis(5));
             let asked = Instant::now();
             let mut next = first.clone();
             next.scene = SceneRequest::parse("teaching");
             next.render.camera = CameraOverride::default();
-            let number = worker.request(next, 0);
-            let taken_up = until(&worker, &woken, number, |u| matches!(u, Update::Stage(..)));
-            times.push(taken_up - asked);
-            until(&worker, &woken, number, |u| matches!(u, Update::Done));
+            let job = pictures.request(next);
+            // Its first unit waits for the end of the old one.
+            let builds = |u: &Update| matches!(u, Update::Stage(Stage::Building));
+            times.push(pictures.until(&job, builds) - asked);
+            pictures.until_done(&job);
         }
-        report(&format!("while {name}: to putting that down"), times);
+        report(&format!("while {name}: until that has stopped"), times);
     }
 }
 

@@ -12,6 +12,7 @@
 //! |---|---|---|
 //! | [`geometry`] | vectors, boxes, axes, rays | |
 //! | [`progress`] | how long tasks tell how far they are and are told to stop | |
+//! | [`files`] | files written whole or not at all, and their fingerprints | |
 //! | [`primitive`] | sphere, triangle, polygon, cylinder and cone: bounds, overlap with a cell, intersection in `f64` or on objects packed in `f32` | a variant of [`primitive::Primitive`] |
 //! | [`scene`] | objects, materials, lights, camera; what the scene requires | |
 //! | [`scene::format`] | readers and writers of files: NFF, OBJ, PLY, glTF, STL; the load report | a line in [`scene::format::FORMATS`] |
@@ -28,13 +29,12 @@
 //! | [`measure::stability`] | trees at the extremes | an entry of [`measure::stability::CASES`] |
 //! | [`measure::accuracy`] | what accuracy costs: time and error of every choice | a line in [`measure::accuracy::KNOBS`] |
 //! | [`measure::heat`] | what every pixel cost | a line in [`measure::heat::HEATMAPS`] |
+//! | [`jobs`] | work in the background and the one scheduler: progress, pause, cancel, partial results | a file with one [`jobs::Job`] |
 //! | [`present::overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves and rays | a line in [`present::overlay::COLORINGS`], [`present::overlay::COLORMAPS`] or [`present::overlay::HISTOGRAMS`] |
-//! | [`files`] | files written whole or not at all, and their fingerprints | |
-//! | [`lesson`] | guided tours in plain text: what they look at, ask and tell; whether it holds | a line in [`lesson::LESSONS`] |
 //! | [`present::report`] | text, JSON, CSV, Markdown, LaTeX; the page of HTML | a line in [`present::report::WRITERS`] |
-//! | [`workspace`] | what was looked at and how, as a file; settings as a command | a field with a default |
 //! | [`present::export`] | pictures, heatmaps with legends, leaf boxes, the report put together | a line in [`present::export::LEAF_WRITERS`] |
-//! | [`worker`] | the thread between a window and all of the above: latest request wins | |
+//! | [`lesson`] | guided tours in plain text: what they look at, ask and tell; whether it holds | a line in [`lesson::LESSONS`] |
+//! | [`workspace`] | what was looked at and how, as a file; settings as a command | a field with a default |
 //! | [`cli`], `gui` | the two faces; they never import each other but to start the window | |
 //!
 //! # The one data flow
@@ -77,6 +77,7 @@ pub mod files;
 pub mod geometry;
 #[cfg(feature = "gui")]
 pub mod gui;
+pub mod jobs;
 pub mod lesson;
 pub mod measure;
 pub mod present;
@@ -86,5 +87,4 @@ pub mod scene;
 pub mod setup;
 pub mod structure;
 pub mod trace;
-pub mod worker;
 pub mod workspace;

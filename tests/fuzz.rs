@@ -3,9 +3,14 @@
 //! `FUZZ_INPUTS=1000000 cargo test --release --test fuzz` runs more than the suite does; the inputs
 //! are the same everywhere.
 
+#[path = "support/random.rs"]
+#[allow(dead_code)]
+mod random;
+
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
 use bspscope::scene::format::{FORMATS, Input};
+use random::Random;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -42,23 +47,6 @@ unsafe impl GlobalAlloc for Counted {
 
 #[global_allocator]
 static ALLOCATOR: Counted = Counted;
-
-/// SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, 2014).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n.max(1) as u64) as usize
-    }
-}
 
 /// Words that readers stumble over.
 const WORDS: &[&str] = &[

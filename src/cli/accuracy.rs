@@ -1,7 +1,8 @@
 //! `bspscope trade`: what accuracy costs, by time and error.
 
 use super::args::{TradeArgs, TradeFormat};
-use super::{Outcome, bar, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::measure::accuracy::{choices, reference, trade};
 use crate::present::report::accuracy::{TradeReport, write_csv, write_json, write_text};
 use crate::scene::Cylinders;

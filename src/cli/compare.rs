@@ -1,7 +1,8 @@
 //! `bspscope compare`: two trees of a scene beside each other, under equal conditions or not at all.
 
 use super::args::CompareArgs;
-use super::{Outcome, measure, output, resolve};
+use super::outcome::Outcome;
+use super::{measure, output, resolve};
 use crate::measure::unequal;
 use crate::present::report::Report;
 use anyhow::Result;

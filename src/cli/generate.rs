@@ -1,7 +1,8 @@
 //! `bspscope generate`: a scene as a file.
 
 use super::args::GenerateArgs;
-use super::{Outcome, output, resolve};
+use super::outcome::Outcome;
+use super::{output, resolve};
 use crate::scene::format;
 use anyhow::{Result, bail};
 use std::path::Path;

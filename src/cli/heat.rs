@@ -2,7 +2,7 @@
 
 use super::args::HeatArgs;
 use super::values::ByColormap;
-use super::{bar, render};
+use super::{bar, picture};
 use crate::measure::heat::{Heatmap, PixelCounts, Source};
 use crate::present::export::HeatSheet;
 use crate::present::overlay::COLORMAPS;
@@ -52,7 +52,7 @@ pub fn encoded(
     let counts = counts(scene, tree, settings, heatmap)?;
     let below = match args.blend {
         Some(opacity) if format != ImageFormat::OpenExr => {
-            Some((render::picture(scene, tree, settings)?, opacity))
+            Some((picture::render(scene, tree, settings)?, opacity))
         }
         _ => None,
     };

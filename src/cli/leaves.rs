@@ -1,7 +1,8 @@
 //! `bspscope leaves`: the boxes of a tree's leaves for other programs.
 
 use super::args::{LeavesArgs, LeavesShown};
-use super::{Outcome, bar, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::present::export::{LEAF_WRITERS, LeafCells};
 use crate::present::overlay::Filter;
 use crate::structure::build;

@@ -1,7 +1,8 @@
 //! `bspscope lesson`: lists, checks and prints lessons.
 
 use super::args::{LessonArgs, LessonCommand};
-use super::{Outcome, bar, output};
+use super::outcome::Outcome;
+use super::{bar, output};
 use crate::lesson::{Answer, LESSONS, Lesson, Measurer, Step, Style, check};
 use anyhow::Result;
 

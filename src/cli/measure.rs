@@ -1,7 +1,8 @@
 //! `bspscope measure`: every parameter of the paper for a scene and some methods.
 
 use super::args::MeasureArgs;
-use super::{Outcome, bar, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::measure::{Measured, measure};
 use crate::present::report::Report;
 use crate::scene::Scene;

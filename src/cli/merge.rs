@@ -1,7 +1,8 @@
 //! `bspscope merge`: the parts of a sweep as one.
 
 use super::args::MergeArgs;
-use super::{Outcome, output, sweep};
+use super::outcome::Outcome;
+use super::{output, sweep};
 use crate::measure::sweep::{header, line, merge, read_rows};
 use anyhow::{Context, Result};
 use std::fs;

@@ -1,7 +1,8 @@
 //! `bspscope methods`: the build methods and their settings.
 
 use super::args::{ListFormat, MethodsArgs};
-use super::{Outcome, output};
+use super::outcome::Outcome;
+use super::output;
 use crate::structure::Method;
 use crate::structure::split::Constant;
 use anyhow::Result;

@@ -14,8 +14,10 @@ mod measure;
 mod merge;
 mod methods;
 mod model;
+mod outcome;
 mod output;
 mod paper;
+mod picture;
 mod probe;
 mod render;
 mod report;
@@ -28,15 +30,9 @@ mod window;
 
 use args::{Arguments, Command};
 use clap::Parser;
+use outcome::Outcome;
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
-
-/// How a command that did its work ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Outcome {
-    Done,
-    CheckFailed,
-}
 
 /// Runs the program with the process's arguments.
 pub fn main() -> ExitCode {

@@ -1,11 +1,12 @@
 //! `bspscope model`: the times of the paper's equation (1), by regression and in place.
 
 use super::args::{ListFormat, ModelArgs};
-use super::{Outcome, bar, output, resolve};
-use crate::measure::grouped;
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::measure::model::{
     Equation, Fit, InPlace, Observation, Term, fit, observe, parted, time_in_place, trees,
 };
+use crate::present::number::grouped;
 use crate::present::report::grid::Grid;
 use crate::scene::Scene;
 use crate::trace::RenderSettings;

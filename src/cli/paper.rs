@@ -1,7 +1,8 @@
 //! `bspscope paper`: the paper's tables, printed beside computed.
 
 use super::args::PaperArgs;
-use super::{Outcome, bar, output};
+use super::outcome::Outcome;
+use super::{bar, output};
 use crate::measure::paper::{Conditions, PaperScene, SCENES, reproduce};
 use crate::present::report::paper::PAPER_WRITERS;
 use anyhow::Result;

@@ -1,7 +1,8 @@
 //! `bspscope probe`: everything that the rays of one pixel did.
 
 use super::args::{ListFormat, ProbeArgs};
-use super::{Outcome, bar, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::present::report::pixel::{PixelReport, write_json, write_text};
 use crate::structure::build;
 use crate::trace::record_pixel;

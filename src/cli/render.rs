@@ -1,15 +1,14 @@
 //! `bspscope render`: the picture in a file.
 
 use super::args::RenderArgs;
-use super::{Outcome, bar, heat, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, heat, output, picture, resolve};
 use crate::present::export;
-use crate::scene::Scene;
-use crate::structure::{Tree, build};
-use crate::trace::{Picture, RenderSettings, render_timed, thread_pool};
+use crate::structure::build;
+use crate::trace::{RenderSettings, thread_pool};
 use anyhow::{Result, bail};
 use image::ImageFormat;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
 
 pub fn run(args: &RenderArgs) -> Result<Outcome> {
     let format = format_of(&args.output)?;
@@ -30,7 +29,7 @@ pub fn run(args: &RenderArgs) -> Result<Outcome> {
     )?;
     let bytes = match args.heat.show {
         Some(shown) => heat::encoded(&scene, &tree, &render, shown.0, &args.heat, format)?,
-        None => export::encoded(&picture(&scene, &tree, &render)?, format)?,
+        None => export::encoded(&picture::render(&scene, &tree, &render)?, format)?,
     };
     output::write_file(&args.output, |out| out.write_all(&bytes))?;
     Ok(Outcome::Done)
@@ -48,35 +47,4 @@ fn format_of(path: &Path) -> Result<ImageFormat> {
         Some("exr") => Ok(ImageFormat::OpenExr),
         _ => bail!("{}: pictures are written as .png or .exr", path.display()),
     }
-}
-
-/// Traces all samples of a picture.
-pub fn picture(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> Result<Picture> {
-    let pool = thread_pool(settings.threads)?;
-    let picture = Mutex::new(Picture::new(settings.width, settings.height));
-    for sample in 0..settings.samples {
-        let stage = format!(
-            "{}: sample {} of {}",
-            scene.name(),
-            sample + 1,
-            settings.samples
-        );
-        bar::with_bar(&stage, |progress| {
-            render_timed(
-                scene,
-                tree,
-                settings,
-                sample,
-                &pool,
-                progress,
-                |tile, colors| {
-                    picture
-                        .lock()
-                        .unwrap_or_else(PoisonError::into_inner)
-                        .add_tile(tile, sample, colors);
-                },
-            )
-        })?;
-    }
-    Ok(picture.into_inner().unwrap_or_else(PoisonError::into_inner))
 }

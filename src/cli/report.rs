@@ -1,7 +1,8 @@
 //! `bspscope report`: pictures, tables, settings and machine on one page.
 
 use super::args::PageArgs;
-use super::{Outcome, bar, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::measure::measure_pixels;
 use crate::present::export::write_page;
 use crate::present::report::Report;

@@ -1,7 +1,8 @@
 //! `bspscope stability`: trees at the extremes.
 
 use super::args::{ListFormat, StabilityArgs};
-use super::{Outcome, bar, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::measure::stability::{self, Cell};
 use crate::present::report::plain_table;
 use crate::structure::Method;

@@ -2,10 +2,10 @@
 //! on with at any time.
 
 use super::args::{BuildArgs, ChartArgs, SweepArgs};
-use super::{Outcome, bar, output, resolve};
-use crate::measure::sweep::{
-    Chart, Form, Key, Plan, Row, answers, done, header, line, png, read_rows, svg,
-};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
+use crate::measure::sweep::{Form, Key, Plan, Row, answers, done, header, line, read_rows};
+use crate::present::chart::{Chart, png, svg};
 use crate::structure::{BuildSettings, MaxDepth};
 use anyhow::{Context, Result, bail};
 use std::fs::{self, OpenOptions};

@@ -1,7 +1,8 @@
 //! `bspscope verify`: trees are valid, and give the same hits as testing every object.
 
 use super::args::{PictureArgs, VerifyArgs};
-use super::{Outcome, bar, output, resolve};
+use super::outcome::Outcome;
+use super::{bar, output, resolve};
 use crate::measure::judge::{Answer, Case, Verdict};
 use crate::measure::{Answers, RaySample, Verification, answer, compare, sample_rays, unsplit};
 use crate::present::report::plain_table;

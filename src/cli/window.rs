@@ -1,7 +1,8 @@
 //! `bspscope [SCENE]`: the window, or the same job without one.
 
 use super::args::WindowArgs;
-use super::{Outcome, measure, output, resolve};
+use super::outcome::Outcome;
+use super::{measure, output, resolve};
 use crate::files;
 use crate::present::export;
 use crate::present::report::{Report, write_summary};

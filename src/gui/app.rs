@@ -18,7 +18,7 @@ use super::tree_panes::TreePanes;
 use super::view3d::View3d;
 use super::walk::Go;
 use super::workspaces::Workspaces;
-use super::{StartOptions, build_bar, help, keep, top_bar, walk_bar};
+use super::{StartOptions, build_bar, help, keep, tasks, top_bar, walk_bar};
 use crate::present::overlay::COLORINGS;
 use crate::scene::format::names;
 use crate::scene::{CameraOverride, SceneSource};
@@ -57,6 +57,7 @@ impl App {
     pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Self {
         let recent = Recent::kept(KeptFile::new(&start, "recent.json"));
         let mut notices = Notices::default();
+        let jobs = tasks::scheduler(&cc.egui_ctx);
         let (workspaces, workspace) = Workspaces::new(&start, &cc.egui_ctx, &mut notices);
         let layout_file = KeptFile::new(&start, layout::FILE);
         let layout: Option<Layout> = layout_file.read();
@@ -71,7 +72,7 @@ impl App {
         render.height = render.height.min(largest);
         let first_hint = FirstHint::new(&start);
         let mut app = App {
-            state: State::new(&start, &cc.egui_ctx),
+            state: State::new(&start, jobs),
             files: Files::new(recent, workspaces),
             panes: Panes {
                 picture: PicturePane::default(),
@@ -195,7 +196,7 @@ impl App {
             Action::OtherTree => state.show(state.which.other()),
             Action::Paper => {
                 let threads = state.wanted.render.threads;
-                state.experiment.start_or_cancel(threads, ctx);
+                state.experiment.start_or_cancel(threads, &state.jobs);
                 self.seek(&panels::paper::PANEL);
             }
             Action::Lessons | Action::LessonReveal | Action::LessonNext | Action::LessonBack => {
@@ -413,8 +414,7 @@ impl eframe::App for App {
         }
         self.state.restore_selection();
         self.state.follow_rays(&ctx);
-        self.state
-            .judge_rays(self.panes.picture.heat.is_timing(), &ctx);
+        self.state.judge_rays();
         egui::Panel::top("top bar").show(ui, |ui| {
             top_bar::show(ui, &mut self.state, &mut self.files, &mut self.help_open);
         });
@@ -460,8 +460,6 @@ impl eframe::App for App {
             drop_hint(&ctx);
         }
         self.state.send();
-        self.panes.picture.heat.make_way(&self.state);
-        self.state.make_way();
         if !self.lessons.is_on() {
             self.keep_layout(&ctx);
             self.keep_session(ctx.input(|i| i.time), false);

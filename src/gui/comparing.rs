@@ -1,8 +1,8 @@
 //! Two trees beside each other: which of them is meant, how their pictures are shown, and whether
 //! they may be compared at all.
 
-use super::background::Latest;
 use super::state::Current;
+use super::tasks::Latest;
 use crate::measure::{Unequal, differing_pixels, unequal};
 pub use crate::workspace::{Arrangement as View, Which};
 use std::sync::Arc;

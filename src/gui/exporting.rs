@@ -1,6 +1,5 @@
 //! What is shown, as files: the Export menu, the question where to, and the work in the background.
 
-use super::background::Task;
 use super::heat::HeatView;
 use super::layout::Pane;
 use super::save_as::{Answer, SaveAs};
@@ -8,12 +7,14 @@ use super::shortcuts::{Action, choose, text};
 use super::state::{Current, Failure, State};
 use super::view3d::View3d;
 use crate::files;
+use crate::jobs::{self, End, Handle, MakeBytes};
 use crate::present::export::{LEAF_WRITERS, LeafCells, encoded, write_page};
 use crate::present::report::{Report, WRITERS};
 use crate::scene::SceneSource;
 use image::ImageFormat;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
 
 /// What can be exported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,7 +110,9 @@ pub struct Exports {
     asking: Option<SaveAs<Export>>,
     /// The 3D view is taken from the screen once the question is gone from it: frames to go.
     taking: Option<(PathBuf, u8)>,
-    running: Vec<(PathBuf, Task<Result<(), String>>)>,
+    /// A picture of the whole window that was requested, for this part of it.
+    screen: Option<(PathBuf, egui::Rect, Receiver<Arc<egui::ColorImage>>)>,
+    running: Vec<(PathBuf, Handle<jobs::Export>)>,
     /// Where the last file went.
     folder: Option<PathBuf>,
 }
@@ -149,20 +152,30 @@ impl Exports {
             Some(Ok(Answer::Cancel)) | None => {}
         }
         self.take(shown, ctx);
-        self.running.retain(|(path, task)| {
-            let Some(result) = task.take() else {
+        self.crop(shown, ctx);
+        self.running.retain(|(path, handle)| {
+            let Some(end) = handle.receive().end else {
                 return true;
             };
             let path = path.display();
-            match result.unwrap_or_else(|| Err("it broke off".into())) {
-                Ok(()) => shown.state.notices.say(format!("Exported: {path}")),
-                Err(why) => {
+            match end {
+                End::Done(()) => shown.state.notices.say(format!("Exported: {path}")),
+                End::Failed(why) => {
                     let what = format!("{path} could not be written");
                     shown.state.failure = Some(Failure { what, why });
                 }
+                End::Cancelled | End::Replaced => {}
             }
             false
         });
+    }
+
+    fn start(&mut self, path: PathBuf, make: MakeBytes, state: &State) {
+        let export = jobs::Export {
+            path: path.clone(),
+            make,
+        };
+        self.running.push((path, state.jobs.start(export)));
     }
 
     fn begin(&mut self, export: Export, path: PathBuf, shown: &mut Shown<'_>, ctx: &egui::Context) {
@@ -174,12 +187,9 @@ impl Exports {
         }
         match make(export, shown, ctx) {
             Ok(make) => {
-                let to = path.clone();
-                let task = Task::start(ctx, move || {
-                    let extension = to.extension().unwrap_or_default().to_ascii_lowercase();
-                    write(&to, &make(&extension.to_string_lossy())?)
-                });
-                self.running.push((path, task));
+                let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+                let make = move || make(&extension.to_string_lossy());
+                self.start(path, Box::new(make), shown.state);
             }
             Err(why) => {
                 let what = format!("{} cannot be exported", export.name());
@@ -188,8 +198,8 @@ impl Exports {
         }
     }
 
-    /// Takes the 3D view from the screen, when it is time.
-    fn take(&mut self, shown: &Shown<'_>, ctx: &egui::Context) {
+    /// Requests a picture of the window, when it is time.
+    fn take(&mut self, shown: &mut Shown<'_>, ctx: &egui::Context) {
         let Some((path, frames)) = self.taking.take() else {
             return;
         };
@@ -198,27 +208,35 @@ impl Exports {
             ctx.request_repaint();
             return;
         }
-        let rect = shown.view3d.on_screen(ctx);
-        let pixels = ctx.pixels_per_point();
-        let to = path.clone();
-        let (sender, task) = Task::promise();
+        let Some(rect) = shown.view3d.on_screen(ctx) else {
+            let what = format!("{} could not be written", path.display());
+            let why = "the 3D view is not on the screen".into();
+            shown.state.failure = Some(Failure { what, why });
+            return;
+        };
+        let (sender, receiver) = channel();
         let again = ctx.clone();
         let taken = move |image: Arc<egui::ColorImage>| {
-            std::thread::spawn(move || {
-                let result = match rect {
-                    Some(rect) => {
-                        png(&image.region(&rect, Some(pixels))).and_then(|b| write(&to, &b))
-                    }
-                    None => Err("the 3D view is not on the screen".into()),
-                };
-                // Without a window nobody waits.
-                let _ = sender.send(result);
-                again.request_repaint();
-            });
+            // Without a window nobody waits.
+            let _ = sender.send(image);
+            again.request_repaint();
         };
         let callback = egui::ScreenshotCallback::new(taken);
         ctx.send_viewport_cmd(egui::ViewportCommand::Screenshot(callback));
-        self.running.push((path, task));
+        self.screen = Some((path, rect, receiver));
+    }
+
+    /// Exports the part of the window that shows the 3D view, once its picture is there.
+    fn crop(&mut self, shown: &Shown<'_>, ctx: &egui::Context) {
+        let image = self.screen.as_ref().map(|(.., image)| image.try_recv());
+        let Some(Ok(image)) = image else {
+            return;
+        };
+        if let Some((path, rect, _)) = self.screen.take() {
+            let pixels = ctx.pixels_per_point();
+            let make = move || png(&image.region(&rect, Some(pixels)));
+            self.start(path, Box::new(make), shown.state);
+        }
     }
 
     /// The menu in the bar at the top.
@@ -235,10 +253,6 @@ impl Exports {
         .response
         .on_hover_text("What is shown as files: pictures, figures, leaf boxes, a report");
     }
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    files::write_whole(path, |out| out.write_all(bytes)).map_err(|error| error.to_string())
 }
 
 fn png(image: &egui::ColorImage) -> Result<Vec<u8>, String> {
@@ -273,7 +287,7 @@ fn make(export: Export, shown: &mut Shown<'_>, ctx: &egui::Context) -> Result<Ma
                 Pane::View3d.title()
             )),
         },
-        Export::Leaves => leaves(shown, ctx),
+        Export::Leaves => leaves(shown),
         Export::Figures => {
             let (report, _) = report(shown.state, ctx)?;
             Ok(Box::new(move |extension| {
@@ -307,15 +321,17 @@ fn format_of(extension: &str) -> ImageFormat {
     }
 }
 
-fn leaves(shown: &mut Shown<'_>, ctx: &egui::Context) -> Result<Make, String> {
+fn leaves(shown: &mut Shown<'_>) -> Result<Make, String> {
     let filter = shown.view3d.filter();
-    let resting = shown.state.work.is_none();
     let State {
-        current, inspect, ..
+        current,
+        inspect,
+        jobs,
+        ..
     } = &mut *shown.state;
     let current = current.as_ref().ok_or("there is no tree yet")?;
     let visits = if filter.needs_visits() {
-        let visits = inspect.visits.of(current, resting, ctx);
+        let visits = inspect.visits.of(current, jobs);
         Some(visits.ok_or("the 3D view's filter needs visits, which are being counted")?)
     } else {
         None

@@ -1,10 +1,10 @@
 //! Ways to a scene: dialog, dropped file, typed path, generators and the recent list.
 
-use super::background::Task;
 use super::exporting::Exports;
 use super::recent::Recent;
 use super::shortcuts::{Action, choose, text, tip};
 use super::state::State;
+use super::tasks::{Task, dialog, take};
 use super::workspaces::Workspaces;
 use crate::scene::SceneSource;
 use crate::scene::builtin::BUILTINS;
@@ -40,7 +40,7 @@ impl Files {
         if self.dialog.is_some() {
             return;
         }
-        self.dialog = Some(Task::start(ctx, || {
+        self.dialog = Some(dialog(ctx, || {
             let mut dialog = rfd::FileDialog::new().set_title("Open a scene or a workspace");
             for (name, extensions) in filters() {
                 dialog = dialog.add_filter(name, &extensions);
@@ -65,7 +65,7 @@ impl Files {
 
     /// Opens what the dialog answered and what was dropped.
     pub fn receive(&mut self, ctx: &egui::Context, state: &mut State) {
-        if let Some(answer) = self.dialog.as_ref().and_then(Task::take) {
+        if let Some(answer) = self.dialog.as_ref().and_then(take) {
             self.dialog = None;
             if let Some(path) = answer.flatten() {
                 self.open(SceneSource::File(path), ctx, state);

@@ -1,11 +1,12 @@
 //! What the tree's panes and the 3D view share: facts of the nodes, ranges of the histograms, and
 //! the plane that is tried out.
 
-use super::background::Latest;
 use super::build_view::BuildView;
 use super::state::Current;
-use super::visits::{PictureVisits, VisitsPass};
+use super::tasks::Latest;
+use super::visits::VisitsJob;
 use crate::geometry::Axis;
+use crate::jobs::PictureVisits;
 use crate::present::overlay::{HISTOGRAMS, Leaf, Ranges, in_ranges, leaves};
 use crate::scene::Scene;
 use crate::structure::{NodeCost, Tree, TreeIndex};
@@ -47,7 +48,7 @@ pub struct Inspect {
     index: Latest<TreeKey, TreeIndex>,
     leaves: Latest<LeavesKey, Vec<Leaf>>,
     /// How often rays of the picture visited every node.
-    pub visits: VisitsPass,
+    pub visits: VisitsJob,
     cost: Latest<(TreeKey, u32), NodeCost>,
     counted: Option<(Ranges, bool, usize)>,
     /// Ranges of the histograms: leaves outside are not shown.

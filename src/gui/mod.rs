@@ -6,12 +6,11 @@
 //! each; the panes are [`picture_pane`], [`view3d`] and [`tree_panes`], which share what [`inspect`]
 //! knows of the tree. [`comparing`] is what two trees side by side need; [`build_bar`] goes through
 //! the build of a tree. [`keep`] and [`workspaces`] save what is shown and bring it back;
-//! [`exporting`] writes it for other programs. Long measurements take [`turns`] in the background: [`trading`] what accuracy
+//! [`exporting`] writes it for other programs. Each long measurement is a [`study`] in the background: [`trading`] what accuracy
 //! costs, [`modelling`] what the terms of equation (1) take, [`sweeping`] a grid of settings.
 //! [`lessons`] guides through it all.
 
 mod app;
-mod background;
 mod build_bar;
 mod build_view;
 mod compare_bar;
@@ -31,9 +30,9 @@ mod modelling;
 mod notices;
 mod palette;
 mod panels;
+mod picture_job;
 mod picture_marks;
 mod picture_pane;
-mod picture_pass;
 mod picture_region;
 mod recent;
 mod rows;
@@ -44,12 +43,13 @@ mod shortcuts;
 mod state;
 mod status;
 mod step_text;
+mod study;
 mod sweeping;
 mod symbol;
+mod tasks;
 mod top_bar;
 mod trading;
 mod tree_panes;
-mod turns;
 mod view3d;
 mod visits;
 mod walk;

@@ -3,31 +3,25 @@
 //! the same kernel and precision.
 
 use super::state::{Current, State};
-use super::turns::{Doing, Stop, Turns};
-use crate::measure::model::{
-    Equation, Fit, InPlace, Observation, Region, Term, TermTimes, fit, observe, parted,
-    time_in_place, trees,
-};
+use super::study::Study;
+use crate::jobs::{FitTimeModel, Timed};
+use crate::measure::model::{Fit, InPlace, Observation, Region, TermTimes, parted, trees};
 use crate::scene::Scene;
-use crate::structure::BuildSettings;
 use crate::trace::RenderSettings;
 use std::sync::Arc;
 
 /// Pictures are traced for the model with at most so many pixels.
 const MOST_PIXELS: f64 = 128.0 * 128.0;
 
-/// How often each tree is timed.
-const ROUNDS: u32 = 3;
-
 /// The time model, and which part of the picture is asked about.
 #[derive(Default)]
 pub struct Modelling {
-    pub turns: Turns<Found>,
+    pub study: Study<FitTimeModel, Found>,
     /// A rectangle of the picture that was dragged.
     pub region: Option<Region>,
 }
 
-/// What is known of the times; it grows with every turn.
+/// What is known of the times; it grows with every step.
 #[derive(Clone)]
 pub struct Found {
     scene: Arc<Scene>,
@@ -69,14 +63,14 @@ impl Found {
 }
 
 impl Modelling {
-    /// How much of the work is done, 0 to 1, and whether it waits for the worker; `None` while nothing
-    /// is measured.
-    pub fn progress(&self) -> Option<(f64, bool)> {
-        let (turn, waits) = self.turns.turn()?;
-        let found = self.turns.found()?;
-        // Timing in place is one more turn than there are trees.
-        let taken = found.observations.len() + usize::from(found.in_place.is_some());
-        Some(((taken as f64 + turn) / (found.trees + 1) as f64, waits))
+    pub(super) fn receive(&mut self) {
+        let fit = self.study.receive(|found, timed| match timed {
+            Timed::InPlace(times) => found.in_place = Some(times),
+            Timed::Tree(observation) => found.observations.push(observation),
+        });
+        if let (Some(fit), Some(found)) = (fit, self.study.found_mut()) {
+            found.fit = Some(fit);
+        }
     }
 }
 
@@ -85,11 +79,11 @@ impl State {
     pub fn may_model(&self) -> bool {
         let is_ready =
             |current: &Current| current.done && !current.shown.scene.objects().is_empty();
-        !self.modelling.turns.is_running() && self.current.as_ref().is_some_and(is_ready)
+        !self.modelling.study.is_running() && self.current.as_ref().is_some_and(is_ready)
     }
 
     /// Measures the times of the scene on view, in the place of those before.
-    pub fn begin_model(&mut self, ctx: &egui::Context) {
+    pub fn begin_model(&mut self) {
         let Some(current) = self.current.as_ref().filter(|_| self.may_model()) else {
             return;
         };
@@ -104,9 +98,13 @@ impl State {
             trees: builds.len(),
             fit: None,
         };
-        self.modelling.turns.begin(found, ctx, move |doing| {
-            model(doing, &scene, &render, &build, &builds)
+        let handle = self.jobs.start(FitTimeModel {
+            scene,
+            render,
+            build,
+            builds,
         });
+        self.modelling.study.follow(handle, found);
     }
 }
 
@@ -121,25 +119,4 @@ fn reduced(render: &RenderSettings) -> RenderSettings {
         threads: 1,
         ..*render
     }
-}
-
-fn model(
-    doing: &Doing<Found>,
-    scene: &Scene,
-    render: &RenderSettings,
-    build: &BuildSettings,
-    builds: &[BuildSettings],
-) -> Result<(), Stop> {
-    let in_place = doing.turn(|progress| time_in_place(scene, build, render, progress))?;
-    doing.tell(|found| found.in_place = Some(in_place));
-    let mut observations = Vec::new();
-    for build in builds {
-        let observation = doing.turn(|progress| observe(scene, build, render, ROUNDS, progress))?;
-        observations.push(observation.clone());
-        doing.tell(|found| found.observations.push(observation));
-    }
-    let [fitted, _] = parted(&observations);
-    let fit = fit(&fitted, &Term::of(scene), Equation::Corrected)?;
-    doing.tell(|found| found.fit = Some(fit));
-    Ok(())
 }

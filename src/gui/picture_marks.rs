@@ -1,11 +1,11 @@
 //! Marks over the picture: the selected node's cell and the selected object's box as the camera sees
 //! them, and the pixels with rays in the range of the histogram of rays.
 
-use super::background::Latest;
 use super::inspect::Inspect;
 use super::shortcuts::{Action, tip};
 use super::state::{Current, State};
 use super::symbol::grouped;
+use super::tasks::Latest;
 use crate::geometry::{Aabb, Vec3};
 use crate::present::overlay::{BOX_EDGES, CELL_COLOR, NODES_A_RAY, REFERRING_COLOR};
 use crate::primitive::Shape as _;

@@ -9,8 +9,8 @@ use super::picture_marks::PictureMarks;
 use super::picture_region;
 use super::shortcuts::{Action, Scope, pressed};
 use super::state::{Current, Fresh, State};
+use crate::jobs::Stage;
 use crate::trace::{Picture, Tile};
-use crate::worker::Stage;
 use crate::workspace::PicturePlace;
 use egui::ecolor::gamma_u8_from_linear_f32;
 use egui::{Color32, ColorImage, Pos2, Rect, TextureHandle, TextureOptions, Vec2, pos2, vec2};
@@ -448,14 +448,17 @@ fn header(ui: &mut egui::Ui, state: &State, marks: &mut PictureMarks) {
             ui.label("No picture yet");
             return;
         };
-        let tracing = matches!(&state.work, Some((Stage::Previewing | Stage::Tracing, _)));
+        let refining = state
+            .work
+            .as_ref()
+            .is_some_and(|work| matches!(work.stage, Stage::Previewing | Stage::Rendering));
         let status = if state.is_previous() {
             "previous settings"
         } else if current.done {
             "finished"
         } else if state.stopped {
             "stopped"
-        } else if tracing {
+        } else if refining {
             "refining …"
         } else {
             "traced"

@@ -1,6 +1,6 @@
 //! Asks where to save something: a path that can be typed, with the system's dialog beside it.
 
-use super::background::Task;
+use super::tasks::{Task, dialog, take};
 use std::path::{Path, PathBuf};
 
 /// The question, while it is open.
@@ -44,7 +44,7 @@ impl<T> SaveAs<T> {
 
     /// Shows the question; gives it back until it is answered.
     pub fn show(mut self, ctx: &egui::Context) -> Result<Answer<T>, SaveAs<T>> {
-        if let Some(answer) = self.dialog.as_ref().and_then(Task::take) {
+        if let Some(answer) = self.dialog.as_ref().and_then(take) {
             self.dialog = None;
             if let Some(Some(path)) = answer {
                 self.path = path.display().to_string();
@@ -106,7 +106,7 @@ impl<T> SaveAs<T> {
         let (title, extensions) = (self.title.clone(), self.extensions.clone());
         let (folder, name) = (path.parent().map(Path::to_owned), path.file_name());
         let name = name.map(|name| name.to_string_lossy().into_owned());
-        self.dialog = Some(Task::start(ctx, move || {
+        self.dialog = Some(dialog(ctx, move || {
             let mut dialog = rfd::FileDialog::new()
                 .set_title(title)
                 .add_filter(extensions.join(", "), &extensions);

@@ -1,7 +1,7 @@
 //! What is wanted and what is shown. All that is shown belongs together: it is swapped as one.
 //!
 //! Two trees can be compared, A and B. One of them is in front: widgets and panels are about it. The
-//! other waits in [`State::other`]; the worker serves the one in front first.
+//! other waits in [`State::other`]; the picture of the one in front is rendered first.
 
 use super::StartOptions;
 use super::comparing::{Comparing, Verdict, Which};
@@ -15,17 +15,17 @@ use super::selection::Selection;
 use super::sweeping::Sweeping;
 use super::trading::Trading;
 use super::walk::{Picked, Walking, Wish};
+use crate::jobs::{
+    Cache, End, Handle, JobStatus, News, Priority, RenderPicture, Scheduler, Shown, Stage, Update,
+};
 use crate::measure::heat::PixelCounts;
-use crate::progress::Progress;
 use crate::scene::{CameraOverride, SceneRequest, SceneSource};
 use crate::setup::Setup;
 use crate::trace::Tile;
-use crate::worker::{Shown, Stage, Update, Worker};
 use egui::util::undoer::Undoer;
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The window's side of the worker.
+/// What is wanted, what is shown, and the jobs that lead from one to the other.
 pub struct State {
     /// What the widgets say, of the tree in front.
     pub wanted: Setup,
@@ -35,9 +35,12 @@ pub struct State {
     history: Undoer<Wanted>,
     /// The last request about the tree in front, with its number.
     sent: Option<(u64, Setup)>,
-    worker: Worker,
-    /// Which tree every request that may still be answered is about.
-    asked: BTreeMap<u64, Which>,
+    /// Runs all jobs of the window.
+    pub jobs: Scheduler,
+    /// The scenes and trees used last.
+    cache: Cache,
+    /// Pictures that were requested so far.
+    requests: u64,
     /// The picture, tree and figures in front; `None` until the first arrive.
     pub current: Option<Current>,
     /// Which of two compared trees is in front.
@@ -46,8 +49,8 @@ pub struct State {
     pub other: Option<Other>,
     /// How two trees are compared.
     pub comparing: Comparing,
-    /// What the worker does now.
-    pub work: Option<(Stage, Progress)>,
+    /// The picture that is being rendered.
+    pub work: Option<Work>,
     /// Whether the last request was stopped by the user before it was done.
     pub stopped: bool,
     /// Why the last request failed, until dismissed.
@@ -74,6 +77,23 @@ pub struct State {
     pub notices: Notices,
     /// A grid of settings, measured.
     pub sweeping: Sweeping,
+}
+
+/// A picture on its way.
+pub struct Work {
+    handle: Handle<RenderPicture>,
+    /// Number of the request.
+    number: u64,
+    /// Which tree it is of.
+    pub which: Which,
+    pub stage: Stage,
+}
+
+impl Work {
+    /// Stage and progress; `None` if it has just ended.
+    pub fn status(&self) -> Option<JobStatus> {
+        self.handle.status()
+    }
 }
 
 /// The tree of a comparison that is not in front.
@@ -188,15 +208,15 @@ impl Current {
 }
 
 impl State {
-    pub fn new(start: &StartOptions, ctx: &egui::Context) -> Self {
-        let ctx = ctx.clone();
+    pub fn new(start: &StartOptions, jobs: Scheduler) -> Self {
         State {
             wanted: start.setup.clone(),
             reload: 0,
             history: Undoer::default(),
             sent: None,
-            worker: Worker::start(move || ctx.request_repaint()),
-            asked: BTreeMap::new(),
+            jobs,
+            cache: Cache::default(),
+            requests: 0,
             current: None,
             which: Which::A,
             other: None,
@@ -274,16 +294,14 @@ impl State {
     pub fn compare_or_not(&mut self) {
         if self.other.take().is_some() {
             // The one in front is A from now on, and its picture goes to A's place on the screen.
-            let front = self.which;
-            self.asked.retain(|_, which| *which == front);
-            self.asked.values_mut().for_each(|which| *which = Which::A);
-            self.which = Which::A;
+            let front = std::mem::replace(&mut self.which, Which::A);
             if let Some(current) = &mut self.current {
                 current.fresh = Fresh::All;
             }
-            if !self.is_asked_last() {
-                self.work = None;
-                self.worker.cancel();
+            // Dropping what was being rendered for the other one cancels it.
+            self.work = self.work.take().filter(|work| work.which == front);
+            if let Some(work) = &mut self.work {
+                work.which = Which::A;
             }
         } else {
             self.other = Some(Other {
@@ -373,35 +391,26 @@ impl State {
         }
     }
 
-    /// Stops what the worker does; what is shown stays.
+    /// Cancels the picture, the visits and all studies; what is shown stays.
     pub fn cancel(&mut self) {
         if self.work.take().is_some() {
-            self.worker.cancel();
             self.stopped = true;
         }
-        self.inspect.visits.cancel();
-        self.trading.turns.cancel();
-        self.modelling.turns.cancel();
-        self.sweeping.turns.cancel();
+        self.jobs.cancel_where(|job| match job.priority {
+            Priority::Pane | Priority::Study => true,
+            Priority::Idle
+            | Priority::Detail
+            | Priority::Now
+            | Priority::Light
+            | Priority::Dialog => false,
+        });
     }
 
-    /// Which long measurement is on its way, in words: nothing else may take times meanwhile.
+    /// Which study is running, in words: what waits for its end says so.
     pub fn measuring(&self) -> Option<&'static str> {
-        [
-            (self.trading.turns.is_running(), "the trade"),
-            (self.modelling.turns.is_running(), "the time model"),
-            (self.sweeping.turns.is_running(), "the sweep"),
-        ]
-        .into_iter()
-        .find_map(|(runs, name)| runs.then_some(name))
-    }
-
-    /// Lets long measurements go on, one at a time, while the worker rests.
-    pub fn make_way(&self) {
-        let rests = self.work.is_none();
-        let rests = self.trading.turns.make_way(rests);
-        let rests = self.modelling.turns.make_way(rests);
-        self.sweeping.turns.make_way(rests);
+        let jobs = self.jobs.jobs();
+        let study = jobs.iter().find(|job| job.priority == Priority::Study);
+        study.map(|job| job.slot.name())
     }
 
     /// Whether what is shown was made with other settings than the widgets say.
@@ -418,59 +427,67 @@ impl State {
             .is_some_and(|current| same_but_camera(&current.shown.setup, &self.wanted))
     }
 
-    /// Takes the worker's news; gives the scenes that came into view.
+    /// Receives what the jobs have sent. Returns the scenes that came into view.
     pub fn receive(&mut self) -> Vec<SceneSource> {
+        self.receive_studies();
         let mut opened = Vec::new();
-        let updates: Vec<_> = self.worker.updates().collect();
-        for news in updates {
-            // News comes in order: nothing more will come of requests before this one.
-            self.asked = self.asked.split_off(&news.request);
-            let Some(&which) = self.asked.get(&news.request) else {
-                continue;
-            };
-            let is_last = self.asked.len() == 1;
-            let in_front = which == self.which;
-            let place = match &mut self.other {
-                Some(other) if !in_front => &mut other.current,
-                _ => &mut self.current,
-            };
-            match news.update {
-                Update::Stage(stage, progress) => {
-                    if is_last && !self.stopped {
-                        self.work = Some((stage, progress));
-                    }
-                }
+        let Some(work) = &mut self.work else {
+            return opened;
+        };
+        let News { partials, end } = work.handle.receive();
+        let (number, which) = (work.number, work.which);
+        let in_front = which == self.which;
+        let place = match &mut self.other {
+            Some(other) if !in_front => &mut other.current,
+            _ => &mut self.current,
+        };
+        for update in partials {
+            match update {
+                Update::Stage(stage) => work.stage = stage,
                 Update::Shown(shown) => {
                     let source = &shown.setup.scene.source;
                     let known = place.as_ref().map(|c| &c.shown.setup.scene.source);
                     if in_front && known != Some(source) {
                         opened.push(source.clone());
                     }
-                    *place = Some(Current::new(news.request, *shown, place.as_ref()));
-                }
-                Update::Failed(reason) => {
-                    if is_last {
-                        self.fail(which, reason);
-                    }
+                    *place = Some(Current::new(number, *shown, place.as_ref()));
                 }
                 update => {
-                    if is_last && matches!(update, Update::Done) {
-                        self.work = None;
-                    }
                     if let Some(current) = place
-                        && current.number == news.request
+                        && current.number == number
                     {
                         current.take(update);
                     }
                 }
             }
         }
+        match end {
+            Some(End::Done(())) => {
+                self.work = None;
+                if let Some(current) = place
+                    && current.number == number
+                {
+                    current.done = true;
+                }
+            }
+            Some(End::Failed(why)) => self.fail(which, why),
+            Some(End::Cancelled | End::Replaced) => self.work = None,
+            None => {}
+        }
         opened
     }
 
+    fn receive_studies(&mut self) {
+        self.trading.receive();
+        self.modelling.receive();
+        self.sweeping.receive();
+        self.experiment.receive();
+        self.judging.receive();
+    }
+
     fn fail(&mut self, which: Which, why: String) {
-        let loading = matches!(self.work, Some((Stage::Loading, _)));
-        self.work = None;
+        let work = self.work.take();
+        let loading = work.is_some_and(|work| work.stage == Stage::Loading);
         self.restoring = None;
         if which != self.which {
             let what = format!("Tree {} could not be shown", which.name());
@@ -505,7 +522,8 @@ impl State {
         if !is_sent(&self.sent, &self.wanted) {
             if let Some((number, last)) = &self.sent {
                 let has_picture = self.current.as_ref().is_some_and(|c| c.number == *number);
-                let in_work = self.work.is_some() && self.is_asked_last();
+                let work = self.work.as_ref();
+                let in_work = work.is_some_and(|work| work.which == self.which);
                 if in_work && !has_picture && same_but_camera(last, &self.wanted) {
                     return;
                 }
@@ -542,24 +560,21 @@ impl State {
     }
 
     fn ask(&mut self, which: Which, wanted: Setup) -> u64 {
-        self.inspect.visits.give_way();
-        let number = self.worker.request(wanted, self.reload);
-        self.asked.insert(number, which);
+        self.requests += 1;
         self.stopped = false;
         self.failure = self.failure.take().filter(|_| self.current.is_some());
-        self.work = Some((Stage::Previewing, Progress::new()));
-        number
-    }
-
-    /// Which tree the worker was last asked for.
-    pub fn asked_last(&self) -> Which {
-        let last = self.asked.last_key_value();
-        last.map_or(self.which, |(_, which)| *which)
-    }
-
-    /// Whether that is the one in front.
-    fn is_asked_last(&self) -> bool {
-        self.asked_last() == self.which
+        let job = RenderPicture {
+            setup: wanted,
+            reload: self.reload,
+            cache: self.cache.clone(),
+        };
+        self.work = Some(Work {
+            handle: self.jobs.start(job),
+            number: self.requests,
+            which,
+            stage: Stage::Previewing,
+        });
+        self.requests
     }
 }
 
@@ -601,8 +616,7 @@ impl Current {
                 self.complete = complete;
             }
             Update::PixelCounts(counts) => self.pixel_counts = Some(counts),
-            Update::Done => self.done = true,
-            Update::Stage(..) | Update::Shown(_) | Update::Failed(_) => {}
+            Update::Stage(_) | Update::Shown(_) => {}
         }
     }
 }

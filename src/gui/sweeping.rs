@@ -3,19 +3,17 @@
 
 use super::comparing::Which;
 use super::state::State;
-use super::turns::{Doing, Stop, Turns};
-use crate::files::write_whole;
+use super::study::Study;
+use crate::jobs::{End, Export, Handle, Scheduler, Sweep};
 use crate::measure::sweep::{Form, Plan, Row, done, header, line};
-use crate::scene::Scene;
 use crate::setup::Setup;
 use crate::structure::{BuildSettings, MaxDepth, Method};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// The sweep, the last one taken and how the next will be.
 pub struct Sweeping {
-    pub turns: Turns<Found>,
+    pub study: Study<Sweep, Found>,
     /// The least and the greatest `D_MAX` of the next sweep.
     pub depths: [u32; 2],
     /// Its leaf sizes, as they are typed: numbers, separated by commas.
@@ -30,7 +28,7 @@ pub struct Sweeping {
 impl Default for Sweeping {
     fn default() -> Self {
         Sweeping {
-            turns: Turns::default(),
+            study: Study::default(),
             depths: [6, 24],
             leaf_sizes: "1, 2, 4, 8".to_owned(),
             methods: Method::of_the_paper(),
@@ -67,13 +65,9 @@ impl Sweeping {
         Some(sizes)
     }
 
-    /// How much of the sweep is done, 0 to 1, and whether it waits for the worker; `None` while none
-    /// is taken.
-    pub fn progress(&self) -> Option<(f64, bool)> {
-        let (turn, waits) = self.turns.turn()?;
-        let found = self.turns.found()?;
-        let taken = found.rows.len() as f64 + turn;
-        Some((taken / found.plan.points.len().max(1) as f64, waits))
+    pub(super) fn receive(&mut self) {
+        self.study.receive(|found, row| found.rows.push(row));
+        self.saving.receive();
     }
 }
 
@@ -81,7 +75,7 @@ impl State {
     /// Whether a sweep can be taken: of a finished picture, with settings that make points.
     pub fn may_sweep(&self) -> bool {
         let sweeping = &self.sweeping;
-        !sweeping.turns.is_running()
+        !sweeping.study.is_running()
             && self.current.as_ref().is_some_and(|current| current.done)
             && !sweeping.methods.is_empty()
             && sweeping.depths[0] <= sweeping.depths[1]
@@ -90,7 +84,7 @@ impl State {
 
     /// Takes a sweep of the scene and picture on view. Where the last one was of the same, its rows
     /// stay and it goes on after them; else it is replaced.
-    pub fn begin_sweep(&mut self, ctx: &egui::Context) {
+    pub fn begin_sweep(&mut self) {
         let Some(current) = self.current.as_ref().filter(|_| self.may_sweep()) else {
             return;
         };
@@ -107,7 +101,7 @@ impl State {
         let plan = Plan::new(request, &methods, &depths, &n_oilf, &shown.setup.render);
         let plan = Arc::new(plan);
         let (of, reload) = (shown.setup.clone(), shown.reload);
-        let known = sweeping.turns.found().filter(|found| {
+        let known = sweeping.study.found().filter(|found| {
             found.of.scene == of.scene
                 && found.reload == reload
                 && found.of.render == of.render
@@ -124,14 +118,13 @@ impl State {
             plan: Arc::clone(&plan),
             rows,
         };
-        sweeping
-            .turns
-            .begin(found, ctx, move |doing| sweep(doing, &scene, &plan, first));
+        let handle = self.jobs.start(Sweep { scene, plan, first });
+        sweeping.study.follow(handle, found);
     }
 
     /// Wants the settings of a row, of the scene and picture that it was measured with, for tree A.
     pub fn choose_row(&mut self, place: usize) {
-        let Some(found) = self.sweeping.turns.found() else {
+        let Some(found) = self.sweeping.study.found().cloned() else {
             return;
         };
         let Some(row) = found.rows.get(place) else {
@@ -167,59 +160,52 @@ fn goes_on(rows: &[Row], plan: &Plan) -> bool {
     done(rows, &keys, keys.len()).is_ok_and(|done| done < keys.len())
 }
 
-fn sweep(doing: &Doing<Found>, scene: &Scene, plan: &Plan, first: usize) -> Result<(), Stop> {
-    for point in first..plan.points.len() {
-        let row = doing.turn(|progress| plan.row(scene, point, progress))?;
-        doing.tell(|found| found.rows.push(row));
-    }
-    Ok(())
-}
-
 /// Rows on their way to a file.
 #[derive(Default)]
 pub struct Saving {
     /// The file, as it is typed.
     pub path: String,
-    answer: Option<Receiver<String>>,
-    /// What came of it.
+    running: Option<(Handle<Export>, String)>,
+    /// What became of it.
     pub said: Option<String>,
 }
 
 impl Saving {
-    /// Writes the rows on a thread: CSV, or JSON lines, by the extension of the path.
-    pub fn save(&mut self, rows: &[Row], ctx: &egui::Context) {
+    /// Writes the rows: CSV, or JSON lines, by the extension of the path.
+    pub fn save(&mut self, rows: &[Row], jobs: &Scheduler) {
         let path = PathBuf::from(self.path.trim());
         let Some(form) = Form::for_path(&path) else {
             self.said = Some("rows are written as .csv or .jsonl".to_owned());
             return;
         };
-        let (sender, answer) = channel();
-        let (rows, ctx) = (rows.to_vec(), ctx.clone());
-        std::thread::spawn(move || {
+        let done = format!("{} rows in {}", rows.len(), path.display());
+        let rows = rows.to_vec();
+        let make = move || {
             let lines = rows.iter().map(|row| line(row, form));
-            let text = header(form) + &lines.collect::<String>();
-            let said = match write_whole(&path, |out| out.write_all(text.as_bytes())) {
-                Ok(()) => format!("{} rows in {}", rows.len(), path.display()),
-                Err(error) => format!("{}: {error}", path.display()),
-            };
-            // Without a window nobody asks.
-            let _ = sender.send(said);
-            ctx.request_repaint();
-        });
+            Ok((header(form) + &lines.collect::<String>()).into_bytes())
+        };
+        let export = Export {
+            path,
+            make: Box::new(make),
+        };
         self.said = None;
-        self.answer = Some(answer);
+        self.running = Some((jobs.start(export), done));
     }
 
-    /// Takes what the thread has to tell.
-    pub fn receive(&mut self) {
-        let Some(answer) = &self.answer else {
-            return;
-        };
-        match answer.try_recv() {
-            Ok(said) => self.said = Some(said),
-            Err(TryRecvError::Empty) => return,
-            Err(TryRecvError::Disconnected) => {}
+    /// Takes note of how writing ended.
+    fn receive(&mut self) {
+        let end = self
+            .running
+            .as_ref()
+            .map(|(handle, _)| handle.receive().end);
+        if let Some(Some(end)) = end
+            && let Some((_, done)) = self.running.take()
+        {
+            self.said = match end {
+                End::Done(()) => Some(done),
+                End::Failed(why) => Some(format!("{}: {why}", self.path.trim())),
+                End::Cancelled | End::Replaced => None,
+            };
         }
-        self.answer = None;
     }
 }

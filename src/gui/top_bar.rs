@@ -3,7 +3,8 @@
 use super::comparing::Which;
 use super::files::Files;
 use super::shortcuts::{Action, choose, text, tip};
-use super::state::State;
+use super::state::{State, Work};
+use crate::jobs::Standing;
 use crate::measure::parameter;
 use crate::structure::{BuildSettings, MaxDepth, Method};
 
@@ -222,29 +223,27 @@ fn about(symbol: &str, action: Action) -> String {
     )
 }
 
-/// What the worker does, how far it is, and a way to stop it.
+/// The jobs that run, how far the picture is, and a way to cancel.
 fn work(ui: &mut egui::Ui, state: &mut State) {
-    let (fraction, label) = match &state.work {
-        Some((stage, progress)) => (progress.fraction() as f32, stage.text()),
+    let status = state.work.as_ref().and_then(Work::status);
+    let (fraction, label) = match &status {
+        Some(status) => (status.fraction as f32, status.stage.clone()),
         None if state.stopped => (0.0, "cancelled".to_owned()),
         None => (1.0, "ready".to_owned()),
     };
     let working = state.work.is_some();
     let percent = (fraction * 100.0).round();
-    let shown = if working && state.other.is_some() {
-        format!("{}: {label} {percent} %", state.asked_last().name())
-    } else if working {
-        format!("{label} {percent} %")
-    } else {
-        label
+    let shown = match &state.work {
+        Some(work) if state.other.is_some() => {
+            format!("{}: {label} {percent} %", work.which.name())
+        }
+        Some(_) => format!("{label} {percent} %"),
+        None => label,
     };
-    ui.add(
-        egui::ProgressBar::new(fraction)
-            .desired_width(190.0)
-            .text(shown),
-    );
+    let bar = egui::ProgressBar::new(fraction).desired_width(190.0);
+    ui.add(bar.text(shown)).on_hover_ui(|ui| jobs(ui, state));
     if working {
-        // The worker wakes the window for results; progress in between is worth a look now and then.
+        // Jobs wake the window for results; progress in between is worth a look now and then.
         ui.ctx().request_repaint_after_secs(0.1);
     }
     if state.stopped {
@@ -264,5 +263,25 @@ fn work(ui: &mut egui::Ui, state: &mut State) {
         .clicked()
     {
         state.cancel();
+    }
+}
+
+/// All live jobs with stage, fraction and standing.
+fn jobs(ui: &mut egui::Ui, state: &State) {
+    let jobs = state.jobs.jobs();
+    for job in jobs.iter().filter(|job| job.priority.takes_turns()) {
+        let standing = match job.standing {
+            Standing::Running => format!("{:.0} %", job.fraction * 100.0),
+            Standing::Waiting => "waits".to_owned(),
+            Standing::Paused => "paused".to_owned(),
+        };
+        let stage = match &*job.stage {
+            "" => String::new(),
+            stage => format!(" · {stage}"),
+        };
+        ui.label(format!("{}{stage} · {standing}", job.slot.name()));
+    }
+    if !jobs.iter().any(|job| job.priority.takes_turns()) {
+        ui.label("No jobs are running.");
     }
 }

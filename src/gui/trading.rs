@@ -1,17 +1,12 @@
-//! The trade of time for accuracy in the background, turn by turn.
+//! The accuracy study of the window: what each choice costs in time, and what it gives in accuracy.
 
 use super::state::State;
-use super::turns::{Doing, Stop, Turns};
-use crate::measure::accuracy::{self, Trade, choices, reference};
-use crate::progress::Progress;
-use crate::scene::{Cylinders, Scene, SceneRequest, load};
+use super::study::Study;
+use crate::jobs::{Measured, StudyAccuracy};
+use crate::measure::accuracy::Trade;
 use crate::setup::Setup;
 use crate::trace::RenderSettings;
 use std::sync::Arc;
-
-/// The most bytes that the errors of all pixels of all choices may take; in a trade of larger pictures
-/// they are not kept.
-const MOST_BYTES: usize = 512 << 20;
 
 /// The trade, the last one taken and how the next will be.
 pub struct Trading {
@@ -23,7 +18,7 @@ pub struct Trading {
     pub chosen: Option<usize>,
     /// How many trades were begun.
     begun: u64,
-    pub turns: Turns<Found>,
+    pub study: Study<StudyAccuracy, Found>,
 }
 
 impl Default for Trading {
@@ -33,12 +28,12 @@ impl Default for Trading {
             rounds: 3,
             chosen: None,
             begun: 0,
-            turns: Turns::default(),
+            study: Study::default(),
         }
     }
 }
 
-/// What is known of a trade; it grows with every turn.
+/// What is known of a trade; it grows with every step.
 #[derive(Clone)]
 pub struct Found {
     /// No other trade of the window has it.
@@ -50,10 +45,10 @@ pub struct Found {
     /// By outcome, the error of every pixel of the reference, row by row; none where they would take
     /// too much memory.
     pub pixel_errors: Vec<Arc<Vec<f32>>>,
-    /// Turns taken.
+    /// Steps taken.
     pub taken: usize,
-    /// Turns in all; 0 until the scene is there.
-    pub turns: usize,
+    /// Steps in all; 0 before the first.
+    pub steps: usize,
 }
 
 impl Found {
@@ -66,32 +61,36 @@ impl Found {
 }
 
 impl Trading {
-    /// What is known of the last trade; `None` before the first.
-    pub fn found(&self) -> Option<Arc<Found>> {
-        self.turns.found()
-    }
-
-    /// How much of the trade is done, 0 to 1, and whether it waits for the worker; `None` while none
-    /// is being taken.
-    pub fn progress(&self) -> Option<(f64, bool)> {
-        let (turn, waits) = self.turns.turn()?;
-        let found = self.found()?;
-        let share = (found.taken as f64 + turn) / found.turns.max(1) as f64;
-        Some((share, waits))
+    pub(super) fn receive(&mut self) {
+        self.study.receive(|found, measured| {
+            let Measured {
+                place,
+                outcome,
+                pixel_errors,
+                steps,
+            } = measured;
+            match found.trade.outcomes.get_mut(place) {
+                Some(known) => *known = outcome,
+                None => found.trade.outcomes.push(outcome),
+            }
+            found.pixel_errors.extend(pixel_errors.map(Arc::new));
+            found.taken += 1;
+            found.steps = steps;
+        });
     }
 }
 
 impl State {
     /// Whether a trade can be taken: of a finished picture with the settings that are wanted.
     pub fn may_trade(&self) -> bool {
-        !self.trading.turns.is_running()
+        !self.trading.study.is_running()
             && self.work.is_none()
             && !self.is_previous()
             && self.current.as_ref().is_some_and(|current| current.done)
     }
 
     /// Begins the trade of the scene and settings on view, in the place of the one before.
-    pub fn begin_trade(&mut self, ctx: &egui::Context) {
+    pub fn begin_trade(&mut self) {
         let Some(current) = self.current.as_ref().filter(|_| self.may_trade()) else {
             return;
         };
@@ -114,17 +113,19 @@ impl State {
             },
             pixel_errors: Vec::new(),
             taken: 0,
-            turns: 0,
+            steps: 0,
         };
-        let (scene, rounds) = (Arc::clone(&shown.scene), trading.rounds);
-        trading
-            .turns
-            .begin(found, ctx, move |doing| take(doing, &scene, &of, rounds));
+        let handle = self.jobs.start(StudyAccuracy {
+            scene: Arc::clone(&shown.scene),
+            setup: of,
+            rounds: trading.rounds,
+        });
+        trading.study.follow(handle, found);
     }
 
     /// Wants the settings of an outcome, of the scene and camera that it was traced with.
     pub fn choose_outcome(&mut self, place: usize) {
-        let Some(found) = self.trading.found() else {
+        let Some(found) = self.trading.study.found().cloned() else {
             return;
         };
         let Some(outcome) = found.trade.outcomes.get(place) else {
@@ -135,38 +136,4 @@ impl State {
         self.wanted = outcome.choice.setup.clone();
         self.wanted.render.threads = threads;
     }
-}
-
-/// Takes the trade of a scene on view; it begins with its cylinders exact.
-fn take(doing: &Doing<Found>, scene: &Arc<Scene>, of: &Setup, rounds: u32) -> Result<(), Stop> {
-    let scene = if of.scene.cylinders == Cylinders::Exact {
-        Arc::clone(scene)
-    } else {
-        let exact = SceneRequest {
-            cylinders: Cylinders::Exact,
-            ..of.scene.clone()
-        };
-        Arc::new(load(&exact, &Progress::new())?)
-    };
-    let render = &of.render;
-    let choices = choices(&reference(of), &scene);
-    let pixels = render.width as usize * render.height as usize;
-    let keeps = choices.len() * pixels * size_of::<f32>() <= MOST_BYTES;
-    let mut trading = accuracy::Trading::new(&scene, choices, rounds)?;
-    let turns = trading.turns();
-    doing.tell(|found| found.turns = turns);
-    while let Some(turn) = doing.turn(|progress| trading.turn(progress))? {
-        doing.tell(|found| {
-            let outcome = trading.outcomes()[turn.place].clone();
-            match found.trade.outcomes.get_mut(turn.place) {
-                Some(known) => *known = outcome,
-                None => found.trade.outcomes.push(outcome),
-            }
-            found
-                .pixel_errors
-                .extend(turn.pixel_errors.filter(|_| keeps).map(Arc::new));
-            found.taken += 1;
-        });
-    }
-    Ok(())
 }

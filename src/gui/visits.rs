@@ -1,66 +1,28 @@
 //! The visits of all nodes by the rays of the current picture: counted in the background when a pane
 //! wants them.
 
-use super::picture_pass::{PicturePass, Standing};
+use super::picture_job::{PictureJob, Progress};
 use super::state::Current;
 use super::symbol::grouped;
-use crate::trace::{Visits, count_visits, thread_pool};
-use crate::worker::PIXEL_COUNTS_LIMIT;
-use std::ops::Deref;
+use crate::jobs::{CountVisits, PictureVisits, Scheduler};
+use crate::measure::heat::PIXEL_COUNTS_LIMIT;
 use std::sync::Arc;
 
-/// The visits of a picture's rays.
-pub struct PictureVisits {
-    pub visits: Visits,
-    /// Leaves, most visited first.
-    pub leaves: Vec<u32>,
-}
+/// The job that counts visits.
+pub type VisitsJob = PictureJob<CountVisits>;
 
-impl Deref for PictureVisits {
-    type Target = Visits;
-
-    fn deref(&self) -> &Visits {
-        &self.visits
-    }
-}
-
-impl PictureVisits {
-    /// The most visited leaf; from a selected leaf on, the next in the order of visits, or with
-    /// `back` the one before.
-    pub fn step(&self, selected: Option<u32>, back: bool) -> Option<u32> {
-        let at = self.leaves.iter().position(|leaf| Some(*leaf) == selected);
-        let to = match (at, back) {
-            (None, _) => 0,
-            (Some(at), true) => at.saturating_sub(1),
-            (Some(at), false) => (at + 1).min(self.leaves.len() - 1),
-        };
-        self.leaves.get(to).copied()
-    }
-}
-
-/// The pass that counts visits.
-pub type VisitsPass = PicturePass<PictureVisits>;
-
-impl VisitsPass {
-    /// The visits of the current picture; `None` while they are not counted. Counting begins when
-    /// the picture is finished and the worker is `resting`.
-    pub fn of(
-        &mut self,
-        current: &Current,
-        resting: bool,
-        ctx: &egui::Context,
-    ) -> Option<Arc<PictureVisits>> {
-        let shown = &current.shown;
-        let render = shown.setup.render;
+impl VisitsJob {
+    /// The visits of the current picture; `None` while they are not counted. Counting starts when
+    /// the picture is finished.
+    pub fn of(&mut self, current: &Current, jobs: &Scheduler) -> Option<Arc<PictureVisits>> {
         if is_too_large(current) {
             return None;
         }
-        let (scene, tree) = (Arc::clone(&shown.scene), Arc::clone(&shown.tree));
-        self.get(current, resting, ctx, move |progress| {
-            let pool = thread_pool(render.threads)?;
-            let visits = count_visits(&scene, &tree, &render, &pool, progress)?;
-            let leaves = visits.leaves_by_visits(&tree);
-            Ok(PictureVisits { visits, leaves })
+        let shown = &current.shown;
+        self.get(current, jobs, || CountVisits {
+            scene: Arc::clone(&shown.scene),
+            tree: Arc::clone(&shown.tree),
+            render: shown.setup.render,
         })
     }
 
@@ -72,11 +34,11 @@ impl VisitsPass {
                 "Visits are counted of pictures of up to {limit} pixels."
             ));
         }
-        match self.standing() {
-            Standing::Waiting => Some("visits: counted when the picture is finished".to_owned()),
-            Standing::Running(done) => Some(format!("counting visits … {:.0} %", done * 100.0)),
-            Standing::Done => None,
-            Standing::Ended(why) => Some(format!("visits not counted: {why}")),
+        match self.progress() {
+            Progress::Waiting => Some("visits: counted when the picture is finished".to_owned()),
+            Progress::Running(done) => Some(format!("counting visits … {:.0} %", done * 100.0)),
+            Progress::Done => None,
+            Progress::Ended(why) => Some(format!("visits not counted: {why}")),
         }
     }
 
@@ -86,10 +48,10 @@ impl VisitsPass {
             return;
         };
         ui.label(note);
-        let (name, about) = match self.standing() {
-            Standing::Running(_) => ("Cancel counting", "Stop counting visits."),
-            Standing::Ended(_) => ("Count again", "Begin counting visits again."),
-            Standing::Waiting | Standing::Done => return,
+        let (name, about) = match self.progress() {
+            Progress::Running(_) => ("Cancel counting", "Stop counting visits."),
+            Progress::Ended(_) => ("Count again", "Begin counting visits again."),
+            Progress::Waiting | Progress::Done => return,
         };
         if ui.button(name).on_hover_text(about).clicked() {
             if name == "Count again" {
@@ -109,22 +71,4 @@ pub const ABOUT: &str = "Rays of the picture that visited the node, and their sh
 fn is_too_large(current: &Current) -> bool {
     let picture = &current.shown.picture;
     u64::from(picture.width) * u64::from(picture.height) > PIXEL_COUNTS_LIMIT
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn leaves_are_walked_in_the_order_of_their_visits() {
-        let visits = PictureVisits {
-            visits: Visits::default(),
-            leaves: vec![7, 3, 9],
-        };
-        assert_eq!(visits.step(None, false), Some(7));
-        assert_eq!(visits.step(Some(1), true), Some(7));
-        assert_eq!(visits.step(Some(7), false), Some(3));
-        assert_eq!(visits.step(Some(9), false), Some(9));
-        assert_eq!(visits.step(Some(3), true), Some(7));
-    }
 }

@@ -1,8 +1,8 @@
 //! The picked pixel: its rays, which of them is selected, and the step its walk has been followed
 //! to; by hand or by itself.
 
-use super::background::Latest;
 use super::state::{Current, State};
+use super::tasks::Latest;
 use crate::trace::{PixelRecord, RayPath, Step, record_pixel_within};
 use std::sync::Arc;
 use std::time::Duration;

@@ -1,11 +1,11 @@
 //! Workspaces as files: opened and saved in the background; the last session is kept.
 
 use super::StartOptions;
-use super::background::Task;
 use super::kept;
 use super::notices::Notices;
 use super::save_as::{Answer, SaveAs};
 use super::state::{Failure, State};
+use super::tasks::{Task, take, task};
 use crate::files;
 use crate::scene::SceneSource;
 use crate::workspace::{EXTENSION, Workspace};
@@ -73,7 +73,7 @@ impl Workspaces {
     /// Reads a workspace in the background.
     pub fn open(&mut self, path: PathBuf, ctx: &egui::Context) {
         let reading = path.clone();
-        let task = Task::start(ctx, move || read(&reading));
+        let task = task(ctx, move || read(&reading));
         self.opening = Some((path, task));
     }
 
@@ -81,7 +81,7 @@ impl Workspaces {
     fn opened(&mut self, path: &Path, workspace: &Workspace, ctx: &egui::Context) {
         self.path = Some(path.to_owned());
         let (source, compared) = (workspace.scene.source.clone(), workspace.clone());
-        let task = Task::start(ctx, move || compared.scene_was_changed());
+        let task = task(ctx, move || compared.scene_was_changed());
         self.comparing = Some((source, task));
     }
 
@@ -93,7 +93,7 @@ impl Workspaces {
     ) -> Option<(PathBuf, Workspace)> {
         self.saved(state);
         if let Some((source, task)) = &self.comparing
-            && let Some(changed) = task.take()
+            && let Some(changed) = take(task)
         {
             if changed == Some(true) {
                 state.notices.say(format!(
@@ -103,7 +103,7 @@ impl Workspaces {
             self.comparing = None;
         }
         let (path, task) = self.opening.as_ref()?;
-        let result = task.take()?;
+        let result = take(task)?;
         let path = path.clone();
         self.opening = None;
         match result.unwrap_or_else(|| Err("reading it broke off".into())) {
@@ -124,7 +124,7 @@ impl Workspaces {
         let Some((path, task)) = &self.saving else {
             return;
         };
-        let Some(result) = task.take() else {
+        let Some(result) = take(task) else {
             return;
         };
         let path = path.display();
@@ -191,7 +191,7 @@ impl Workspaces {
     fn write(&mut self, path: PathBuf, mut workspace: Workspace, ctx: &egui::Context) {
         self.path = Some(path.clone());
         let to = path.clone();
-        let task = Task::start(ctx, move || {
+        let task = task(ctx, move || {
             if let SceneSource::File(scene) = &workspace.scene.source {
                 workspace.scene.sha256 = files::sha256(scene).ok();
             }

@@ -1,8 +1,8 @@
 //! Measures what the steps of a lesson look at, and holds it against what they expect.
 
+use super::content::{Lesson, LessonError, Step};
 use super::figures::{Difference, Figures, SideFigures};
 use super::question::Answer;
-use super::{Lesson, LessonError, Step};
 use crate::measure::measure;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Scene, SceneRequest, load};
@@ -97,7 +97,7 @@ pub fn check_step(lesson: &Lesson, step: &Step, figures: &Figures) -> Vec<Lesson
         if condition.holds(figures) != Some(true) {
             let [left, right] = condition.sides().map(|side| {
                 let value = side.value(figures);
-                side.write(value, super::Style::Plain)
+                side.write(value, super::formula::Style::Plain)
             });
             let reason = format!(
                 "expected {}, found {left} on the left and {right} on the right",

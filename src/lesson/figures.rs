@@ -3,7 +3,7 @@
 use crate::measure::accuracy::pixel_errors;
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, Source, Whole};
 use crate::measure::{Class, Measurement, PARAMETERS, Parameter, differing_pixels};
-use crate::measure::{grouped, significant};
+use crate::present::number::{grouped, significant};
 use crate::trace::{Picture, PixelTallies, Tally};
 
 /// Everything measured for a step.

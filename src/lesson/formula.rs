@@ -2,7 +2,7 @@
 //! `b.N_LS < 2 * a.N_LS`.
 
 use super::figures::{Figures, Name, Side};
-use crate::measure::{grouped, significant};
+use crate::present::number::{grouped, significant};
 
 /// A number computed from figures.
 #[derive(Clone, Debug)]

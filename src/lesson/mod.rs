@@ -8,6 +8,7 @@
 //! `assets/lessons/README.md` tells how to write one.
 
 mod check;
+mod content;
 mod figures;
 mod formula;
 mod prose;
@@ -16,6 +17,7 @@ mod read;
 mod subject;
 
 pub use check::{Measurer, check, check_step};
+pub use content::{Expectation, Lesson, LessonError, Step};
 pub use figures::{Difference, Figures, Name, Side, SideFigures};
 pub use formula::{Condition, Formula, Operator, Relation, Style};
 pub use prose::{Placeholder, Prose};
@@ -48,55 +50,6 @@ lessons! {
     "empty-space"
     "how-deep"
     "speed-and-accuracy"
-}
-
-/// A lesson.
-#[derive(Clone, Debug)]
-pub struct Lesson {
-    /// The name of its file, as it is told in errors.
-    pub name: String,
-    pub title: String,
-    /// What it is about, in a sentence.
-    pub about: String,
-    /// At least one.
-    pub steps: Vec<Step>,
-}
-
-/// A step of a lesson.
-#[derive(Clone, Debug)]
-pub struct Step {
-    /// Line of its heading, from 1.
-    pub line: usize,
-    pub title: String,
-    /// Line that names its scene.
-    scene_line: usize,
-    pub subject: Subject,
-    /// What to look at.
-    pub before: Prose,
-    /// `None` where nothing is asked; then nothing is told after it either.
-    pub question: Option<Question>,
-    /// What is told once there is a prediction.
-    pub after: Prose,
-    /// What must hold for the text to be true.
-    pub expectations: Vec<Expectation>,
-}
-
-/// A condition that must hold for a text to be true.
-#[derive(Clone, Debug)]
-pub struct Expectation {
-    pub line: usize,
-    pub text: String,
-    pub condition: Condition,
-}
-
-/// What is wrong with a lesson, and where.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{file}:{line}: {reason}")]
-pub struct LessonError {
-    pub file: String,
-    /// From 1.
-    pub line: usize,
-    pub reason: String,
 }
 
 /// Why a lesson cannot be had.
@@ -135,15 +88,6 @@ impl Lesson {
             reason,
         })?;
         Ok(read::read(&text, name_or_path, path.parent())?)
-    }
-
-    /// What is wrong in a line of it.
-    fn error(&self, line: usize, reason: String) -> LessonError {
-        LessonError {
-            file: self.name.clone(),
-            line,
-            reason,
-        }
     }
 }
 

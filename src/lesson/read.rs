@@ -1,12 +1,12 @@
 //! Reads a lesson: TOML between lines `+++`, then a step for every heading `# `, with a block of TOML
 //! that says what it looks at, text, and below a line `---` the text that tells the answer.
 
+use super::content::{Expectation, Lesson, LessonError, Step};
 use super::figures::Side;
 use super::formula::{Condition, Formula};
 use super::prose::Prose;
 use super::question::{Answer, Choice, Question, Tolerance};
 use super::subject::{self, Look, Named, Subject};
-use super::{Expectation, Lesson, LessonError, Step};
 use crate::geometry::Vec3;
 use crate::measure::heat::heatmap;
 use crate::scene::{Camera, CameraOverride, Cylinders, SceneRequest, SceneSource};

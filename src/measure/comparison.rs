@@ -75,31 +75,6 @@ pub fn differing_pixels(a: &Picture, b: &Picture) -> Vec<u32> {
         .collect()
 }
 
-impl std::fmt::Display for Unequal {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Unequal::Parameter { symbol, a, b } => {
-                let parameter = super::parameter(symbol);
-                write!(
-                    f,
-                    "{symbol} ({}, class {:?}) is {} in A and {} in B",
-                    parameter.name,
-                    parameter.class,
-                    parameter.format(*a),
-                    parameter.format(*b)
-                )
-            }
-            Unequal::Camera => f.write_str("the camera or the places of the samples differ"),
-            Unequal::Size => f.write_str("the pictures have another size"),
-            Unequal::Pixels { count, first } => {
-                let places: Vec<_> = first.iter().map(|[x, y]| format!("{x},{y}")).collect();
-                let more = if *count > first.len() { ", …" } else { "" };
-                write!(f, "{count} pixels differ: {}{more}", places.join(" "))
-            }
-        }
-    }
-}
-
 /// How a value relates to another of the same parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
@@ -126,50 +101,5 @@ impl Change {
         match self {
             Change::Ratio(value) | Change::Points(value) => value,
         }
-    }
-}
-
-impl std::fmt::Display for Change {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match *self {
-            Change::Points(points) => {
-                let decimals = usize::from(points.abs() < 1000.0);
-                write!(f, "{points:+.decimals$} points")
-            }
-            Change::Ratio(ratio) => {
-                let percent = ratio * 100.0;
-                // Three significant digits, as many as the paper gives.
-                let decimals = if percent == 0.0 {
-                    0
-                } else {
-                    (2.0 - percent.abs().log10().floor()).clamp(0.0, 9.0) as usize
-                };
-                write!(f, "{percent:.decimals$} %")
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::parameter;
-    use super::*;
-
-    #[test]
-    fn changes_are_written_as_in_the_paper() {
-        let text = |symbol, a, b| {
-            change(parameter(symbol).unit, Some(a), Some(b))
-                .unwrap()
-                .to_string()
-        };
-        assert_eq!(text("N_LS", 3244.0, 19892.0), "613 %");
-        assert_eq!(text("N_LS", 96056.0, 11322.0), "11.8 %");
-        assert_eq!(text("R_ETNLS", 0.323, 0.254), "-6.9 points");
-        assert_eq!(text("R_ETNLS", 0.159, 0.256), "+9.7 points");
-        assert_eq!(text("N_ADL", 45.05, 13.37), "-3168 points");
-        assert_eq!(text("N_LS", 1e6, 1.5), "0.000150 %");
-        assert_eq!(text("N_ELS", 5.0, 0.0), "0 %");
-        assert_eq!(change(parameter("N_ELS").unit, Some(0.0), Some(1.0)), None);
-        assert_eq!(change(parameter("N_RPRT").unit, None, Some(1.0)), None);
     }
 }

@@ -4,7 +4,7 @@ use super::heat::PixelCounts;
 use super::{SceneFacts, TreeFacts};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Camera, Scene};
-use crate::structure::{BuildError, BuildSettings, MaxDepth, Tree, build};
+use crate::structure::{BuildError, BuildSettings, Tree, build};
 use crate::trace::{
     ChosenPrecision, CountedRender, CountedTile, Picture, RayKind, RenderError, RenderSettings,
     Tally, TimedRender, render_counted, render_timed, thread_pool,
@@ -142,14 +142,6 @@ impl Measurement {
     /// What all rays did.
     pub fn all_rays(&self) -> Option<Tally> {
         Some(self.counted.as_ref()?.tallies.iter().copied().sum())
-    }
-
-    /// `D_MAX` in words, with how it was chosen.
-    pub fn depth_in_words(&self) -> String {
-        match self.build.d_max {
-            MaxDepth::Fixed(depth) => depth.to_string(),
-            MaxDepth::Automatic => format!("{} (automatic)", self.depth_limit),
-        }
     }
 }
 

@@ -18,7 +18,7 @@ mod verify;
 pub use comparison::{Change, Unequal, change, differing_pixels, unequal};
 pub use facts::{SceneFacts, TreeFacts};
 pub use measurement::{MeasureError, Measured, Measurement, Times, measure, measure_pixels};
-pub use parameter::{Class, Parameter, Table, Unit, grouped, significant};
+pub use parameter::{Class, Parameter, Table, Unit};
 pub use parameters::{DELTA, LAMBDA, PARAMETERS, parameter};
 pub use ray_figures::{RAY_FIGURES, RayFigure};
 pub use verify::{

@@ -1,5 +1,9 @@
-//! What people are shown of results: overlays as plain geometry and colors, reports, exports.
+//! What people are shown of results: number text, words, charts, overlays as plain geometry and
+//! colors, reports, exports.
 
+pub mod chart;
 pub mod export;
+pub mod number;
 pub mod overlay;
 pub mod report;
+pub mod words;

@@ -6,7 +6,9 @@ mod camera;
 mod camera_override;
 pub mod format;
 mod material;
+mod model;
 mod note;
+mod parts;
 mod prepared;
 mod requirements;
 mod source;
@@ -15,118 +17,9 @@ mod tessellate;
 pub use camera::{Camera, CameraError, Sampling, View};
 pub use camera_override::CameraOverride;
 pub use material::{Light, Material};
+pub use model::Scene;
 pub use note::{Note, NoteKind};
+pub use parts::SceneParts;
 pub use requirements::Requirements;
 pub use source::{LoadError, SceneRequest, SceneSource, load};
 pub use tessellate::Cylinders;
-
-use crate::geometry::{Aabb, Vec3};
-use crate::primitive::{Precision, Primitive, Shape, Shapes};
-use prepared::Prepared;
-
-/// The parts that a reader or a generator produces; [`Scene::new`] turns them into a scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SceneParts {
-    /// Short name for titles and reports, such as `balls:4` or the stem of a file name.
-    pub name: String,
-    /// The objects; an object's number is its index in this list.
-    pub objects: Vec<Primitive>,
-    /// For each object, the index of its material in `materials`.
-    pub material_of: Vec<u32>,
-    pub materials: Vec<Material>,
-    pub lights: Vec<Light>,
-    /// Linear color of rays that hit nothing.
-    pub background: Vec3,
-    pub camera: Camera,
-    /// The load report: what was read, skipped, changed and defaulted, and the author's remarks.
-    pub notes: Vec<Note>,
-}
-
-/// A complete, immutable scene. Derived facts are computed once, when it is created.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scene {
-    parts: SceneParts,
-    bounds: Aabb,
-    requirements: Requirements,
-    prepared: Prepared,
-}
-
-impl Scene {
-    /// Creates a scene from its parts.
-    ///
-    /// # Panics
-    /// If `material_of` does not refer to an existing material for every object.
-    pub fn new(parts: SceneParts) -> Self {
-        assert_eq!(parts.objects.len(), parts.material_of.len());
-        assert!(
-            parts
-                .material_of
-                .iter()
-                .all(|&m| (m as usize) < parts.materials.len())
-        );
-        let bounds = parts
-            .objects
-            .iter()
-            .fold(Aabb::EMPTY, |b, object| b.union(&object.bounds()));
-        let requirements = Requirements::of(&parts);
-        Scene {
-            parts,
-            bounds,
-            requirements,
-            prepared: Prepared::default(),
-        }
-    }
-
-    pub fn name(&self) -> &str {
-        &self.parts.name
-    }
-
-    /// Returns the objects; an object's number is its index.
-    pub fn objects(&self) -> &[Primitive] {
-        &self.parts.objects
-    }
-
-    /// Returns the material of an object.
-    pub fn material(&self, object: u32) -> &Material {
-        &self.parts.materials[self.parts.material_of[object as usize] as usize]
-    }
-
-    pub fn lights(&self) -> &[Light] {
-        &self.parts.lights
-    }
-
-    pub fn background(&self) -> Vec3 {
-        self.parts.background
-    }
-
-    pub fn camera(&self) -> &Camera {
-        &self.parts.camera
-    }
-
-    /// Returns the tight bounding box of all objects; empty if there are none.
-    pub fn bounds(&self) -> Aabb {
-        self.bounds
-    }
-
-    /// Returns which features rendering this scene requires.
-    pub fn requirements(&self) -> &Requirements {
-        &self.requirements
-    }
-
-    /// Returns the objects prepared for intersection in a precision. They are prepared on first use
-    /// and then cached.
-    pub fn shapes(&self, precision: Precision) -> &Shapes {
-        self.prepared
-            .get(precision, &self.parts.objects, &self.bounds)
-    }
-
-    /// Returns the load report.
-    pub fn notes(&self) -> &[Note] {
-        &self.parts.notes
-    }
-
-    /// Returns the parts that the scene was created from.
-    pub fn parts(&self) -> &SceneParts {
-        &self.parts
-    }
-}

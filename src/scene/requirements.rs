@@ -1,6 +1,6 @@
 //! The features that rendering a scene requires, computed once when the scene is created.
 
-use super::SceneParts;
+use super::parts::SceneParts;
 use crate::primitive::PrimitiveKind;
 
 /// The features that rendering the scene requires. The renderer skips all others.

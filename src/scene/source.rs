@@ -1,6 +1,9 @@
 //! Scene sources: a file or a generator, and how cylinders are represented.
 
-use super::{Cylinders, Scene, SceneParts, builtin, format};
+use super::model::Scene;
+use super::parts::SceneParts;
+use super::tessellate::Cylinders;
+use super::{builtin, format};
 use crate::progress::{Cancelled, Progress};
 use std::path::PathBuf;
 

@@ -1,6 +1,6 @@
 //! Exact cylinders and cones, or prisms of polygons in their place, as in the paper.
 
-use super::SceneParts;
+use super::parts::SceneParts;
 use crate::primitive::Primitive;
 use serde::{Deserialize, Serialize};
 

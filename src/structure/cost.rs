@@ -6,7 +6,8 @@
 //! 1990). Walking the tree costs nothing here, as in the paper's method 2. Objects count by their
 //! bounds, clipped to the cell, whatever rule the tree was built by.
 
-use super::{Tree, TreeIndex};
+use super::index::TreeIndex;
+use super::tree::Tree;
 use crate::geometry::{Aabb, Axis};
 use crate::primitive::Shape;
 use crate::scene::Scene;

@@ -1,6 +1,8 @@
 //! Finds nodes by what they are: `depth 12`, `objects > 8`, `object 138`, `stop depth`.
 
-use super::{NodeKind, StopReason, Tree, TreeIndex};
+use super::index::TreeIndex;
+use super::node::{NodeKind, StopReason};
+use super::tree::Tree;
 
 /// What is looked for; read from a line by [`Query::parse`].
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 //! What every node of a tree amounts to, worked out once a tree: sums over subtrees, expected
 //! work of rays, and where each object went.
 
-use super::{NodeKind, Tree};
+use super::node::NodeKind;
+use super::tree::Tree;
 use std::ops::Range;
 
 /// What is known of one node beside what [`Tree`] says.

@@ -1,7 +1,8 @@
 //! The finished tree as it stood at a moment of its build. Nothing is built again: nodes were decided
 //! in the order of the array, depth first.
 
-use super::{CellOfNode, NodeKind, Tree};
+use super::node::NodeKind;
+use super::tree::{CellOfNode, Tree};
 use serde::{Deserialize, Serialize};
 
 /// A moment of the build.

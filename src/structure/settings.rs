@@ -1,11 +1,12 @@
 //! What a tree is built with.
 
-use super::split::{MethodInfo, SPLIT_RULES};
+use super::method::{Constant, Structure};
+use super::split::rule::SplitRule;
 use crate::geometry::Axis;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 
-/// A build method: one of [`SPLIT_RULES`].
+/// A build method: one of [`SPLIT_RULES`](super::split::SPLIT_RULES).
 #[derive(Clone, Copy)]
 pub struct Method(&'static MethodInfo);
 
@@ -19,29 +20,6 @@ impl Method {
     /// What is known of it.
     pub const fn info(self) -> &'static MethodInfo {
         self.0
-    }
-
-    /// All methods in the order of the registry.
-    pub fn all() -> impl Iterator<Item = Method> {
-        SPLIT_RULES.iter().map(Method)
-    }
-
-    /// The method of this name.
-    ///
-    /// # Errors
-    /// A name that is not in the registry.
-    pub fn named(name: &str) -> Result<Method, SettingsError> {
-        Method::all()
-            .find(|m| m.name == name)
-            .ok_or_else(|| SettingsError::UnknownMethod {
-                found: name.to_owned(),
-                known: Method::all().map(|m| m.name).collect::<Vec<_>>().join(", "),
-            })
-    }
-
-    /// The paper's two methods, 1 then 2.
-    pub fn of_the_paper() -> Vec<Method> {
-        Method::all().filter(|m| m.paper.is_some()).collect()
     }
 }
 
@@ -65,24 +43,44 @@ impl std::fmt::Debug for Method {
     }
 }
 
-impl std::str::FromStr for Method {
-    type Err = SettingsError;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        Method::named(text)
-    }
-}
-
 impl Serialize for Method {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.name)
     }
 }
 
-impl<'de> Deserialize<'de> for Method {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let name = String::deserialize(deserializer)?;
-        Method::named(&name).map_err(serde::de::Error::custom)
+/// What is known of a build method before it is used.
+pub struct MethodInfo {
+    /// Name on the command line and in files.
+    pub name: &'static str,
+    /// Name in lists for people.
+    pub title: &'static str,
+    /// One sentence: how it splits.
+    pub about: &'static str,
+    /// Who described it.
+    pub source: &'static str,
+    /// Its number in the paper, if it is one of the paper's methods.
+    pub paper: Option<u32>,
+    /// What [`OverlapRule::Paper`] means for it: whether spheres are held against cells exactly.
+    pub paper_spheres_exactly: bool,
+    /// What its cells form.
+    pub structure: Structure,
+    /// Its own constants.
+    pub constants: &'static [Constant],
+    /// Makes the rule for checked settings.
+    pub rule: fn(&BuildSettings) -> Box<dyn SplitRule>,
+}
+
+impl MethodInfo {
+    /// The overlap rule in words, for reports.
+    pub fn overlap_text(&self, rule: OverlapRule) -> &'static str {
+        match rule {
+            OverlapRule::Paper if self.paper_spheres_exactly => {
+                "spheres exactly, all others by bounds"
+            }
+            OverlapRule::Paper | OverlapRule::Bounds => "bounds",
+            OverlapRule::Exact => "exactly",
+        }
     }
 }
 
@@ -220,12 +218,6 @@ pub struct BuildSettings {
     pub constants: Constants,
     /// The build stops with an error before it takes more than this many bytes.
     pub memory_limit: u64,
-}
-
-impl Default for BuildSettings {
-    fn default() -> Self {
-        BuildSettings::for_method(Method(&SPLIT_RULES[0]))
-    }
 }
 
 /// Settings that no tree can be built with.

@@ -1,6 +1,7 @@
 //! Whether a tree is what it says: checked on the finished arrays, independent of the driver.
 
-use super::{NodeKind, Tree};
+use super::node::NodeKind;
+use super::tree::Tree;
 use crate::geometry::Aabb;
 use crate::primitive::Shape;
 use crate::scene::Scene;

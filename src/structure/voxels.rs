@@ -1,6 +1,6 @@
 //! The voxels of a uniform grid, found by their place, so that rays step from one to the next.
 
-use super::{Node, NodeKind};
+use super::node::{Node, NodeKind};
 
 /// Every voxel of a grid with its leaf, and the planes between them.
 #[derive(Debug)]

@@ -1,82 +1,11 @@
 //! The command line as a user meets it: exit codes, outputs, files, and what goes to which stream.
 
+use crate::support::program::Program;
 use bspscope::measure::{DELTA, LAMBDA, PARAMETERS, Unit};
 use bspscope::structure::Method;
 use serde_json::Value;
 use std::io::Read;
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
-
-/// The program in an empty folder of its own, without a display. Another build of it can be named by
-/// the variable `BSPSCOPE`.
-struct Program {
-    folder: tempfile::TempDir,
-}
-
-impl Program {
-    fn new() -> Self {
-        Program {
-            folder: tempfile::tempdir().unwrap(),
-        }
-    }
-
-    fn path(&self) -> &Path {
-        self.folder.path()
-    }
-
-    fn command(&self, arguments: &str) -> Command {
-        let this = || env!("CARGO_BIN_EXE_bspscope").into();
-        let mut command = Command::new(std::env::var_os("BSPSCOPE").unwrap_or_else(this));
-        command
-            .args(arguments.split_whitespace())
-            .current_dir(self.path())
-            .env_remove("DISPLAY")
-            .env_remove("WAYLAND_DISPLAY")
-            .env_remove("WAYLAND_SOCKET");
-        command
-    }
-
-    fn run(&self, arguments: &str) -> Output {
-        self.command(arguments).output().unwrap()
-    }
-
-    /// Runs what must succeed; gives standard output.
-    fn done(&self, arguments: &str) -> String {
-        let output = self.run(arguments);
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{arguments}: {errors}");
-        assert_eq!(errors, "", "{arguments}: nothing on standard error");
-        String::from_utf8(output.stdout).unwrap()
-    }
-
-    /// Runs what must be refused; gives standard error, of a single line.
-    fn refused(&self, arguments: &str) -> String {
-        let output = self.run(arguments);
-        let errors = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{arguments}: {errors}");
-        assert_eq!(output.stdout, b"", "{arguments}");
-        assert_eq!(errors.lines().count(), 1, "{arguments}: {errors}");
-        assert!(errors.starts_with("bspscope: "), "{arguments}: {errors}");
-        errors
-    }
-
-    fn json(&self, arguments: &str) -> Value {
-        serde_json::from_str(&self.done(arguments)).unwrap()
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        std::fs::write(self.path().join(name), text).unwrap();
-    }
-
-    fn files(&self) -> Vec<String> {
-        let mut names: Vec<_> = std::fs::read_dir(self.path())
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
-        names.sort();
-        names
-    }
-}
+use std::process::Stdio;
 
 /// A small measurement; 16 × 16 pixels are enough for every parameter.
 const QUICK: &str = "--resolution 16x16";
@@ -120,7 +49,7 @@ fn wrong_use_is_told_with_exit_code_2() {
         ("measure balls:1 --resolution 16x16 -o no/a.txt", "no/a.txt"),
         ("generate balls:1 -o .", ".: is a folder"),
     ] {
-        let errors = program.refused(arguments);
+        let errors = program.refused_in_a_line(arguments);
         assert!(errors.contains(part), "{arguments}: {errors}");
     }
     assert_eq!(program.files(), [""; 0]);
@@ -129,17 +58,17 @@ fn wrong_use_is_told_with_exit_code_2() {
 #[test]
 fn wrong_scenes_are_told_with_their_file_and_line() {
     let program = Program::new();
-    let missing = program.refused("measure folder/missing.nff");
+    let missing = program.refused_in_a_line("measure folder/missing.nff");
     assert!(missing.contains("folder/missing.nff: "), "{missing}");
 
-    let unknown = program.refused("measure bals");
+    let unknown = program.refused_in_a_line("measure bals");
     for builtin in bspscope::scene::builtin::BUILTINS {
         assert!(unknown.contains(builtin.name), "{unknown}");
     }
 
     program.write("bad.nff", &EMPTY_VIEW.replace("s 0 -10 0 1", "s 0 -10 0"));
     for command in ["measure", "render -o a.png", "generate", "verify"] {
-        let errors = program.refused(&format!("{command} bad.nff"));
+        let errors = program.refused_in_a_line(&format!("{command} bad.nff"));
         assert!(errors.contains("bad.nff:11: expected "), "{errors}");
     }
 }
@@ -280,7 +209,7 @@ fn the_load_report_is_told_on_standard_error_and_in_the_report() {
     program.run("generate square.obj -o square.nff");
     let text = program.done(&measure.replace(".obj", ".nff"));
     assert!(text.contains("polygons: 1"), "{text}");
-    let refused = program.refused("generate balls:1 -o balls.obj");
+    let refused = program.refused_in_a_line("generate balls:1 -o balls.obj");
     assert!(
         refused.contains("OBJ files cannot hold all of a scene"),
         "{refused}"
@@ -382,7 +311,7 @@ fn output_files_are_written_whole_and_leave_standard_output_clean() {
     assert_eq!(report["scene"]["objects"], 11);
     assert_eq!(program.files(), ["report.json"]);
 
-    program.refused("measure balls:1 --resolution 0x0 -o report.json");
+    program.refused_in_a_line("measure balls:1 --resolution 0x0 -o report.json");
     let kept = std::fs::read_to_string(program.path().join("report.json")).unwrap();
     assert_eq!(kept, written);
     assert_eq!(program.files(), ["report.json"]);

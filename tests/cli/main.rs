@@ -1,5 +1,8 @@
 //! Tests of the command line.
 
+#[path = "../support/mod.rs"]
+mod support;
+
 mod commands;
 mod show;
 mod sweep;

@@ -1,53 +1,16 @@
 //! `bspscope render --show` and `bspscope probe`, as a user meets them.
 
+use crate::support::program::Program;
 use bspscope::measure::heat::HEATMAPS;
 use exr::prelude::read_first_flat_layer_from_file;
 use image::GenericImageView;
-use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 
-/// The program in an empty folder of its own.
-struct Program(tempfile::TempDir);
-
-impl Program {
-    fn new() -> Self {
-        Program(tempfile::tempdir().unwrap())
-    }
-
-    fn file(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn run(&self, arguments: &str) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_bspscope"))
-            .args(arguments.split_whitespace())
-            .current_dir(self.0.path())
-            .output()
-            .unwrap()
-    }
-
-    /// Runs what must succeed; gives standard output.
-    fn done(&self, arguments: &str) -> String {
-        let output = self.run(arguments);
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{arguments}: {errors}");
-        assert_eq!(errors, "", "{arguments}");
-        String::from_utf8(output.stdout).unwrap()
-    }
-
-    /// Runs what must be refused, without a trace; gives standard error.
-    fn refused(&self, arguments: &str) -> String {
-        let output = self.run(arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments}");
-        assert_eq!(output.stdout, b"", "{arguments}");
-        assert_eq!(std::fs::read_dir(self.0.path()).unwrap().count(), 0);
-        String::from_utf8(output.stderr).unwrap()
-    }
-
-    fn json(&self, arguments: &str) -> Value {
-        serde_json::from_str(&self.done(arguments)).unwrap()
-    }
+/// Runs what must be refused, without a trace; returns standard error.
+fn refused(program: &Program, arguments: &str) -> String {
+    let errors = program.refused(arguments);
+    assert_eq!(program.files(), [""; 0], "{arguments}");
+    errors
 }
 
 const QUICK: &str = "--resolution 40x30";
@@ -215,13 +178,16 @@ fn a_probes_outline_names_rays_nodes_tests_and_reasons() {
 fn what_cannot_be_shown_is_refused() {
     let program = Program::new();
     for pixel in ["40,0", "0,30", "-1,0", "0,-1"] {
-        let errors = program.refused(&format!("probe teaching {QUICK} --pixel {pixel}"));
+        let errors = refused(&program, &format!("probe teaching {QUICK} --pixel {pixel}"));
         assert!(
             errors.contains("columns 0 to 39 and rows 0 to 29"),
             "{errors}"
         );
     }
-    let errors = program.refused(&format!("render teaching {QUICK} --show N_NODE -o a.png"));
+    let errors = refused(
+        &program,
+        &format!("render teaching {QUICK} --show N_NODE -o a.png"),
+    );
     for heatmap in HEATMAPS {
         assert!(errors.contains(heatmap.symbol), "{errors}");
     }
@@ -257,7 +223,7 @@ fn what_cannot_be_shown_is_refused() {
             "--scale",
         ),
     ] {
-        let errors = program.refused(arguments);
+        let errors = refused(&program, arguments);
         assert!(errors.contains(part), "{arguments}: {errors}");
     }
 }

@@ -1,61 +1,26 @@
 //! `bspscope sweep`, `merge` and `model`, as a user meets them.
 
+use crate::support::program::Program;
 use bspscope::measure::{Class, PARAMETERS};
-use std::path::PathBuf;
-use std::process::{Command, Output};
 
-/// The program in an empty folder of its own.
-struct Program(tempfile::TempDir);
-
-impl Program {
-    fn new() -> Self {
-        Program(tempfile::tempdir().unwrap())
-    }
-
-    fn file(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn run(&self, arguments: &str) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_bspscope"))
-            .args(arguments.split_whitespace())
-            .current_dir(self.0.path())
-            .output()
-            .unwrap()
-    }
-
-    /// Runs a command that must end with this exit code; gives what it wrote, errors at the end.
-    fn ends(&self, code: i32, arguments: &str) -> String {
-        let output = self.run(arguments);
-        let text = [output.stdout, output.stderr].concat();
-        let text = String::from_utf8(text).unwrap();
-        assert_eq!(output.status.code(), Some(code), "{arguments}: {text}");
-        text
-    }
-
-    fn read(&self, name: &str) -> String {
-        std::fs::read_to_string(self.file(name)).unwrap()
-    }
-
-    /// The cells of a file of rows, those that depend on the machine left empty.
-    fn counts(&self, name: &str) -> Vec<Vec<String>> {
-        let times: Vec<_> = PARAMETERS
-            .iter()
-            .filter(|p| p.class == Class::T)
-            .map(|p| p.symbol)
-            .collect();
-        assert!(times.len() > 3);
-        let mut reader = csv::Reader::from_path(self.file(name)).unwrap();
-        let titles = reader.headers().unwrap().clone();
-        let cell = |(title, cell): (&str, &str)| {
-            let is_time = times.contains(&title);
-            if is_time { String::new() } else { cell.into() }
-        };
-        reader
-            .records()
-            .map(|row| titles.iter().zip(&row.unwrap()).map(cell).collect())
-            .collect()
-    }
+/// The cells of a file of rows, those that depend on the machine left empty.
+fn counts(program: &Program, name: &str) -> Vec<Vec<String>> {
+    let times: Vec<_> = PARAMETERS
+        .iter()
+        .filter(|p| p.class == Class::T)
+        .map(|p| p.symbol)
+        .collect();
+    assert!(times.len() > 3);
+    let mut reader = csv::Reader::from_path(program.file(name)).unwrap();
+    let titles = reader.headers().unwrap().clone();
+    let cell = |(title, cell): (&str, &str)| {
+        let is_time = times.contains(&title);
+        if is_time { String::new() } else { cell.into() }
+    };
+    reader
+        .records()
+        .map(|row| titles.iter().zip(&row.unwrap()).map(cell).collect())
+        .collect()
 }
 
 const GRID: &str = "balls:2 --d-max 3..5,auto --n-oilf 1,2 --resolution 16x12";
@@ -73,7 +38,7 @@ fn a_sweep_that_was_broken_off_resumes_to_the_same_file_but_for_times() {
     for length in [ends[5] + 30, ends[0] + 3, 10, ends[16]] {
         std::fs::write(program.file("part.csv"), &whole[..length]).unwrap();
         program.ends(0, &format!("sweep {GRID} -o part.csv"));
-        assert_eq!(program.counts("part.csv"), program.counts("whole.csv"));
+        assert_eq!(counts(&program, "part.csv"), counts(&program, "whole.csv"));
         // Rows that were whole are as they were, with their times.
         let kept = ends.iter().rev().find(|end| **end <= length).unwrap_or(&0);
         assert_eq!(program.read("part.csv")[..*kept], whole[..*kept]);
@@ -94,7 +59,10 @@ fn shards_merge_to_the_whole_and_missing_points_are_told() {
         0,
         "merge part-3.jsonl part-1.jsonl part-2.jsonl -o merged.csv",
     );
-    assert_eq!(program.counts("merged.csv"), program.counts("whole.csv"));
+    assert_eq!(
+        counts(&program, "merged.csv"),
+        counts(&program, "whole.csv")
+    );
     let text = program.ends(1, "merge part-1.jsonl part-3.jsonl -o two.csv");
     assert!(
         text.contains("missing points, from 0: 1 4 7 10 13"),

@@ -1,18 +1,13 @@
 //! What accuracy costs: the reference costs nothing, and every choice its due.
 
+use crate::support::scenes::{scene, settings};
 use bspscope::measure::accuracy::{Choice, KNOBS, Outcome, Trade, choices, reference, trade};
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
+use bspscope::scene::Scene;
 use bspscope::setup::Setup;
-use bspscope::structure::{BuildSettings, Method};
 use bspscope::trace::RenderSettings;
 
-fn builtin(name: &str) -> Scene {
-    load(&SceneRequest::parse(name), &Progress::new()).unwrap()
-}
-
 fn choices_of(scene: &Scene) -> Vec<Choice> {
-    let build = BuildSettings::for_method(Method::named("sah-cut").unwrap());
     let render = RenderSettings {
         width: 64,
         height: 64,
@@ -20,7 +15,7 @@ fn choices_of(scene: &Scene) -> Vec<Choice> {
         ..RenderSettings::default()
     };
     let setup = Setup {
-        build,
+        build: settings("sah-cut"),
         render,
         ..Setup::default()
     };
@@ -28,7 +23,7 @@ fn choices_of(scene: &Scene) -> Vec<Choice> {
 }
 
 fn taken(name: &str) -> Trade {
-    let scene = builtin(name);
+    let scene = scene(name);
     trade(&scene, choices_of(&scene), 1, &Progress::new(), |_, _| ()).unwrap()
 }
 
@@ -90,7 +85,7 @@ fn fewer_secondary_rays_move_the_picture_where_there_are_any() {
     assert!(errors.is_sorted() && errors[3] > 0.0, "{errors:?}");
     let errors = ["0.01", "0.05", "0.2"].map(|w| one(&mirrors, &format!("cut-off {w}")).error.rmse);
     assert!(errors.is_sorted() && errors[2] > 0.0, "{errors:?}");
-    let dull = builtin("tetra:2");
+    let dull = scene("tetra:2");
     for choice in choices_of(&dull) {
         for (knob, _) in choice.turned {
             assert!(
@@ -103,7 +98,7 @@ fn fewer_secondary_rays_move_the_picture_where_there_are_any() {
 
 #[test]
 fn every_knob_is_turned_alone_and_those_of_the_picture_together() {
-    let choices = choices_of(&builtin("rings:1"));
+    let choices = choices_of(&scene("rings:1"));
     for knob in KNOBS {
         let alone = choices.iter().filter(|c| c.turned.len() == 1);
         assert!(
@@ -127,7 +122,7 @@ fn every_knob_is_turned_alone_and_those_of_the_picture_together() {
 
 #[test]
 fn a_trade_tells_as_it_goes_and_can_be_cancelled() {
-    let scene = builtin("tetra:2");
+    let scene = scene("tetra:2");
     let choices = choices_of(&scene);
     let count = choices.len();
     let mut told = Vec::new();

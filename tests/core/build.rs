@@ -1,21 +1,18 @@
 //! The build driver at its limits: empty scenes, depth 0, memory, cancellation, settings.
 
+use crate::support::scenes::{self, scene, tree_with};
 use bspscope::geometry::Vec3;
 use bspscope::primitive::{Primitive, Sphere, Triangle};
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
+use bspscope::scene::Scene;
 use bspscope::structure::split::Structure;
 use bspscope::structure::{
     BuildError, BuildSettings, Constants, MaxDepth, Method, NodeKind, OverlapRule, SettingsError,
     StopReason, Tree, TreeIndex, build, validate,
 };
 
-fn scene(source: &str) -> Scene {
-    load(&SceneRequest::parse(source), &Progress::new()).unwrap()
-}
-
 fn with(method: &str, change: impl FnOnce(&mut BuildSettings)) -> BuildSettings {
-    let mut settings = BuildSettings::for_method(Method::named(method).unwrap());
+    let mut settings = scenes::settings(method);
     change(&mut settings);
     settings
 }
@@ -34,7 +31,7 @@ fn the_same_settings_give_the_same_tree() {
     let balls = scene("balls:3");
     for method in Method::all() {
         let settings = BuildSettings::for_method(method);
-        let [one, two] = [(); 2].map(|()| build(&balls, &settings, &Progress::new()).unwrap());
+        let [one, two] = [(); 2].map(|()| tree_with(&balls, &settings));
         assert_eq!(one.nodes(), two.nodes());
         assert_eq!(one.references(), two.references());
     }
@@ -48,7 +45,7 @@ fn a_scene_without_objects_is_one_empty_leaf() {
     let nothing = Scene::new(parts);
     for method in Method::all() {
         let settings = with(method.name, |s| s.n_oilf = 0);
-        let tree = build(&nothing, &settings, &Progress::new()).unwrap();
+        let tree = tree_with(&nothing, &settings);
         assert_eq!(stops(&tree), [StopReason::Empty]);
         assert_eq!(validate(&nothing, &tree), Ok(()));
     }
@@ -58,7 +55,7 @@ fn a_scene_without_objects_is_one_empty_leaf() {
 fn leaves_say_why_they_stopped() {
     let tetra = scene("tetra:4");
     let leaves = |settings: &BuildSettings| {
-        let tree = build(&tetra, settings, &Progress::new()).unwrap();
+        let tree = tree_with(&tetra, settings);
         validate(&tetra, &tree).unwrap();
         stops(&tree)
     };
@@ -71,7 +68,7 @@ fn leaves_say_why_they_stopped() {
     let by_bounds = leaves(&with("sah-cut", |_| ()));
     assert!(by_bounds.contains(&StopReason::NoCandidate));
     let balls = scene("balls:3");
-    let tree = build(&balls, &with("sah-cut", |_| ()), &Progress::new()).unwrap();
+    let tree = tree_with(&balls, &with("sah-cut", |_| ()));
     for stop in [StopReason::CutOut, StopReason::LeafIsCheaper] {
         assert!(stops(&tree).contains(&stop), "{stop:?}");
     }
@@ -83,7 +80,7 @@ fn leaves_say_why_they_stopped() {
     parts.material_of = vec![0; 3];
     let points = Scene::new(parts);
     let settings = with("midpoint", |s| s.d_max = MaxDepth::Fixed(100));
-    let tree = build(&points, &settings, &Progress::new()).unwrap();
+    let tree = tree_with(&points, &settings);
     validate(&points, &tree).unwrap();
     assert!(stops(&tree).contains(&StopReason::TooThin));
 }
@@ -95,7 +92,7 @@ fn no_leaf_lies_deeper_than_d_max_and_the_deepest_is_d_reach() {
     for method in Method::all().filter(|m| m.structure != Structure::Grid) {
         for depth in [0, 1, 7, 20] {
             let settings = with(method.name, |s| s.d_max = MaxDepth::Fixed(depth));
-            let tree = build(&balls, &settings, &Progress::new()).unwrap();
+            let tree = tree_with(&balls, &settings);
             let deepest = tree.cells().map(|cell| cell.depth).max().unwrap();
             assert_eq!(deepest, tree.depth_reached(), "{method:?} at {depth}");
             assert!(deepest <= depth);
@@ -108,7 +105,7 @@ fn automatic_depth_follows_the_number_of_objects() {
     // 1.2 · log2 4096 + 2 = 16.4
     let tetra = scene("tetra:6");
     let settings = with("midpoint", |s| s.d_max = MaxDepth::Automatic);
-    let tree = build(&tetra, &settings, &Progress::new()).unwrap();
+    let tree = tree_with(&tetra, &settings);
     assert_eq!(tree.depth_limit(), 16);
 }
 
@@ -140,7 +137,7 @@ fn clipped_objects_make_another_tree_with_fewer_expected_tests() {
                 s.constants = Constants::from_iter(constants.clone());
                 s.constants.insert("clip".into(), clip);
             });
-            let tree = build(&slanted, &settings, &Progress::new()).unwrap();
+            let tree = tree_with(&slanted, &settings);
             validate(&slanted, &tree).unwrap();
             TreeIndex::new(&tree, slanted.objects().len()).of(0).tests
         });

@@ -1,28 +1,21 @@
 //! Comparisons are refused unless conditions and images are equal.
 
+use crate::support::scenes::{render_sized, scene, settings};
 use bspscope::geometry::Vec3;
 use bspscope::measure::{Measured, RAY_FIGURES, Unequal, measure, parameter, unequal};
 use bspscope::primitive::{Primitive, Sphere};
 use bspscope::progress::Progress;
-use bspscope::scene::{Sampling, Scene, SceneRequest, load};
-use bspscope::structure::{BuildSettings, MaxDepth, Method};
+use bspscope::scene::{Sampling, Scene};
+use bspscope::structure::{BuildSettings, MaxDepth};
 use bspscope::trace::{RayCounts, RayKind, RayMaxima, RenderSettings, render_counted, thread_pool};
-
-fn balls() -> Scene {
-    load(&SceneRequest::parse("balls:2"), &Progress::new()).unwrap()
-}
 
 fn measured(
     scene: &Scene,
     method: &str,
     change: impl FnOnce(&mut BuildSettings, &mut RenderSettings),
 ) -> Measured {
-    let mut build = BuildSettings::for_method(Method::named(method).unwrap());
-    let mut render = RenderSettings {
-        width: 40,
-        height: 30,
-        ..RenderSettings::for_camera(*scene.camera())
-    };
+    let mut build = settings(method);
+    let mut render = render_sized(scene, [40, 30]);
     change(&mut build, &mut render);
     measure(scene, &build, &render, &Progress::new()).unwrap()
 }
@@ -48,7 +41,7 @@ fn symbols(reasons: &[Unequal]) -> Vec<&'static str> {
 
 #[test]
 fn two_methods_under_equal_conditions_may_be_compared() {
-    let scene = balls();
+    let scene = scene("balls:2");
     let one = measured(&scene, "midpoint", |_, _| ());
     for method in ["sah-cut", "object-median", "none"] {
         assert_eq!(reasons(&one, &measured(&scene, method, |_, _| ())), []);
@@ -57,7 +50,7 @@ fn two_methods_under_equal_conditions_may_be_compared() {
 
 #[test]
 fn unequal_parameters_are_named() {
-    let scene = balls();
+    let scene = scene("balls:2");
     let one = measured(&scene, "midpoint", |_, _| ());
     let deeper = measured(&scene, "sah-cut", |build, _| {
         build.d_max = MaxDepth::Fixed(12);
@@ -75,7 +68,7 @@ fn unequal_parameters_are_named() {
 
 #[test]
 fn one_object_moved_is_refused_with_the_pixels_that_show_it() {
-    let scene = balls();
+    let scene = scene("balls:2");
     let mut parts = scene.parts().clone();
     let sphere = parts.objects.iter_mut().find_map(|object| match object {
         Primitive::Sphere(sphere) if sphere.radius > 0.1 => Some(sphere),
@@ -106,7 +99,7 @@ fn figure(measured: &Measured, key: &str, kind: RayKind) -> f64 {
 
 #[test]
 fn figures_of_all_kinds_of_rays_sum_to_the_papers() {
-    let scene = balls();
+    let scene = scene("balls:2");
     let one = measured(&scene, "sah-cut", |_, _| ());
     for (key, symbol) in [
         ("nodes", "N_NODES"),
@@ -153,7 +146,7 @@ fn figures_of_all_kinds_of_rays_sum_to_the_papers() {
 
 #[test]
 fn the_most_of_a_ray_is_that_of_the_pixel_with_the_most() {
-    let scene = balls();
+    let scene = scene("balls:2");
     let one = measured(&scene, "midpoint", |_, _| ());
     let most = std::sync::Mutex::new(RayMaxima::default());
     let pool = thread_pool(2).unwrap();

@@ -1,22 +1,21 @@
 //! Every build method on every scene file: a valid tree, the same hits as testing every object, the
 //! same picture, and the same counts for any number of threads.
 
+use crate::support::scenes::{render_sized, scene, scene_file, scene_names, tree_with};
 use bspscope::measure::{answer, compare, sample_rays, unsplit};
 use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
-use bspscope::scene::{Sampling, Scene, SceneRequest, load};
+use bspscope::scene::{Sampling, Scene};
 use bspscope::structure::{BuildSettings, Method, OverlapRule, Tree, build, validate};
 use bspscope::trace::{
     CountedRender, Picture, RayKind, RenderSettings, render_counted, render_timed, thread_pool,
 };
-use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Duration;
 
 /// Rays of every kind: fewer in the reconstructions, whose many polygons take long to test one by one.
-fn rays_per_kind(path: &Path) -> usize {
+fn rays_per_kind(name: &str) -> usize {
     let reconstructed = ["fluid", "m-fluid", "room"];
-    let name = path.file_stem().and_then(|name| name.to_str()).unwrap();
     if reconstructed.contains(&name) {
         5_000
     } else {
@@ -24,37 +23,18 @@ fn rays_per_kind(path: &Path) -> usize {
     }
 }
 
-fn scene_files() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let mut files: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|e| e == "nff"))
-        .collect();
-    files.sort();
-    assert!(files.len() >= 4, "scenes are missing: {files:?}");
-    files
-}
-
-fn open(path: &Path) -> Scene {
-    let request = SceneRequest::parse(&path.display().to_string());
-    load(&request, &Progress::new()).unwrap()
-}
-
 fn tree_of(scene: &Scene, method: Method, overlap: OverlapRule) -> Tree {
     let settings = BuildSettings {
         overlap,
         ..BuildSettings::for_method(method)
     };
-    build(scene, &settings, &Progress::new()).unwrap()
+    tree_with(scene, &settings)
 }
 
 fn small_picture(scene: &Scene, threads: usize) -> RenderSettings {
     RenderSettings {
-        width: 90,
-        height: 70,
         threads,
-        ..RenderSettings::for_camera(*scene.camera())
+        ..render_sized(scene, [90, 70])
     }
 }
 
@@ -88,13 +68,13 @@ fn picture(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> Picture {
 #[test]
 fn every_method_gives_the_hits_of_testing_every_object() {
     let pool = thread_pool(0).unwrap();
-    for path in scene_files() {
-        let scene = open(&path);
+    for name in scene_names() {
+        let scene = scene_file(&name);
         let progress = Progress::new();
         let naive = unsplit(&scene, &progress).unwrap();
         let helper = tree_of(&scene, Method::all().next().unwrap(), OverlapRule::Paper);
         let settings = RenderSettings::for_camera(*scene.camera());
-        let per_kind = rays_per_kind(&path);
+        let per_kind = rays_per_kind(&name);
         let rays = sample_rays(&scene, &helper, &settings, per_kind, &pool, &progress).unwrap();
         for kind in RayKind::ALL {
             let needed = match kind {
@@ -105,7 +85,7 @@ fn every_method_gives_the_hits_of_testing_every_object() {
             };
             let found = rays.rays[kind as usize].len();
             let expected = if needed { per_kind } else { 0 };
-            assert_eq!(found, expected, "{kind:?} rays of {}", path.display());
+            assert_eq!(found, expected, "{kind:?} rays of {}", name);
         }
         let expected =
             Precision::ALL.map(|p| answer(&scene, &naive, p, &rays, &pool, &progress).unwrap());
@@ -122,7 +102,7 @@ fn every_method_gives_the_hits_of_testing_every_object() {
                     assert!(
                         result.is_identical(),
                         "{} by {method:?}, overlap {}, {precision:?}: wrong {:?} of {:?}, such as {:?}",
-                        path.display(),
+                        name,
                         overlap.name(),
                         result.others,
                         result.rays,
@@ -136,17 +116,13 @@ fn every_method_gives_the_hits_of_testing_every_object() {
 
 #[test]
 fn every_tree_is_valid() {
-    for path in scene_files() {
-        let scene = open(&path);
+    for name in scene_names() {
+        let scene = scene_file(&name);
         for method in Method::all() {
             for overlap in OverlapRule::ALL {
                 let tree = tree_of(&scene, method, overlap);
                 if let Err(wrong) = validate(&scene, &tree) {
-                    panic!(
-                        "{} by {method:?}, {}: {wrong}",
-                        path.display(),
-                        overlap.name()
-                    );
+                    panic!("{} by {method:?}, {}: {wrong}", name, overlap.name());
                 }
             }
         }
@@ -169,17 +145,17 @@ fn trees_do_not_depend_on_the_number_of_threads() {
         }
     };
     // The files are small: this one is shared out among threads many times over.
-    let many = load(&SceneRequest::parse("balls:5"), &Progress::new()).unwrap();
+    let many = scene("balls:5");
     assert!(many.objects().len() > 60_000);
     for method in Method::all() {
         check(&many, &BuildSettings::for_method(method));
-        for path in scene_files() {
+        for name in scene_names() {
             for overlap in OverlapRule::ALL {
                 let settings = BuildSettings {
                     overlap,
                     ..BuildSettings::for_method(method)
                 };
-                check(&open(&path), &settings);
+                check(&scene_file(&name), &settings);
             }
         }
     }
@@ -187,8 +163,8 @@ fn trees_do_not_depend_on_the_number_of_threads() {
 
 #[test]
 fn every_method_gives_the_same_picture() {
-    for path in scene_files() {
-        let scene = open(&path);
+    for name in scene_names() {
+        let scene = scene_file(&name);
         let settings = small_picture(&scene, 0);
         let mut pictures = Method::all().map(|method| {
             let tree = tree_of(&scene, method, OverlapRule::Paper);
@@ -196,15 +172,15 @@ fn every_method_gives_the_same_picture() {
         });
         let first = pictures.next().unwrap();
         let colors: std::collections::HashSet<_> = first.to_srgb8().into_iter().collect();
-        assert!(colors.len() > 10, "nothing to see in {}", path.display());
-        assert!(pictures.all(|p| p == first), "{}", path.display());
+        assert!(colors.len() > 10, "nothing to see in {}", name);
+        assert!(pictures.all(|p| p == first), "{}", name);
     }
 }
 
 #[test]
 fn counts_and_picture_do_not_depend_on_the_number_of_threads() {
-    for path in scene_files() {
-        let scene = open(&path);
+    for name in scene_names() {
+        let scene = scene_file(&name);
         for method in Method::of_the_paper() {
             let tree = tree_of(&scene, method, OverlapRule::Paper);
             let of = |threads| {
@@ -221,7 +197,7 @@ fn counts_and_picture_do_not_depend_on_the_number_of_threads() {
             let one = of(1);
             assert!(one.0.tallies.iter().map(|t| t.inner_nodes).sum::<u64>() > 10_000);
             for threads in [2, 7] {
-                assert_eq!(of(threads), one, "{} with {threads}", path.display());
+                assert_eq!(of(threads), one, "{} with {threads}", name);
             }
         }
     }
@@ -229,8 +205,8 @@ fn counts_and_picture_do_not_depend_on_the_number_of_threads() {
 
 #[test]
 fn the_counting_kernel_sees_the_picture_that_the_timed_kernel_makes() {
-    for path in scene_files() {
-        let scene = open(&path);
+    for name in scene_names() {
+        let scene = scene_file(&name);
         let settings = small_picture(&scene, 0);
         let tree = tree_of(
             &scene,
@@ -252,9 +228,7 @@ fn the_counting_kernel_sees_the_picture_that_the_timed_kernel_makes() {
 
 #[test]
 fn what_a_scene_does_not_require_is_not_done() {
-    let files = scene_files();
-    let tetra = files.iter().find(|path| path.ends_with("tetra.nff"));
-    let tetra = open(tetra.unwrap());
+    let tetra = scene_file("tetra");
     let tree = tree_of(
         &tetra,
         Method::named("midpoint").unwrap(),

@@ -1,23 +1,21 @@
 //! Exports read back by other programs' readers, and the report as a page.
 
+use crate::support::program::Program;
+use crate::support::scenes::{scene, tree_by};
 use bspscope::measure::{Class, DELTA, LAMBDA, PARAMETERS, parameter};
 use bspscope::present::export::{LEAF_WRITERS, LeafCells};
 use bspscope::present::overlay::Filter;
-use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
-use bspscope::structure::{BuildSettings, Method, NodeKind, Tree, build};
+use bspscope::scene::Scene;
+use bspscope::structure::{NodeKind, Tree};
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{DefaultElement, Property};
 use scraper::{Html, Selector};
 use serde_json::Value;
 use std::collections::HashMap;
-use std::process::Command;
 
-fn tree_of(scene: &str, method: &str) -> (Scene, Tree) {
-    let progress = Progress::new();
-    let scene = load(&SceneRequest::parse(scene), &progress).unwrap();
-    let settings = BuildSettings::for_method(Method::named(method).unwrap());
-    let tree = build(&scene, &settings, &progress).unwrap();
+fn tree_of(source: &str, method: &str) -> (Scene, Tree) {
+    let scene = scene(source);
+    let tree = tree_by(&scene, method);
     (scene, tree)
 }
 
@@ -148,19 +146,10 @@ fn boxes_in_ply_are_those_of_the_leaves_and_face_outward() {
     }
 }
 
-fn bspscope(arguments: &[&str]) -> std::process::Output {
-    Command::new(env!("CARGO_BIN_EXE_bspscope"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
 #[test]
 fn leaves_are_exported_from_the_command_line() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("leaves.ply");
-    let path = file.to_str().unwrap();
-    let output = bspscope(&["leaves", "balls:1", "--only", "full", "-o", path]);
+    let program = Program::new();
+    let output = program.run("leaves balls:1 --only full -o leaves.ply");
     assert!(output.status.success(), "{output:?}");
     let (_, tree) = tree_of("balls:1", "midpoint");
     let full = Filter {
@@ -168,8 +157,11 @@ fn leaves_are_exported_from_the_command_line() {
         ..Filter::default()
     };
     let leaves = LeafCells::new("balls:1, midpoint".into(), &tree, &full, None);
-    assert_eq!(std::fs::read(&file).unwrap(), written("ply", &leaves));
-    let output = bspscope(&["leaves", "balls:1"]);
+    assert_eq!(
+        std::fs::read(program.file("leaves.ply")).unwrap(),
+        written("ply", &leaves)
+    );
+    let output = program.run("leaves balls:1");
     assert_eq!(
         output.stdout,
         written(
@@ -180,24 +172,20 @@ fn leaves_are_exported_from_the_command_line() {
 }
 
 /// The page and the JSON report of the same settings.
-fn page_and_json(settings: &[&str]) -> (String, Value) {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("report.html");
-    let page = [&["report"], settings, &["-o", file.to_str().unwrap()]].concat();
-    let output = bspscope(&page);
+fn page_and_json(program: &Program, settings: &str) -> (String, Value) {
+    let output = program.run(&format!("report {settings} -o report.html"));
     assert!(output.status.success(), "{output:?}");
-    let json = [&["measure"], settings, &["--format", "json"]].concat();
-    let output = bspscope(&json);
+    let output = program.run(&format!("measure {settings} --format json"));
     assert!(output.status.success(), "{output:?}");
     (
-        std::fs::read_to_string(file).unwrap(),
+        program.read("report.html"),
         serde_json::from_slice(&output.stdout).unwrap(),
     )
 }
 
 #[test]
 fn the_page_has_the_numbers_of_the_json_report() {
-    let (text, json) = page_and_json(&["balls:1", "--resolution", "40x30"]);
+    let (text, json) = page_and_json(&Program::new(), "balls:1 --resolution 40x30");
     let page = Html::parse_document(&text);
     assert!(page.errors.is_empty(), "{:?}", page.errors);
     let select = |css: &str| Selector::parse(css).unwrap();
@@ -235,13 +223,13 @@ fn the_page_has_the_numbers_of_the_json_report() {
 
 #[test]
 fn the_page_refers_to_nothing_outside_and_escapes_what_it_is_given() {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("<b>&\"scene\".nff");
+    let program = Program::new();
+    let name = "<b>&\"scene\".nff";
     let ball = "v\nfrom 0 -4 0\nat 0 0 0\nup 0 0 1\nangle 45\nhither 1\nresolution 32 32\n\
                 b 0 0 0\nl 5 -5 5\nf 1 0 0 1 0 0 0 1\ns 0 0 0 1\n";
-    std::fs::write(&scene, ball).unwrap();
-    let path = scene.to_str().unwrap();
-    let (text, _) = page_and_json(&[path, "--method", "midpoint", "--resolution", "20x20"]);
+    program.write(name, ball);
+    let settings = format!("{name} --method midpoint --resolution 20x20");
+    let (text, _) = page_and_json(&program, &settings);
     let page = Html::parse_document(&text);
     assert!(page.errors.is_empty(), "{:?}", page.errors);
     assert!(!text.contains("<b>") && text.contains("&lt;b&gt;&amp;"));

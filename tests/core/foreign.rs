@@ -1,5 +1,6 @@
 //! Files of other programs: the same hits as the same geometry in NFF, whatever the format.
 
+use crate::support::scenes::{asset, tree_by};
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::measure::{RaySample, answer, sample_rays};
 use bspscope::primitive::{Precision, Primitive, PrimitiveKind};
@@ -9,19 +10,12 @@ use bspscope::scene::format::{
     FORMATS, Format, FormatError, Input, MAX_VERTICES, ReadError, nff, read_file,
 };
 use bspscope::scene::{LoadError, NoteKind, Scene, SceneParts, SceneRequest};
-use bspscope::structure::{BuildSettings, Method, Tree, build};
 use bspscope::trace::{RayKind, RenderSettings, thread_pool};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How many rays are compared.
 const RAYS: usize = 10_000;
-
-fn asset(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/assets")
-        .join(name)
-}
 
 fn load(path: &Path) -> SceneParts {
     read_file(path, &Progress::new()).unwrap_or_else(|e| panic!("{e}"))
@@ -33,16 +27,11 @@ fn read(format: &str, bytes: &[u8]) -> Result<SceneParts, ReadError> {
     (format.read)(&Input::from(bytes), &Progress::new())
 }
 
-fn tree_of(scene: &Scene) -> Tree {
-    let settings = BuildSettings::for_method(Method::named("sah-cut").unwrap());
-    build(scene, &settings, &Progress::new()).unwrap()
-}
-
 /// Holds the hits in one scene against those in the other, on rays of the first one's picture.
 fn same_hits(expected: SceneParts, found: SceneParts, what: &str) {
     let (pool, progress) = (thread_pool(1).unwrap(), Progress::new());
     let scenes = [expected, found].map(Scene::new);
-    let trees = [&scenes[0], &scenes[1]].map(tree_of);
+    let trees = [&scenes[0], &scenes[1]].map(|scene| tree_by(scene, "sah-cut"));
     let settings = RenderSettings::for_camera(*scenes[0].camera());
     let sample = sample_rays(&scenes[0], &trees[0], &settings, RAYS, &pool, &progress).unwrap();
     let primary = &sample.rays[RayKind::Primary as usize];
@@ -347,7 +336,7 @@ fn a_mesh_without_camera_and_lights_is_framed_and_lit() {
             assert!(defaulted.contains(word), "{name}: {defaulted}");
         }
         let scene = Scene::new(parts);
-        let tree = tree_of(&scene);
+        let tree = tree_by(&scene, "sah-cut");
         let settings = RenderSettings {
             width: 40,
             height: 40,

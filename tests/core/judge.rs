@@ -1,6 +1,7 @@
 //! The judge: ties, roundings and faults are told apart, and the intersection tests stand before it.
 
-use crate::support::tough::{primitive, ray, scene_of};
+use crate::support::scenes::scene_of;
+use crate::support::tough::{primitive, ray};
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::measure::judge::{
     Answer, Case, Standing, Tolerance, Verdict, examine, scale_of, settle,

@@ -1,9 +1,10 @@
 //! Lessons: those that come with the program hold, and broken ones are told by line and reason.
 
+use crate::support::program::Program;
+use crate::support::scenes::scene_path;
 use bspscope::lesson::{LESSONS, Lesson, Measurer, Prediction, check, check_step};
 use bspscope::progress::Progress;
 use std::path::Path;
-use std::process::Command;
 
 /// A lesson of one step, with these settings and this text.
 fn lesson_with(settings: &str, text: &str) -> String {
@@ -76,14 +77,14 @@ fn figures_are_filled_in_from_what_was_measured() {
     assert_eq!(step.before.fill(None).trim(), "…");
     assert_eq!(
         step.before.fill(Some(&figures)).trim(),
-        bspscope::measure::grouped(a.tree.leaves as f64)
+        bspscope::present::number::grouped(a.tree.leaves as f64)
     );
     let in_ray = of_b.pixel.unwrap()[0].tests;
     assert_eq!(
         in_ray, 16,
         "without a tree the ray is tested against all objects"
     );
-    let tests_of_a = bspscope::measure::grouped(tests(a) as f64);
+    let tests_of_a = bspscope::present::number::grouped(tests(a) as f64);
     assert_eq!(
         step.after.fill(Some(&figures)).trim(),
         format!("1 {tests_of_a} {in_ray} 0 6 25.00 %")
@@ -343,63 +344,45 @@ fn broken_files_are_refused_with_line_and_reason() {
     assert!(Lesson::parse(&step(asked, reveal), "good.md").is_ok());
 }
 
-fn bspscope(arguments: &[&str]) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_bspscope"))
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (
-        output.status.code(),
-        text(output.stdout),
-        text(output.stderr),
-    )
-}
-
 #[test]
 fn the_command_line_lists_checks_and_shows() {
-    let (code, out, _) = bspscope(&["lesson", "list"]);
-    assert_eq!(code, Some(0));
+    let program = Program::new();
+    let out = program.done("lesson list");
     assert!(
         LESSONS.iter().all(|known| out.contains(known.name)),
         "{out}"
     );
 
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("mine.md");
-    let path = file.to_str().unwrap();
     let question = "question = \"How many?\"\nnumber = \"a.N_LS\"\nwithin = \"1\"";
     // The scene lies beside the lesson.
-    let scene = std::fs::read("scenes/teaching.nff").unwrap();
-    std::fs::write(folder.path().join("mine.nff"), scene).unwrap();
+    std::fs::copy(scene_path("teaching"), program.file("mine.nff")).unwrap();
     let settings = "scene = \"mine.nff\"\nsize = [8, 8]\na = \"method=none\"";
     let write = |expect: &str| {
         let settings = format!("{settings}\n{question}\nexpect = [\"{expect}\"]");
-        std::fs::write(&file, lesson_with(&settings, "x\n\n---\n\n{a.N_LS} leaf")).unwrap();
+        program.write(
+            "mine.md",
+            &lesson_with(&settings, "x\n\n---\n\n{a.N_LS} leaf"),
+        );
     };
     write("a.N_LS = 1");
-    let (code, out, err) = bspscope(&["lesson", "check", path]);
-    assert_eq!(code, Some(0), "{err}");
+    let out = program.done("lesson check mine.md");
     assert!(out.contains("1 conditions, all hold"), "{out}");
-    let (code, out, _) = bspscope(&["lesson", "show", path]);
-    assert_eq!(code, Some(0));
+    let out = program.done("lesson show mine.md");
     assert!(
         out.contains("**How many?** 1") && out.contains("1 leaf"),
         "{out}"
     );
 
     write("a.N_LS = 2");
-    let (code, out, _) = bspscope(&["lesson", "check", path]);
-    assert_eq!(code, Some(1));
-    let line = format!("{path}:{}: expected a.N_LS = 2, found 1", SETTINGS + 6);
+    let out = program.ends(1, "lesson check mine.md");
+    let line = format!("mine.md:{}: expected a.N_LS = 2, found 1", SETTINGS + 6);
     assert!(out.contains(&line), "{out}");
 
     write("a.N_LS");
-    let (code, _, err) = bspscope(&["lesson", "check", path]);
-    assert_eq!(code, Some(2));
+    let err = program.ends(2, "lesson check mine.md");
     assert!(
         err.contains(&format!("mine.md:{}: ", SETTINGS + 6)),
         "{err}"
     );
-    assert_eq!(bspscope(&["lesson", "check", "not-there.md"]).0, Some(2));
+    program.ends(2, "lesson check not-there.md");
 }

@@ -1,5 +1,6 @@
 //! Bad scene files: each mistake is named with its line, and nothing is half-loaded.
 
+use crate::support::random::Random;
 use bspscope::progress::Progress;
 use bspscope::scene::format::{
     FORMATS, Format, FormatError, Input, Place, ReadError, nff, read_file,
@@ -96,7 +97,7 @@ fn each_mistake_after_a_view_is_named_with_its_line() {
         (
             "l 1 2 3 1\n",
             10,
-            &["expected green of the light's colour", "end of the file"],
+            &["expected green of the light's color", "end of the file"],
         ),
         (
             "l 1 2 3 1 1 1 1\n",
@@ -478,14 +479,8 @@ fn damaged_bytes_never_panic() {
     // Characters that mean something to a reader are tried more often than others.
     const TELLING: &[u8] = b"\n\r\t #.-+e0123456789vblfcspN\x00\xff";
     for (format, bytes) in good_files() {
-        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-        let mut random = |below: usize| {
-            // xorshift64 (G. Marsaglia, "Xorshift RNGs", 2003): the same bytes on every run.
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            (state >> 16) as usize % below
-        };
+        let mut numbers = Random(1);
+        let mut random = |below: usize| numbers.below(below);
         for _ in 0..4000 {
             let mut damaged = bytes.clone();
             for _ in 0..=random(4) {

@@ -81,7 +81,7 @@ fn mistakes_in_mtl_name_that_file() {
             3,
             "the exponent, found the end of the line",
         ),
-        ("Kd 1 1 1\n", 1, "'newmtl' before anything else"),
+        ("Kd 1 1 1\n", 1, "'newmtl' as the first statement"),
         ("newmtl a\nKd\n", 2, "red"),
         ("newmtl a\nd inf\n", 2, "the opacity (a finite number)"),
     ] {
@@ -226,7 +226,7 @@ fn mistakes_in_ply_are_named_with_their_line_or_element() {
                 &format!("element face 1\n{list}element vertex 3\n{XYZ}"),
                 "3 0 1 2\n",
             ),
-            &["0 vertices before"],
+            &["0 vertices above"],
         ),
         (
             text(
@@ -465,9 +465,5 @@ fn few_bytes_never_become_endless_work() {
     json["scenes"][0]["nodes"] = (0..20_000).collect();
     json["accessors"][1]["count"] = json!(0);
     let bytes = serde_json::to_vec(&json).unwrap();
-    refused(
-        "gltf",
-        &bytes,
-        &["at most", "parts of meshes and triangles"],
-    );
+    refused("gltf", &bytes, &["at most", "mesh parts and triangles"]);
 }

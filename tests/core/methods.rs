@@ -1,29 +1,26 @@
 //! What single build methods promise: where their planes lie, where they end, and that octree and grid
 //! are what their names say.
 
+use crate::support::scenes::{self, scene, tree_with};
 use bspscope::geometry::{Aabb, Ray, Vec3};
 use bspscope::measure::{DELTA, LAMBDA, TreeFacts, change, measure, parameter, unequal};
 use bspscope::primitive::{Precision, Primitive, Shape};
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
+use bspscope::scene::Scene;
 use bspscope::structure::{
-    BuildSettings, CellOfNode, Constants, MaxDepth, Method, NodeKind, StopReason, Tree, build,
+    BuildSettings, CellOfNode, Constants, MaxDepth, NodeKind, StopReason, Tree,
 };
 use bspscope::trace::{Children, Probe, RenderSettings, Scratch, closest_hit};
-
-fn scene(source: &str) -> Scene {
-    load(&SceneRequest::parse(source), &Progress::new()).unwrap()
-}
 
 fn settings(method: &str, constants: &[(&str, f64)]) -> BuildSettings {
     BuildSettings {
         constants: Constants::from_iter(constants.iter().map(|&(k, v)| (k.to_owned(), v))),
-        ..BuildSettings::for_method(Method::named(method).unwrap())
+        ..scenes::settings(method)
     }
 }
 
 fn tree(scene: &Scene, method: &str, constants: &[(&str, f64)]) -> Tree {
-    build(scene, &settings(method, constants), &Progress::new()).unwrap()
+    tree_with(scene, &settings(method, constants))
 }
 
 /// Every inner node's cell with its plane's axis and place between the cell's ends, 0 to 1.
@@ -173,7 +170,7 @@ fn automatic_termination_allows_so_many_failed_splits_on_the_way_to_a_leaf() {
     // The allowance grows with D_MAX: 1 + 0.2 · 10.
     let mut shallow = settings("sah-auto", &[]);
     shallow.d_max = MaxDepth::Fixed(10);
-    let tree = build(&balls, &shallow, &Progress::new()).unwrap();
+    let tree = tree_with(&balls, &shallow);
     let failed = failed_above(&tree, 0.75, 0.75, 0.2);
     assert!(!failed.is_empty() && failed.iter().all(|&n| n == 3));
 }
@@ -230,7 +227,7 @@ fn an_octree_has_the_leaves_of_one_with_children_by_eights() {
     for (d_max, levels) in [(2, 0), (3, 1), (14, 4), (15, 5)] {
         let mut settings = settings("octree", &[]);
         settings.d_max = MaxDepth::Fixed(d_max);
-        let tree = build(&balls, &settings, &Progress::new()).unwrap();
+        let tree = tree_with(&balls, &settings);
         let facts = TreeFacts::of(&tree);
         assert_eq!(
             [facts.leaves, facts.empty_leaves, facts.references],

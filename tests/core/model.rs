@@ -1,40 +1,34 @@
 //! Where the time of a picture goes: counts of every pixel against those of the counted pass, and the
 //! parts of a picture against what the fit predicts of it.
 
+use crate::support::scenes::{render_sized, scene, settings, tree_with};
 use bspscope::measure::model::{
     Equation, PictureTerms, Region, Term, TermTimes, fit, observe, parted, trees,
 };
 use bspscope::measure::{measure, parameter};
 use bspscope::primitive::PrimitiveKind;
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
-use bspscope::structure::{BuildSettings, Method, build};
+use bspscope::scene::Scene;
+use bspscope::structure::BuildSettings;
 use bspscope::trace::RenderSettings;
-
-fn scene(name: &str) -> Scene {
-    load(&SceneRequest::parse(name), &Progress::new()).unwrap()
-}
 
 fn render(scene: &Scene) -> RenderSettings {
     RenderSettings {
-        width: 40,
-        height: 30,
         threads: 1,
-        ..RenderSettings::for_camera(*scene.camera())
+        ..render_sized(scene, [40, 30])
     }
 }
 
 fn terms_of(scene: &Scene, settings: &BuildSettings) -> PictureTerms {
-    let progress = Progress::new();
-    let tree = build(scene, settings, &progress).unwrap();
-    PictureTerms::count(scene, &tree, &render(scene), &progress).unwrap()
+    let tree = tree_with(scene, settings);
+    PictureTerms::count(scene, &tree, &render(scene), &Progress::new()).unwrap()
 }
 
 #[test]
 fn the_counts_of_all_pixels_sum_to_the_papers() {
     for name in ["balls:2", "teaching"] {
         let scene = scene(name);
-        let settings = BuildSettings::for_method(Method::named("sah-cut").unwrap());
+        let settings = settings("sah-cut");
         let sum = terms_of(&scene, &settings).sum(None);
         let measured = measure(&scene, &settings, &render(&scene), &Progress::new()).unwrap();
         let of = |symbol| (parameter(symbol).value)(&measured.measurement).unwrap();

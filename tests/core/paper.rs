@@ -1,11 +1,12 @@
 //! The paper's figures: what is reproduced to the integer, what by direction, and the identities
 //! between its parameters.
 
+use crate::support::scenes::{self, render_sized, scene_path, settings, tree_by};
 use bspscope::measure::{Measurement, PARAMETERS, TreeFacts, measure, parameter};
 use bspscope::progress::Progress;
 use bspscope::scene::{Cylinders, Sampling, Scene, SceneRequest, load};
+use bspscope::structure::Method;
 use bspscope::structure::split::Structure;
-use bspscope::structure::{BuildSettings, Method, build};
 use bspscope::trace::{RayKind, RenderSettings};
 
 const SCENES: [&str; 3] = ["balls", "rings", "tetra"];
@@ -19,24 +20,16 @@ fn scene(source: &str) -> Scene {
     load(&request, &Progress::new()).unwrap()
 }
 
-fn file_of(name: &str) -> String {
-    format!("{}/scenes/{name}.nff", env!("CARGO_MANIFEST_DIR"))
-}
-
 fn facts(scene: &Scene, method: &str) -> TreeFacts {
-    let settings = BuildSettings::for_method(Method::named(method).unwrap());
-    TreeFacts::of(&build(scene, &settings, &Progress::new()).unwrap())
+    TreeFacts::of(&tree_by(scene, method))
 }
 
 fn measured(scene: &Scene, method: &str, size: u32, sampling: Sampling) -> Measurement {
-    let settings = BuildSettings::for_method(Method::named(method).unwrap());
     let render = RenderSettings {
-        width: size,
-        height: size,
         sampling,
-        ..RenderSettings::for_camera(*scene.camera())
+        ..render_sized(scene, [size, size])
     };
-    measure(scene, &settings, &render, &Progress::new())
+    measure(scene, &settings(method), &render, &Progress::new())
         .unwrap()
         .measurement
 }
@@ -53,8 +46,8 @@ fn method_1_reproduces_the_paper_to_the_integer_from_generator_and_file() {
         ("tetra", [96_056, 27_432, 307_200]),
     ];
     for (name, counts) in expected {
-        for source in [name.to_owned(), file_of(name)] {
-            let f = facts(&scene(&source), "midpoint");
+        for source in [name, scene_path(name).to_str().unwrap()] {
+            let f = facts(&scene(source), "midpoint");
             assert_eq!([f.leaves, f.empty_leaves, f.references], counts, "{source}");
         }
     }
@@ -160,7 +153,7 @@ fn ray_counts_are_those_of_other_tracers() {
         ),
     ];
     for (name, columns) in expected {
-        let scene = load(&SceneRequest::parse(name), &Progress::new()).unwrap();
+        let scene = scenes::scene(name);
         let m = measured(&scene, "sah-cut", 513, Sampling::Corner);
         assert_eq!(value(&m, "N_PR"), 263_169.0);
         for (symbol, published) in ["N_HPR", "N_SR", "N_HSR", "N_SECR", "N_HSECR"]

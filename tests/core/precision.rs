@@ -1,23 +1,14 @@
 //! Tracing in f32: what it loses against f64, what it must not lose, and when `auto` takes it.
 
+use crate::support::scenes::{scene, tree_by};
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::primitive::{Precision, Primitive, Sphere, Triangle};
-use bspscope::progress::Progress;
-use bspscope::scene::{Camera, Light, Material, Scene, SceneParts, SceneRequest, load};
-use bspscope::structure::{BuildSettings, Method, Tree, build};
+use bspscope::scene::{Camera, Light, Material, Scene, SceneParts};
+use bspscope::structure::Tree;
 use bspscope::trace::{
     Hit, PrecisionChoice, RayKind, RenderSettings, Scratch, closest_hit, closest_hit_brute_force,
     fits_f32, record_pixel,
 };
-
-fn builtin(name: &str) -> Scene {
-    load(&SceneRequest::parse(name), &Progress::new()).unwrap()
-}
-
-fn tree_of(scene: &Scene) -> Tree {
-    let settings = BuildSettings::for_method(Method::named("sah-cut").unwrap());
-    build(scene, &settings, &Progress::new()).unwrap()
-}
 
 fn camera() -> Camera {
     Camera {
@@ -86,8 +77,8 @@ fn hit(scene: &Scene, tree: &Tree, precision: Precision, ray: &Ray) -> Hit {
 #[test]
 fn f32_sees_the_same_objects_but_at_few_edges() {
     for name in ["balls:2", "rings:2", "tetra:3", "teaching"] {
-        let scene = builtin(name);
-        let tree = tree_of(&scene);
+        let scene = scene(name);
+        let tree = tree_by(&scene, "sah-cut");
         let render = RenderSettings::for_camera(*scene.camera());
         let view = render.view(&scene).unwrap();
         let (mut wrong, mut farthest, mut hits) = (0, 0.0_f64, 0);
@@ -123,7 +114,7 @@ fn a_mesh_is_closed_in_f32_wherever_it_is_and_whatever_its_size() {
         (Vec3::ZERO, 1e30),
     ] {
         let scene = scene_of(ball(center, size), camera());
-        let tree = tree_of(&scene);
+        let tree = tree_by(&scene, "sah-cut");
         for (i, object) in scene.objects().iter().enumerate() {
             let Primitive::Triangle(triangle) = object else {
                 panic!("a ball of triangles");
@@ -148,7 +139,7 @@ fn a_far_eye_costs_no_accuracy() {
         vec![sphere(Vec3::ZERO, 1.0), sphere(Vec3::X * 3.0, 0.5)],
         camera(),
     );
-    let tree = tree_of(&scene);
+    let tree = tree_by(&scene, "sah-cut");
     for away in [1e2, 1e5, 1e8] {
         let origin = Vec3::new(0.3, 0.4, away);
         let ray = Ray::new(origin, -Vec3::Z);
@@ -162,8 +153,8 @@ fn a_far_eye_costs_no_accuracy() {
 #[test]
 fn no_surface_shades_itself_in_f32() {
     for name in ["balls:2", "rings:2", "tetra:3", "teaching"] {
-        let scene = builtin(name);
-        let tree = tree_of(&scene);
+        let scene = scene(name);
+        let tree = tree_by(&scene, "sah-cut");
         let of = |precision| RenderSettings {
             width: 96,
             height: 96,
@@ -206,7 +197,7 @@ fn auto_takes_f32_where_it_can_hold_the_scene_and_says_why_not() {
         settings.precision_for(scene)
     };
     for name in ["balls", "rings", "tetra", "teaching"] {
-        let scene = builtin(name);
+        let scene = scene(name);
         let chosen = auto(&scene, *scene.camera());
         assert_eq!(chosen.precision, Precision::F32, "{name}: {chosen}");
     }
@@ -245,7 +236,7 @@ fn auto_takes_f32_where_it_can_hold_the_scene_and_says_why_not() {
 #[test]
 fn packed_objects_take_less_memory() {
     for name in ["balls", "rings", "tetra", "teaching"] {
-        let scene = builtin(name);
+        let scene = scene(name);
         let [narrow, wide] = Precision::ALL.map(|p| scene.shapes(p).bytes());
         assert!(narrow * 2 <= wide, "{name}: {narrow} of {wide} bytes");
     }

@@ -1,7 +1,8 @@
 //! Random scenes on a coarse lattice, and rays made to meet vertices, edges, faces and split planes
 //! exactly: every tree must answer as testing every object does, bit by bit.
 
-use crate::support::tough::{lattice, primitive, ray, scene_of};
+use crate::support::scenes::scene_of;
+use crate::support::tough::{lattice, primitive, ray};
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::measure::{RaySample, answer, compare, unsplit};
 use bspscope::primitive::Precision;

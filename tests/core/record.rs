@@ -1,39 +1,21 @@
 //! The record of a pixel: its rays sum to what the counting kernel counted for that pixel, and its
 //! colour is the picture's.
 
+use crate::support::scenes::{render_sized, scene_file, tree_by};
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
-use bspscope::structure::{BuildSettings, Method, NodeKind, Tree, build};
+use bspscope::scene::Scene;
+use bspscope::structure::NodeKind;
 use bspscope::trace::{
     Children, LeafOutcome, PendingNode, PixelTallies, RayKind, RenderSettings, Step, record_pixel,
     record_pixel_within, render_counted, render_timed, thread_pool,
 };
 use std::collections::HashMap;
-use std::path::Path;
 use std::sync::Mutex;
 
 const SIZE: u32 = 64;
 
-fn scene_file(name: &str) -> Scene {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.nff"));
-    load(
-        &SceneRequest::parse(&path.display().to_string()),
-        &Progress::new(),
-    )
-    .unwrap()
-}
-
-fn tree_of(scene: &Scene, method: &str) -> Tree {
-    let settings = BuildSettings::for_method(Method::named(method).unwrap());
-    build(scene, &settings, &Progress::new()).unwrap()
-}
-
 fn small(scene: &Scene) -> RenderSettings {
-    RenderSettings {
-        width: SIZE,
-        height: SIZE,
-        ..RenderSettings::for_camera(*scene.camera())
-    }
+    render_sized(scene, [SIZE, SIZE])
 }
 
 #[test]
@@ -43,7 +25,7 @@ fn a_pixels_record_sums_to_what_the_counting_kernel_counted() {
         let scene = scene_file(name);
         let settings = small(&scene);
         for method in ["midpoint", "sah-cut"] {
-            let tree = tree_of(&scene, method);
+            let tree = tree_by(&scene, method);
             let counted: Mutex<HashMap<(u32, u32), PixelTallies>> = Mutex::default();
             render_counted(&scene, &tree, &settings, &pool, &Progress::new(), |part| {
                 let mut counted = counted.lock().unwrap();
@@ -93,7 +75,7 @@ fn a_pixels_record_sums_to_what_the_counting_kernel_counted() {
 #[test]
 fn a_walk_is_a_path_through_the_tree() {
     let scene = scene_file("teaching");
-    let tree = tree_of(&scene, "sah-cut");
+    let tree = tree_by(&scene, "sah-cut");
     let settings = small(&scene);
     let mut ways = [0; 3];
     let mut popped = 0;
@@ -162,7 +144,7 @@ fn a_walk_is_a_path_through_the_tree() {
 #[test]
 fn a_record_stays_within_its_limit() {
     let scene = scene_file("balls");
-    let tree = tree_of(&scene, "sah-cut");
+    let tree = tree_by(&scene, "sah-cut");
     let settings = small(&scene);
     let middle = [SIZE / 2, SIZE / 2];
     let record = |most| record_pixel_within(&scene, &tree, &settings, middle, most).unwrap();

@@ -1,24 +1,19 @@
 //! Visits of every node against the counting kernel and against the records of pixels.
 
+use crate::support::scenes::{render_sized, scene, tree_by};
 use bspscope::progress::Progress;
-use bspscope::scene::{Scene, SceneRequest, load};
-use bspscope::structure::{BuildSettings, Method, NodeKind, Tree, build};
+use bspscope::scene::Scene;
+use bspscope::structure::{NodeKind, Tree};
 use bspscope::trace::{
     RenderSettings, Tally, Visits, count_visits, record_pixel, render_counted, thread_pool,
 };
 
 const SIDE: u32 = 40;
 
-fn small(scene: &str, method: &str) -> (Scene, Tree, RenderSettings) {
-    let progress = Progress::new();
-    let scene = load(&SceneRequest::parse(scene), &progress).unwrap();
-    let settings = BuildSettings::for_method(Method::named(method).unwrap());
-    let tree = build(&scene, &settings, &progress).unwrap();
-    let render = RenderSettings {
-        width: SIDE,
-        height: SIDE,
-        ..RenderSettings::for_camera(*scene.camera())
-    };
+fn small(source: &str, method: &str) -> (Scene, Tree, RenderSettings) {
+    let scene = scene(source);
+    let tree = tree_by(&scene, method);
+    let render = render_sized(&scene, [SIDE, SIDE]);
     (scene, tree, render)
 }
 

@@ -1,7 +1,7 @@
 //! The trade in the window: taken in the background, plotted, listed, loaded and looked at pixel by
 //! pixel.
 
-use crate::harness::{Window, click, finish, has, open, press, small, wait};
+use crate::harness::{Window, click, finish, has, open, press, small, text_with, wait};
 use bspscope::measure::accuracy::{choices, reference};
 use bspscope::progress::Progress;
 use bspscope::scene::load;
@@ -23,13 +23,6 @@ fn on_trade<'a>(scene: &str, size: u32) -> Window<'a> {
 fn take(window: &mut Window<'_>) {
     click(window, "Run trade");
     wait(window, "the end of the trade", |w| has(w, "Run trade"));
-}
-
-/// The text of the one label that contains this.
-fn text_with(window: &Window<'_>, part: &str) -> String {
-    let node = window.get_by_label_contains(part);
-    let node = node.accesskit_node();
-    node.label().or(node.value()).unwrap_or_default()
 }
 
 /// Turns taken and turns in all.

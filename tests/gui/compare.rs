@@ -1,13 +1,13 @@
 //! Two trees side by side in the window: views of both, the gate, and the three columns.
 
 use crate::harness::{
-    SIZE, Window, click, finish, has, open, open_with_graphics, press, small, wait,
+    SIZE, Window, click, finish, has, open, open_with_graphics, over_picture, press, small, wait,
+    wait_for,
 };
+use crate::support::scenes::{render_sized, scene, settings, tree_by};
 use bspscope::measure::heat::{HeatImage, PixelCounts, RayFilter, heatmap};
 use bspscope::measure::{DELTA, Measured, RAY_FIGURES, change, measure, parameter};
 use bspscope::progress::Progress;
-use bspscope::scene::{SceneRequest, load};
-use bspscope::structure::{BuildSettings, Method, build};
 use bspscope::trace::{RayKind, RenderSettings, render_counted, thread_pool};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
@@ -15,41 +15,20 @@ use std::sync::Mutex;
 
 const SCENE: &str = "balls:1";
 
-fn wait_for(window: &mut Window<'_>, text: &str) {
-    wait(window, text, |w| has(w, text));
-}
-
-fn over_picture(window: &mut Window<'_>) {
-    let middle = window.get_by_label("Traced picture").rect().center();
-    window.hover_at(middle);
-    window.run_steps(2);
-}
-
-fn settings_of(method: &str) -> BuildSettings {
-    BuildSettings::for_method(Method::named(method).unwrap())
-}
-
 fn render() -> RenderSettings {
-    let scene = load(&SceneRequest::parse(SCENE), &Progress::new()).unwrap();
-    RenderSettings {
-        width: SIZE,
-        height: SIZE,
-        ..RenderSettings::for_camera(*scene.camera())
-    }
+    render_sized(&scene(SCENE), [SIZE, SIZE])
 }
 
 /// What the library measures of a method.
 fn measured(method: &str, render: &RenderSettings) -> Measured {
-    let progress = Progress::new();
-    let scene = load(&SceneRequest::parse(SCENE), &progress).unwrap();
-    measure(&scene, &settings_of(method), render, &progress).unwrap()
+    measure(&scene(SCENE), &settings(method), render, &Progress::new()).unwrap()
 }
 
 /// What the library counts in every pixel.
 fn nodes(method: &str) -> HeatImage {
     let progress = Progress::new();
-    let scene = load(&SceneRequest::parse(SCENE), &progress).unwrap();
-    let tree = build(&scene, &settings_of(method), &progress).unwrap();
+    let scene = scene(SCENE);
+    let tree = tree_by(&scene, method);
     let counts = Mutex::new(PixelCounts::new(SIZE, SIZE));
     let pool = thread_pool(2).unwrap();
     render_counted(&scene, &tree, &render(), &pool, &progress, |part| {
@@ -154,7 +133,7 @@ fn both_pictures_share_range_pointer_and_pick() {
         both[0].lowest.min(both[1].lowest),
         both[0].highest.max(both[1].highest),
     ]
-    .map(bspscope::measure::grouped);
+    .map(bspscope::present::number::grouped);
     wait_for(
         &mut window,
         &format!("Legend from {lowest} to {highest} nodes"),
@@ -214,7 +193,7 @@ fn unequal_conditions_are_refused_and_the_pixels_shown() {
     ];
     let differing = bspscope::measure::differing_pixels(&a, &b).len();
     assert!(differing > 0, "nothing is tested");
-    let count = bspscope::measure::grouped(differing as f64);
+    let count = bspscope::present::number::grouped(differing as f64);
     assert!(has(&window, &format!("{differing} pixels differ: ")));
     click(&mut window, "Show the pixels");
     wait_for(

@@ -1,15 +1,10 @@
 //! Scene files of every format in the window, and what the reader says of them.
 
 use crate::harness::{finish, has, open, small, wait};
+use crate::support::scenes::asset;
 use bspscope::scene::format::FORMATS;
 use egui_kittest::kittest::Queryable as _;
-use std::path::{Path, PathBuf};
-
-fn asset(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/assets")
-        .join(name)
-}
+use std::path::Path;
 
 #[test]
 fn files_of_every_format_are_opened_by_the_path_field() {

@@ -5,7 +5,7 @@ use bspscope::gui::{App, StartOptions};
 use bspscope::scene::SceneRequest;
 use bspscope::setup::Setup;
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::time::{Duration, Instant};
 
 /// Enough for two slow cores that do other things, too.
@@ -55,6 +55,25 @@ pub fn wait(window: &mut Window<'_>, what: &str, done: impl Fn(&Window<'_>) -> b
         assert!(start.elapsed() < PATIENCE, "still waiting for: {what}");
         std::thread::sleep(Duration::from_millis(5));
     }
+}
+
+/// Waits for a label that contains this.
+pub fn wait_for(window: &mut Window<'_>, text: &str) {
+    wait(window, text, |w| has(w, text));
+}
+
+/// Returns the text of the one label that contains this.
+pub fn text_with(window: &Window<'_>, part: &str) -> String {
+    let node = window.get_by_label_contains(part);
+    let node = node.accesskit_node();
+    node.label().or(node.value()).unwrap_or_default()
+}
+
+/// Moves the pointer over the middle of the picture.
+pub fn over_picture(window: &mut Window<'_>) {
+    let middle = window.get_by_label("Traced picture").rect().center();
+    window.hover_at(middle);
+    window.run_steps(2);
 }
 
 pub fn has(window: &Window<'_>, text: &str) -> bool {

@@ -1,11 +1,11 @@
 //! Heatmaps in the window: found by their labels, compared with the library's values.
 
-use crate::harness::{SIZE, Window, finish, has, open, open_sized, wait};
+use crate::harness::{SIZE, Window, finish, has, open, open_sized, over_picture, wait, wait_for};
+use crate::support::scenes::{render_sized, scene, tree_by};
 use bspscope::measure::heat::{HEATMAPS, HeatImage, Heatmap, PixelCounts, RayFilter, heatmap};
 use bspscope::progress::Progress;
 use bspscope::scene::SceneRequest;
-use bspscope::structure::{BuildSettings, Method, build};
-use bspscope::trace::{RenderSettings, render_counted, thread_pool};
+use bspscope::trace::{render_counted, thread_pool};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::sync::Mutex;
 
@@ -13,15 +13,9 @@ fn small() -> bspscope::gui::StartOptions {
     crate::harness::small("balls:1")
 }
 
-fn wait_for(window: &mut Window<'_>, text: &str) {
-    wait(window, text, |w| has(w, text));
-}
-
 /// Presses a key over the middle of the picture.
 fn press(window: &mut Window<'_>, modifiers: egui::Modifiers, key: egui::Key) {
-    let middle = window.get_by_label("Traced picture").rect().center();
-    window.hover_at(middle);
-    window.run_steps(2);
+    over_picture(window);
     crate::harness::press(window, modifiers, key);
 }
 
@@ -55,14 +49,9 @@ fn show(window: &mut Window<'_>, symbol: &str) {
 /// What the library counts of the small picture.
 fn library_counts(method: &str) -> PixelCounts {
     let progress = Progress::new();
-    let scene = bspscope::scene::load(&SceneRequest::parse("balls:1"), &progress).unwrap();
-    let settings = BuildSettings::for_method(Method::named(method).unwrap());
-    let tree = build(&scene, &settings, &progress).unwrap();
-    let render = RenderSettings {
-        width: SIZE,
-        height: SIZE,
-        ..RenderSettings::for_camera(*scene.camera())
-    };
+    let scene = scene("balls:1");
+    let tree = tree_by(&scene, method);
+    let render = render_sized(&scene, [SIZE, SIZE]);
     let counts = Mutex::new(PixelCounts::new(SIZE, SIZE));
     let pool = thread_pool(2).unwrap();
     render_counted(&scene, &tree, &render, &pool, &progress, |part| {
@@ -204,7 +193,7 @@ fn pointer_and_picked_pixel_have_the_librarys_values() {
     let ratios = library_image("N_RPRT", RayFilter::Reflected);
     let without = ratios.values.iter().filter(|v| v.is_nan()).count();
     assert!(without > 0, "nothing is tested");
-    let without = bspscope::measure::grouped(without as f64);
+    let without = bspscope::present::number::grouped(without as f64);
     assert!(has(&window, &format!("white: no value ({without})")));
 }
 

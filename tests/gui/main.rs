@@ -1,6 +1,8 @@
 //! Tests of the window.
 
 mod harness;
+#[path = "../support/mod.rs"]
+mod support;
 
 mod accuracy;
 mod build;

@@ -19,8 +19,8 @@ fn open<'a>(scene: &str, method: &str, graphics: bool) -> Window<'a> {
     window
 }
 
-/// The text of the one label that contains this.
-fn text_with(window: &Window<'_>, part: &str) -> String {
+/// Returns the text of the first label that contains this.
+fn first_text_with(window: &Window<'_>, part: &str) -> String {
     let node = window
         .query_all_by_label_contains(part)
         .next()
@@ -88,7 +88,7 @@ fn a_leaf_clicked_in_3d_is_selected_in_the_outline() {
     let mut window = open("balls:1", "midpoint", true);
     click(&mut window, "3D view of scene and tree");
     wait(&mut window, "the leaf", |w| has(w, "Selected: node"));
-    let node = text_with(&window, "Selected: node");
+    let node = first_text_with(&window, "Selected: node");
     let node = node["Selected: ".len()..]
         .split(',')
         .next()
@@ -108,12 +108,12 @@ fn nodes_are_found_and_walked_through() {
     click(&mut window, "Next match");
     assert!(has(&window, "match 1 of"));
     assert!(has(&window, "a leaf with"));
-    let first = text_with(&window, "Selected: node");
+    let first = first_text_with(&window, "Selected: node");
     click(&mut window, "Next match");
     assert!(has(&window, "match 2 of"));
-    assert_ne!(text_with(&window, "Selected: node"), first);
+    assert_ne!(first_text_with(&window, "Selected: node"), first);
     click(&mut window, "Previous match");
-    assert_eq!(text_with(&window, "Selected: node"), first);
+    assert_eq!(first_text_with(&window, "Selected: node"), first);
     find(&mut window, " or", "expected a number after 'objects'");
 }
 
@@ -140,7 +140,7 @@ fn brushing_a_histogram_changes_the_leaves_shown() {
     let mut window = open("balls:1", "midpoint", true);
     click(&mut window, "Leaf histograms");
     wait(&mut window, "the histograms", |w| has(w, "leaves selected"));
-    let all = text_with(&window, "leaves selected");
+    let all = first_text_with(&window, "leaves selected");
     let of = all
         .split(" of ")
         .nth(1)
@@ -156,7 +156,7 @@ fn brushing_a_histogram_changes_the_leaves_shown() {
     window.run_steps(2);
     window.drop_at(egui::pos2(bars.center().x, y));
     window.run_steps(3);
-    let some = text_with(&window, "leaves selected");
+    let some = first_text_with(&window, "leaves selected");
     assert_ne!(some, all);
     let count = some.split(" of ").next().unwrap().to_owned();
     assert!(has(&window, &format!("{count} of {of} leaves shown")));
@@ -165,7 +165,7 @@ fn brushing_a_histogram_changes_the_leaves_shown() {
     window.run_steps(2);
     window.key_press(egui::Key::Delete);
     window.run_steps(3);
-    assert_eq!(text_with(&window, "leaves selected"), all);
+    assert_eq!(first_text_with(&window, "leaves selected"), all);
 }
 
 /// What the library counts of the picture that [`open`] shows.
@@ -206,7 +206,7 @@ fn visits_of_the_picture_are_told_and_lead_to_the_leaves_visited_most() {
         &format!("{} matches", grouped(never)),
     );
     click(&mut window, "Next match");
-    let node = text_with(&window, "Selected: node ");
+    let node = first_text_with(&window, "Selected: node ");
     let node = node["Selected: node ".len()..].split(',').next().unwrap();
     assert_eq!(visits.by_node[node.parse::<usize>().unwrap()], 0);
 }
@@ -264,7 +264,7 @@ fn rays_by_nodes_have_a_histogram_that_can_be_brushed() {
         if name == "Nodes a ray" {
             // Exactly the pixels that the library finds are named.
             wait(&mut window, "the pixels", |w| has(w, "others hatched"));
-            let text = text_with(&window, "others hatched");
+            let text = first_text_with(&window, "others hatched");
             let nodes = text.split("a ray of ").nth(1).unwrap();
             let nodes = nodes.split(" nodes").next().unwrap();
             let mut ends = nodes.split(" to ").map(|n| n.parse::<u32>().unwrap());
@@ -344,7 +344,7 @@ fn the_cost_of_the_chosen_plane_is_told_and_other_planes_can_be_tried() {
     click(&mut window, "node 0");
     click(&mut window, "Split cost");
     wait(&mut window, "the cost", |w| has(w, "node 0: chosen"));
-    let text = text_with(&window, "node 0: chosen");
+    let text = first_text_with(&window, "node 0: chosen");
     assert!(
         text.contains("below") && text.contains("cost") && text.contains("tests"),
         "{text}"

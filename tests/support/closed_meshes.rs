@@ -1,10 +1,11 @@
 //! Closed meshes with rays from inside at their vertices and edges.
 
+use super::random::Random;
+use super::scenes::scene_of;
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::primitive::Precision;
 use bspscope::primitive::{Polygon, Primitive, Triangle};
 use bspscope::progress::Progress;
-use bspscope::scene::{Camera, Material, Scene, SceneParts};
 use bspscope::structure::{BuildSettings, Method, build};
 use bspscope::trace::{Batch, Hit, RayKind, RayTracer, ScalarKernel};
 use rayon::prelude::*;
@@ -35,7 +36,7 @@ pub fn leaks(count: u64) -> Vec<Leaks> {
     let each = count.div_ceil(parts as u64);
     let mut found = Vec::new();
     for mesh in &meshes {
-        let scene = scene_of(&mesh.faces);
+        let scene = scene_of(objects_of(&mesh.faces));
         for &method in &methods {
             let settings = BuildSettings::for_method(method);
             let tree = build(&scene, &settings, &Progress::new()).unwrap();
@@ -76,12 +77,8 @@ pub fn leaks(count: u64) -> Vec<Leaks> {
 
 /// Ray number `i`: at a vertex, at points of an edge, or one rounding beside them.
 fn ray(mesh: &Mesh, i: u64) -> Ray {
-    let mut random = i.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (i >> 7);
-    let mut next = |n: usize| {
-        random = (random ^ (random >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        random ^= random >> 27;
-        (random % n as u64) as usize
-    };
+    let mut random = Random(i);
+    let mut next = |n: usize| random.below(n);
     let face = &mesh.faces[next(mesh.faces.len())];
     let k = next(face.len());
     let (a, b) = (face[k], face[(k + 1) % face.len()]);
@@ -110,28 +107,12 @@ fn ray(mesh: &Mesh, i: u64) -> Ray {
     )
 }
 
-fn scene_of(faces: &[Vec<Vec3>]) -> Scene {
+fn objects_of(faces: &[Vec<Vec3>]) -> Vec<Primitive> {
     let object = |face: &Vec<Vec3>| match face[..] {
         [a, b, c] => Primitive::Triangle(Triangle::new([a, b, c], None).unwrap()),
         _ => Primitive::Polygon(Polygon::new(face.clone(), None).unwrap()),
     };
-    Scene::new(SceneParts {
-        name: "mesh".into(),
-        objects: faces.iter().map(object).collect(),
-        material_of: vec![0; faces.len()],
-        materials: vec![Material::default()],
-        lights: Vec::new(),
-        background: Vec3::ZERO,
-        camera: Camera {
-            from: Vec3::ZERO,
-            at: Vec3::Y,
-            up: Vec3::Z,
-            angle: 45.0,
-            near: 1.0,
-            resolution: [8, 8],
-        },
-        notes: Vec::new(),
-    })
+    faces.iter().map(object).collect()
 }
 
 fn meshes() -> Vec<Mesh> {

@@ -3,4 +3,7 @@
 
 pub mod closed_meshes;
 pub mod glb;
+pub mod program;
+pub mod random;
+pub mod scenes;
 pub mod tough;

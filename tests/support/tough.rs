@@ -2,7 +2,6 @@
 
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::primitive::{Cone, Polygon, Primitive, Sphere, Triangle};
-use bspscope::scene::{Camera, Material, Scene, SceneParts};
 use proptest::prelude::*;
 
 /// Lattice points: many coordinates coincide with each other and with midpoint planes.
@@ -34,26 +33,6 @@ pub fn primitive() -> impl Strategy<Value = Primitive> {
             Some(Primitive::Cone(Cone::new(a, r, b, s).ok()?))
         }),
     ]
-}
-
-pub fn scene_of(objects: Vec<Primitive>) -> Scene {
-    Scene::new(SceneParts {
-        name: "random".into(),
-        material_of: vec![0; objects.len()],
-        objects,
-        materials: vec![Material::default()],
-        lights: Vec::new(),
-        background: Vec3::ZERO,
-        camera: Camera {
-            from: Vec3::new(9.0, 8.0, 7.0),
-            at: Vec3::ZERO,
-            up: Vec3::Z,
-            angle: 45.0,
-            near: 1.0,
-            resolution: [8, 8],
-        },
-        notes: Vec::new(),
-    })
 }
 
 /// Along axes and diagonals with exact zeros of both signs, from lattice points and from far away;

@@ -1,7 +1,7 @@
 //! The heatmap of one picture, or the difference of two, on its way from values to the screen.
 
 use super::look::{Look, LookKey, Values, ValuesKey};
-use crate::gui::background::Latest;
+use crate::gui::tasks::Latest;
 use egui::{Color32, TextureHandle, TextureId, TextureOptions};
 use std::sync::Arc;
 

@@ -2,7 +2,7 @@
 //! pointer's and the picked pixel's values lie.
 
 use super::look::Look;
-use super::{HeatView, Standing};
+use super::{HeatView, Progress};
 use crate::gui::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::gui::state::State;
 use crate::gui::symbol::grouped;
@@ -71,14 +71,14 @@ impl HeatView {
 
     /// Stops the pass that takes the times, or begins it anew.
     fn timing_button(&mut self, ui: &mut egui::Ui) {
-        let (name, about) = match self.timing().standing() {
-            Standing::Waiting | Standing::Done => return,
-            Standing::Running(_) => ("Cancel timing", "Stop taking the time of every pixel."),
-            Standing::Ended(_) => ("Take times", "Take the time of every pixel after all."),
+        let (name, about) = match self.timing().progress() {
+            Progress::Waiting | Progress::Done => return,
+            Progress::Running(_) => ("Cancel timing", "Stop taking the time of every pixel."),
+            Progress::Ended(_) => ("Take times", "Take the time of every pixel after all."),
         };
         if ui.button(name).on_hover_text(about).clicked() {
-            match self.timing().standing() {
-                Standing::Running(_) => self.timing().cancel(),
+            match self.timing().progress() {
+                Progress::Running(_) => self.timing().cancel(),
                 _ => self.timing().again(),
             }
         }

@@ -3,7 +3,8 @@
 use crate::measure::heat::{
     HEATMAPS, HeatImage, HeatStatistics, Heatmap, PixelCounts, RayFilter, Whole,
 };
-use crate::measure::{grouped, parameter, significant};
+use crate::measure::parameter;
+use crate::present::number::{grouped, significant};
 use crate::present::overlay::{COLORMAPS, HeatScale, Range, Scale, heat_colors};
 use egui::{Color32, ColorImage};
 use std::sync::Arc;

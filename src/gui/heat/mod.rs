@@ -9,16 +9,15 @@ mod layer;
 mod legend;
 mod look;
 
-use super::background::Latest;
 use super::comparing::{View, Which};
-use super::picture_pass::{PicturePass, Standing};
+use super::picture_job::{PictureJob, Progress};
 use super::shortcuts::Action;
 use super::state::{Current, State};
 use super::symbol::grouped;
-use crate::measure::heat::{Heatmap, PixelCounts, Source};
+use super::tasks::Latest;
+use crate::jobs::{Stage, TimePixels};
+use crate::measure::heat::{Heatmap, PIXEL_COUNTS_LIMIT, Source};
 use crate::present::overlay::Range;
-use crate::trace::{pixel_times, thread_pool};
-use crate::worker::{PIXEL_COUNTS_LIMIT, Stage};
 use choice::Choice;
 use egui::{Color32, TextureId};
 use layer::Layer;
@@ -34,7 +33,7 @@ pub struct HeatView {
     /// Of B less A.
     difference: Layer,
     /// The time of every pixel, of A and of B.
-    timings: [PicturePass<Values>; 2],
+    timings: [PictureJob<TimePixels>; 2],
     /// What legend and keys are about.
     on: On,
     orders: Latest<ValuesKey, Vec<u32>>,
@@ -88,7 +87,7 @@ impl HeatView {
         of_b.keep_only(b, None);
         self.difference.keep_only(b, a);
         let Some((place, heatmap)) = self.choice.heatmap() else {
-            self.timings.iter_mut().for_each(PicturePass::give_way);
+            self.timings.iter_mut().for_each(PictureJob::drop_unneeded);
             self.layers = Default::default();
             self.difference = Layer::default();
             return;
@@ -148,34 +147,29 @@ impl HeatView {
     ) -> Option<Arc<Values>> {
         let layer = &mut self.layers[which as usize];
         if !matches!(heatmap.source, Source::Time) {
-            self.timings[which as usize].give_way();
+            self.timings[which as usize].drop_unneeded();
             let counts = Arc::clone(current.pixel_counts.as_ref()?);
             return layer.values(key, ctx, move || Values::of(heatmap, &counts, key.rays));
         }
-        // One pass at a time, that over the picture in front first.
-        let waits = which != state.which && self.timings[state.which as usize].is_running();
-        let times = if is_too_large(current) || waits {
+        let counts = if is_too_large(current) {
             None
         } else {
             let shown = &current.shown;
-            let (scene, tree, render) = (
-                Arc::clone(&shown.scene),
-                Arc::clone(&shown.tree),
-                shown.setup.render,
-            );
-            let pass = &mut self.timings[which as usize];
-            let resting = state.work.is_none() && state.measuring().is_none();
-            pass.get(current, resting, ctx, move |progress| {
-                let pool = thread_pool(render.threads)?;
-                let mut counts = PixelCounts::new(render.width, render.height);
-                counts.seconds = Some(pixel_times(&scene, &tree, &render, &pool, progress)?);
-                Ok(Values::of(heatmap, &counts, key.rays))
+            self.timings[which as usize].get(current, &state.jobs, || TimePixels {
+                picture: which as u64,
+                scene: Arc::clone(&shown.scene),
+                tree: Arc::clone(&shown.tree),
+                render: shown.setup.render,
             })
         };
-        if times.is_none() {
-            layer.look = None;
+        let layer = &mut self.layers[which as usize];
+        match counts {
+            Some(counts) => layer.values(key, ctx, move || Values::of(heatmap, &counts, key.rays)),
+            None => {
+                layer.look = None;
+                None
+            }
         }
-        times
     }
 
     fn look_key(&self, values: ValuesKey, span: Option<Range>) -> LookKey {
@@ -311,13 +305,6 @@ impl HeatView {
         self.choice.heatmap = None;
     }
 
-    /// Frees the processor for the worker's own timing.
-    pub fn make_way(&mut self, state: &State) {
-        if state.work.is_some() {
-            self.timings.iter_mut().for_each(PicturePass::give_way);
-        }
-    }
-
     /// Colours to draw over a picture, and how; `None` while it is to be seen alone.
     pub fn texture(&mut self, which: Which, ctx: &egui::Context) -> Option<(TextureId, Color32)> {
         let layer = match self.on {
@@ -341,13 +328,8 @@ impl HeatView {
         })
     }
 
-    /// Whether the time of pixels is being taken.
-    pub fn is_timing(&self) -> bool {
-        self.timings.iter().any(PicturePass::is_running)
-    }
-
     /// The pass whose standing matters now.
-    fn timing(&mut self) -> &mut PicturePass<Values> {
+    fn timing(&mut self) -> &mut PictureJob<TimePixels> {
         let [a, b] = &mut self.timings;
         match self.on {
             On::Picture(Which::A) => a,
@@ -373,16 +355,16 @@ impl HeatView {
             return format!("Only pictures of up to {limit} pixels are counted pixel by pixel.");
         }
         if self.is_timed() {
-            return match self.timing().standing() {
-                Standing::Running(done) => {
+            return match self.timing().progress() {
+                Progress::Running(done) => {
                     format!("timing every pixel … {:.0} %", done * 100.0)
                 }
-                Standing::Ended(why) => format!("Not timed: {why}"),
-                Standing::Waiting | Standing::Done if state.stopped && !current.done => {
+                Progress::Ended(why) => format!("Not timed: {why}"),
+                Progress::Waiting | Progress::Done if state.stopped && !current.done => {
                     "Not timed: the picture was cancelled. Resume it first.".to_owned()
                 }
-                Standing::Waiting | Standing::Done => match state.measuring() {
-                    Some(what) => format!("timing … begins when {what} has ended"),
+                Progress::Waiting | Progress::Done => match state.measuring() {
+                    Some(what) => format!("timing … begins when the {what} has ended"),
                     None => "timing … begins when the picture is finished".to_owned(),
                 },
             };
@@ -394,8 +376,9 @@ impl HeatView {
             };
         }
         match &state.work {
-            Some((Stage::Counting, progress)) => {
-                format!("counting … {:.0} %", progress.fraction() * 100.0)
+            Some(work) if work.stage == Stage::Counting => {
+                let fraction = work.status().map_or(1.0, |status| status.fraction);
+                format!("counting … {:.0} %", fraction * 100.0)
             }
             Some(_) => "counting … begins when the picture is traced".to_owned(),
             None => "Not counted: the picture was cancelled. Resume it first.".to_owned(),

@@ -20,15 +20,14 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
          in the background. Where answers differ, exact arithmetic says why.",
     );
     judging.stopped = !wanted;
-    let found = judging.found();
     let mut others = Tally::default();
-    for tally in found.result.others {
+    for tally in judging.result.others {
         others += tally;
     }
-    let rays: u64 = found.result.rays.iter().sum();
+    let rays: u64 = judging.result.rays.iter().sum();
     match judging.progress() {
         _ if judging.stopped => ui.weak("Stopped"),
-        _ if found.complete => ui.label(format!("{} rays checked", grouped(rays as usize))),
+        _ if judging.complete => ui.label(format!("{} rays checked", grouped(rays as usize))),
         Some(share) => ui.label(format!(
             "{} rays checked, {:.0} % of the sample",
             grouped(rays as usize),
@@ -37,7 +36,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         None => ui.weak(format!(
             "Waits for {}",
             match state.measuring() {
-                Some(what) => format!("the end of {what}"),
+                Some(what) => format!("the end of the {what}"),
                 None => "the finished picture".to_owned(),
             }
         )),

@@ -3,11 +3,9 @@
 use super::{Panel, Side};
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::State;
-use crate::measure::paper::{
-    Cell, Conditions, Mark, Reproduction, Row, SCENES, printed_unit, reproduce,
-};
-use crate::progress::Progress;
-use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use crate::jobs::{End, Handle, News, RepeatPaper, Scheduler, Standing};
+use crate::measure::paper::{Cell, Conditions, Mark, PaperScene, Reproduction, Row, SCENES};
+use crate::present::words::printed_unit;
 
 pub const PANEL: Panel = Panel {
     title: "The paper's tables",
@@ -23,29 +21,9 @@ pub struct Experiment {
     /// The scene whose tables are shown, likewise.
     shown: usize,
     results: [Option<Reproduction>; SCENES.len()],
-    run: Option<Run>,
+    running: Option<Handle<RepeatPaper>>,
     /// Why it ended before it was done.
     ended: Option<String>,
-}
-
-/// An experiment on its way; dropping it cancels it.
-struct Run {
-    progress: Progress,
-    news: Receiver<News>,
-    /// The scene that is measured now.
-    scene: usize,
-}
-
-enum News {
-    Began(usize),
-    Measured(usize, Box<Reproduction>),
-    Failed(String),
-}
-
-impl Drop for Run {
-    fn drop(&mut self) {
-        self.progress.cancel();
-    }
 }
 
 impl Default for Experiment {
@@ -54,17 +32,18 @@ impl Default for Experiment {
             chosen: [true; SCENES.len()],
             shown: 0,
             results: [const { None }; SCENES.len()],
-            run: None,
+            running: None,
             ended: None,
         }
     }
 }
 
 impl Experiment {
-    /// Measures the chosen scenes on a thread; or cancels that, and what is measured stays.
-    pub fn start_or_cancel(&mut self, threads: usize, ctx: &egui::Context) {
-        if self.run.take().is_some() {
-            self.ended = Some("cancelled; what was measured stays".into());
+    /// Measures the chosen scenes; or cancels that, and what is measured stays.
+    pub fn start_or_cancel(&mut self, threads: usize, jobs: &Scheduler) {
+        if let Some(handle) = &self.running {
+            handle.cancel();
+            self.receive();
             return;
         }
         let scenes: Vec<usize> = (0..SCENES.len()).filter(|&i| self.chosen[i]).collect();
@@ -76,64 +55,44 @@ impl Experiment {
         }
         self.ended = None;
         self.shown = first;
-        let (sender, news) = channel();
-        let progress = Progress::new();
-        self.run = Some(Run {
-            progress: progress.clone(),
-            news,
-            scene: first,
-        });
-        let conditions = Conditions {
-            threads,
-            ..Conditions::default()
-        };
-        let ctx = ctx.clone();
-        std::thread::spawn(move || {
-            let tell = |news| tell(&sender, news, &ctx);
-            for scene in scenes {
-                tell(News::Began(scene));
-                let result = reproduce(&SCENES[scene], &conditions, &progress, |partial| {
-                    tell(News::Measured(scene, Box::new(partial.clone())));
-                });
-                if let Err(error) = result {
-                    tell(News::Failed(error.to_string()));
-                    break;
-                }
-            }
-            drop(sender);
-            ctx.request_repaint();
-        });
+        self.running = Some(jobs.start(RepeatPaper {
+            scenes: scenes.into_iter().map(|scene| &SCENES[scene]).collect(),
+            conditions: Conditions {
+                threads,
+                ..Conditions::default()
+            },
+        }));
     }
 
-    /// Takes what the thread has to tell.
-    fn receive(&mut self) {
-        while let Some(run) = &mut self.run {
-            match run.news.try_recv() {
-                Ok(News::Began(scene)) => run.scene = scene,
-                Ok(News::Measured(scene, result)) => {
-                    self.results[scene] = Some(*result);
-                    self.shown = scene;
-                }
-                Ok(News::Failed(why)) => self.ended = Some(why),
-                Err(TryRecvError::Empty) => return,
-                Err(TryRecvError::Disconnected) => self.run = None,
+    /// Receives what was measured.
+    pub(in crate::gui) fn receive(&mut self) {
+        let Some(handle) = &self.running else {
+            return;
+        };
+        let News { partials, end } = handle.receive();
+        for result in partials {
+            let same = |scene: &PaperScene| scene.name == result.scene.name;
+            if let Some(place) = SCENES.iter().position(same) {
+                self.results[place] = Some(result);
+                self.shown = place;
             }
         }
+        if let Some(end) = end {
+            self.running = None;
+            self.ended = match end {
+                End::Done(()) | End::Replaced => None,
+                End::Cancelled => Some("cancelled; what was measured stays".into()),
+                End::Failed(why) => Some(why),
+            };
+        }
     }
-}
-
-fn tell(sender: &Sender<News>, news: News, ctx: &egui::Context) {
-    // If nobody listens any more, the news is not needed.
-    let _ = sender.send(news);
-    ctx.request_repaint();
 }
 
 fn show(ui: &mut egui::Ui, state: &mut State) {
     let threads = state.wanted.render.threads;
     let experiment = &mut state.experiment;
-    experiment.receive();
     choice(ui, experiment);
-    standing(ui, experiment, threads);
+    standing(ui, experiment, threads, &state.jobs);
     let Some(result) = &experiment.results[experiment.shown] else {
         ui.weak(format!(
             "{}: not measured yet",
@@ -147,7 +106,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
 
 /// Which scenes are measured, and which one is shown.
 fn choice(ui: &mut egui::Ui, experiment: &mut Experiment) {
-    let running = experiment.run.is_some();
+    let running = experiment.running.is_some();
     ui.horizontal_wrapped(|ui| {
         for (scene, chosen) in SCENES.iter().zip(&mut experiment.chosen) {
             ui.add_enabled(!running, egui::Checkbox::new(chosen, scene.name))
@@ -167,8 +126,8 @@ fn choice(ui: &mut egui::Ui, experiment: &mut Experiment) {
 }
 
 /// How far the experiment is, with the button that begins or cancels it.
-fn standing(ui: &mut egui::Ui, experiment: &mut Experiment, threads: usize) {
-    let (name, about) = match experiment.run {
+fn standing(ui: &mut egui::Ui, experiment: &mut Experiment, threads: usize, jobs: &Scheduler) {
+    let (name, about) = match experiment.running {
         None => (
             "Repeat the experiment",
             "Measure the chosen scenes with both methods, as the paper did: 512 × 512 pixels, \
@@ -179,15 +138,14 @@ fn standing(ui: &mut egui::Ui, experiment: &mut Experiment, threads: usize) {
     let enabled = experiment.chosen.contains(&true);
     let button = ui.add_enabled(enabled, egui::Button::new(name));
     if button.on_hover_text(tip(about, Action::Paper)).clicked() {
-        experiment.start_or_cancel(threads, ui.ctx());
+        experiment.start_or_cancel(threads, jobs);
     }
-    if let Some(run) = &experiment.run {
-        let fraction = run.progress.fraction();
-        let text = format!(
-            "{}: {:.0} % of a stage",
-            SCENES[run.scene].name,
-            fraction * 100.0
-        );
+    if let Some(status) = experiment.running.as_ref().and_then(Handle::status) {
+        let fraction = status.fraction;
+        let text = match status.standing {
+            Standing::Running => format!("{}: {:.0} % of a stage", status.stage, fraction * 100.0),
+            Standing::Waiting | Standing::Paused => "waits for the picture".to_owned(),
+        };
         ui.add(egui::ProgressBar::new(fraction as f32).text(&text));
         ui.ctx().request_repaint_after_secs(0.1);
     }

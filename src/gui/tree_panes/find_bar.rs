@@ -1,10 +1,10 @@
 //! The line that finds nodes: what is looked for, how many match, and the way from one to the next.
 
-use crate::gui::background::Latest;
 use crate::gui::inspect::TreeKey;
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::symbol::grouped;
-use crate::gui::visits::PictureVisits;
+use crate::gui::tasks::Latest;
+use crate::jobs::PictureVisits;
 use crate::structure::{Query, TreeIndex};
 use std::sync::Arc;
 

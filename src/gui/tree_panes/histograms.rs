@@ -36,8 +36,7 @@ impl Histograms {
         let Some(current) = &state.current else {
             return;
         };
-        let resting = state.work.is_none();
-        let visits = state.inspect.visits.of(current, resting, ui.ctx());
+        let visits = state.inspect.visits.of(current, &state.jobs);
         let Some(leaves) = state.inspect.leaves(current, visits.as_ref(), ui.ctx()) else {
             waiting(ui);
             return;

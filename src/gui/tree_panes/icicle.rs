@@ -8,7 +8,7 @@ use crate::gui::inspect::TreeKey;
 use crate::gui::state::State;
 use crate::gui::symbol::grouped;
 use crate::gui::view3d::color_bar;
-use crate::gui::visits::PictureVisits;
+use crate::jobs::PictureVisits;
 use crate::present::overlay::{COLORINGS, Coloring, Leaf};
 use crate::structure::{Moment, NodeKind, Tree, TreeIndex};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, pos2, vec2};
@@ -92,10 +92,10 @@ impl Icicle {
         if self.made.as_ref().is_none_or(another) {
             self.top = 0;
         }
-        let visits = self.coloring.needs_visits().then(|| {
-            let resting = state.work.is_none();
-            state.inspect.visits.of(current, resting, ui.ctx())
-        });
+        let visits = self
+            .coloring
+            .needs_visits()
+            .then(|| state.inspect.visits.of(current, &state.jobs));
         let waits = matches!(visits, Some(None));
         let visits = visits.flatten();
         let facts = Facts {

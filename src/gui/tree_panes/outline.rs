@@ -8,7 +8,8 @@ use crate::gui::inspect::TreeKey;
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::{Current, State};
 use crate::gui::symbol::grouped;
-use crate::gui::visits::{self, PictureVisits};
+use crate::gui::visits;
+use crate::jobs::PictureVisits;
 use crate::structure::{NodeKind, Tree, TreeIndex};
 use egui::{Align, Sense};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -90,8 +91,7 @@ impl Outline {
             self.rows = Some((key.clone(), Rows::new(&tree, &index)));
             self.followed = None;
         }
-        let resting = state.work.is_none();
-        let visits = state.inspect.visits.of(current, resting, ui.ctx());
+        let visits = state.inspect.visits.of(current, &state.jobs);
         let picture = current.number;
         let matches = self
             .find

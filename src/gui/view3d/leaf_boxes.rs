@@ -1,8 +1,8 @@
 //! The leaf boxes of the tree on view, made off the window's thread where there are many.
 
 use crate::geometry::Vec3;
-use crate::gui::background::Latest;
-use crate::gui::visits::PictureVisits;
+use crate::gui::tasks::Latest;
+use crate::jobs::PictureVisits;
 use crate::present::overlay::{Coloring, Filter, LeafBoxes, leaf_boxes};
 use crate::structure::Tree;
 use std::sync::Arc;

@@ -12,11 +12,11 @@ mod ray_lines;
 mod renderer;
 mod scene_mesh;
 
-use super::background::Latest;
 use super::shortcuts::{Scope, pressed};
 use super::state::{Current, State};
-use super::visits::PictureVisits;
+use super::tasks::Latest;
 use crate::geometry::{Aabb, Vec3};
+use crate::jobs::PictureVisits;
 use crate::present::overlay::{self, Line};
 use crate::primitive::Precision;
 use crate::scene::Scene;
@@ -132,7 +132,7 @@ impl View3d {
             self.settings.filter.moment = moment;
             self.moved = ui.input(|i| i.time);
         }
-        let visits = self.visits(state, ui.ctx());
+        let visits = self.visits(state);
         self.pick(rect, &response, state);
         let [r, g, b] = GROUND;
         ui.painter()
@@ -152,11 +152,7 @@ impl View3d {
 
     /// The visits that the boxes shown need: those of the picture, or why there are none yet. `None`
     /// where they need none.
-    fn visits(
-        &self,
-        state: &mut State,
-        ctx: &egui::Context,
-    ) -> Option<Result<Arc<PictureVisits>, String>> {
+    fn visits(&self, state: &mut State) -> Option<Result<Arc<PictureVisits>, String>> {
         let current = state.current.as_ref()?;
         let Settings {
             filter, coloring, ..
@@ -164,8 +160,7 @@ impl View3d {
         if !filter.needs_visits() && !coloring.needs_visits() {
             return None;
         }
-        let resting = state.work.is_none();
-        let visits = state.inspect.visits.of(current, resting, ctx);
+        let visits = state.inspect.visits.of(current, &state.jobs);
         Some(visits.ok_or_else(|| state.inspect.visits.note(current).unwrap_or_default()))
     }
 

@@ -1,6 +1,6 @@
 //! By what number the error of an outcome can be told. A measure is one entry of [`ERROR_MEASURES`].
 
-use super::Outcome;
+use super::outcome::Outcome;
 
 /// One number for the error, 0 for none; the less the better.
 pub struct ErrorMeasure {

@@ -12,7 +12,7 @@ mod rays;
 mod tests_per_hit;
 mod time;
 
-pub use pixel_counts::{PixelCounts, RayFilter};
+pub use pixel_counts::{PIXEL_COUNTS_LIMIT, PixelCounts, RayFilter};
 
 use crate::trace::Tally;
 

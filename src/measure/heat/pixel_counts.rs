@@ -2,6 +2,9 @@
 
 use crate::trace::{CountedTile, PixelTallies, RayKind, Tally};
 
+/// The most pixels whose counts are kept, at about 100 bytes per pixel.
+pub const PIXEL_COUNTS_LIMIT: u64 = 4_000_000;
+
 /// What was counted of every pixel, row by row from the upper left: about 100 bytes a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelCounts {

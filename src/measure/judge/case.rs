@@ -1,6 +1,6 @@
 //! A fault as a small file that can be run again.
 
-use super::{Answer, Verdict, settle};
+use super::verdict::{Answer, Verdict, settle};
 use crate::geometry::{Ray, Vec3};
 use crate::measure::verify::{ask, unsplit};
 use crate::progress::Progress;

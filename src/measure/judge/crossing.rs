@@ -2,9 +2,8 @@
 
 use super::root::Root;
 use super::span::{Span, SpanVec, rational};
-use super::{Tolerance, flat, quadric};
+use super::tolerance::Tolerance;
 use crate::geometry::Ray;
-use crate::primitive::Primitive;
 use std::cmp::Ordering;
 
 /// A place where the ray may meet the surface: between `earliest` and `latest`, which are one number
@@ -20,7 +19,7 @@ pub struct Crossing {
 
 impl Crossing {
     /// The crossing within the ray's own stretch; `None` if it certainly lies outside.
-    fn within(mut self, ray: &Ray) -> Option<Crossing> {
+    pub(super) fn within(mut self, ray: &Ray) -> Option<Crossing> {
         let start = Root::from(rational(ray.t_min));
         // What no number is large enough for is not met.
         let end = Root::from(rational(ray.t_max.min(f64::MAX)));
@@ -52,21 +51,4 @@ impl<'a> Line<'a> {
     pub fn offset_at(&self, t: &Span, from: &SpanVec) -> SpanVec {
         &(&self.origin - from) + &self.direction.scaled(t)
     }
-}
-
-/// All places where the ray may meet the object; two at most.
-pub fn crossings(object: &Primitive, line: &Line<'_>, tolerance: &Tolerance) -> Vec<Crossing> {
-    let reach = rational(tolerance.length);
-    let found = match object {
-        Primitive::Sphere(sphere) => quadric::sphere(sphere, line, &reach),
-        Primitive::Cone(cone) => quadric::cone(cone, line, &reach),
-        Primitive::Triangle(triangle) => {
-            flat::triangle(triangle, line, &reach).into_iter().collect()
-        }
-        Primitive::Polygon(polygon) => flat::polygon(polygon, line, &reach).into_iter().collect(),
-    };
-    found
-        .into_iter()
-        .filter_map(|crossing| crossing.within(line.ray))
-        .collect()
 }

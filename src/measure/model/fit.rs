@@ -1,7 +1,8 @@
 //! Least squares without negative times, every observation weighted by its time so that it is the
 //! relative error that is small.
 
-use super::{Equation, Observation, Term, Terms};
+use super::equation::{Equation, Term};
+use super::observe::{Observation, Terms};
 
 /// A time found by regression.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The same times measured directly: tests that were made are made again, apart by kind and result;
 //! rays are walked through the tree without tests.
 
-use super::Term;
+use super::equation::Term;
 use super::observe::each_ray;
 use crate::geometry::Ray;
 use crate::measure::MeasureError;

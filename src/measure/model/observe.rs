@@ -1,6 +1,6 @@
 //! What rendering with one tree took, and the counts that equation (1) explains it by.
 
-use super::{Equation, Term};
+use super::equation::{Equation, Term};
 use crate::measure::MeasureError;
 use crate::primitive::{PrimitiveKind, Shapes};
 use crate::progress::Progress;

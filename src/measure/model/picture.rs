@@ -1,7 +1,9 @@
 //! Where the time of a picture goes: the counts of equation (1) for every pixel, and what they take.
 
+use super::equation::Term;
+use super::fit::Fit;
+use super::in_place::InPlace;
 use super::observe::each_ray;
-use super::{Fit, InPlace, Term};
 use crate::primitive::PrimitiveKind;
 use crate::progress::Progress;
 use crate::scene::Scene;

@@ -23,25 +23,6 @@ pub enum Mark {
     Differs,
 }
 
-impl Mark {
-    pub const fn name(self) -> &'static str {
-        match self {
-            Mark::Equal => "equal after rounding",
-            Mark::SameDirection => "same direction",
-            Mark::Differs => "differs",
-        }
-    }
-
-    /// One character for tables.
-    pub const fn sign(self) -> &'static str {
-        match self {
-            Mark::Equal => "=",
-            Mark::SameDirection => "~",
-            Mark::Differs => "≠",
-        }
-    }
-}
-
 /// A figure as printed, and as computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
@@ -53,21 +34,6 @@ pub struct Cell {
     pub mark: Option<Mark>,
     /// A slip of the paper or a limit of the comparison, in a sentence or two.
     pub note: Option<&'static str>,
-}
-
-impl Cell {
-    /// The computed figure, with a digit more than is printed where it differs and is no whole
-    /// number; `–` where there is none.
-    pub fn computed_text(&self) -> String {
-        let more = usize::from(self.mark != Some(Mark::Equal));
-        match self.computed {
-            Some(value) if value.fract() == 0.0 && self.mark != Some(Mark::Equal) => {
-                format!("{value}")
-            }
-            Some(value) => format!("{value:.*}", decimals(self.printed) + more),
-            None => "–".into(),
-        }
-    }
 }
 
 /// A line of a table.
@@ -254,15 +220,6 @@ impl Reproduction {
     }
 }
 
-/// The unit of a printed figure of a parameter; `ratio` for the column 2/1.
-pub fn printed_unit(parameter: &Parameter, ratio: bool) -> &'static str {
-    match (parameter.unit, ratio) {
-        (Unit::Percent, true) => "points",
-        (_, true) => "%",
-        (unit, false) => unit.suffix().trim_start(),
-    }
-}
-
 fn equal_or_not(printed: &str, computed: f64) -> Mark {
     let rounded = format!("{computed:.*}", decimals(printed));
     if number(&rounded) == number(printed) {
@@ -272,8 +229,8 @@ fn equal_or_not(printed: &str, computed: f64) -> Mark {
     }
 }
 
-/// Digits behind the point.
-fn decimals(printed: &str) -> usize {
+/// Digits behind the decimal point of a printed figure.
+pub fn decimals(printed: &str) -> usize {
     printed
         .split_once('.')
         .map_or(0, |(_, digits)| digits.len())

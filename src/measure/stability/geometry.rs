@@ -1,7 +1,8 @@
 //! Objects that are hardly there, that are there too often, and rules about outlines.
 
+use super::case::Case;
 use super::scenes::{aims, features, polygon, scene_of, sphere, spread, triangle, unit};
-use super::{Case, Outcome, Trial};
+use super::trial::{Outcome, Trial};
 use crate::geometry::{Ray, Vec3};
 use crate::measure::judge::Answer;
 use crate::primitive::{Cone, Polygon, Primitive, ShapeError, Triangle};

@@ -5,6 +5,7 @@
 //! says tie; and a sample of the answers is what exact arithmetic says, but for rounding
 //! ([`super::judge::Tolerance`]).
 
+mod case;
 mod geometry;
 #[cfg(test)]
 mod mutants;
@@ -14,6 +15,7 @@ mod settings;
 mod transforms;
 mod trial;
 
+pub use case::Case;
 pub use trial::{KERNELS, Kernel, Outcome, Trial};
 
 use crate::primitive::Precision;
@@ -22,17 +24,6 @@ use crate::scene::Scene;
 use crate::structure::Method;
 use rayon::prelude::*;
 use serde::Serialize;
-
-/// A case of the torture set.
-pub struct Case {
-    /// A few words.
-    pub name: &'static str,
-    /// What is tried, and what counts as right.
-    pub rule: &'static str,
-    /// Whether it can be tried on a user's own scene.
-    pub any_scene: bool,
-    pub run: fn(&Trial<'_>) -> Outcome,
-}
 
 /// All cases by theme.
 pub static CASES: &[(&str, &[Case])] = &[

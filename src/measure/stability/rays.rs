@@ -1,7 +1,8 @@
 //! Rays that arithmetic likes least.
 
+use super::case::Case;
 use super::scenes::{aims, aims_from, ball, base, features, spread, torus, unit};
-use super::{Case, Outcome, Trial};
+use super::trial::{Outcome, Trial};
 use crate::geometry::{Ray, Vec3};
 use crate::measure::judge::Answer;
 use crate::primitive::{Primitive, Shape};

@@ -1,6 +1,6 @@
 //! Scenes and rays that cases share. All of them are the same everywhere.
 
-use super::Trial;
+use super::trial::Trial;
 use crate::geometry::{Ray, Vec3};
 use crate::primitive::{Polygon, Primitive, Shape, Sphere, Triangle};
 use crate::scene::{Camera, Light, Material, Scene, SceneParts, builtin};

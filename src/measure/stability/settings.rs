@@ -1,7 +1,8 @@
 //! Settings at the ends of their ranges.
 
+use super::case::Case;
 use super::scenes::{aims, base, polygon, scene_of, sphere};
-use super::{Case, Outcome, Trial};
+use super::trial::{Outcome, Trial};
 use crate::geometry::Vec3;
 use crate::measure::unsplit;
 use crate::scene::{Camera, CameraError, Material, Scene, SceneParts};

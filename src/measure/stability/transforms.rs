@@ -1,7 +1,8 @@
 //! The whole scene scaled and moved.
 
+use super::case::Case;
 use super::scenes::{aims, ball, base, features, polygon, scene_of, sphere, triangle};
-use super::{Case, Outcome, Trial};
+use super::trial::{Outcome, Trial};
 use crate::geometry::{Ray, Vec3};
 use crate::measure::judge::{Answer, Tolerance, Verdict, scale_of, settle};
 use crate::measure::unsplit;

@@ -2,13 +2,9 @@
 //! leaf sizes is a point, measured once and written as one row. A sweep can be broken off and goes
 //! on where it was; points can be spread over machines.
 
-mod chart;
-mod curves;
 mod plan;
 mod rows;
 
-pub use chart::{Chart, ChartError, png, svg};
-pub use curves::{Curve, CurvePoint, curves, is_wide};
 pub use plan::{Plan, Point};
 pub use rows::{Form, Key, MergeError, Row, RowError, header, line, merge, read_rows};
 
@@ -118,40 +114,6 @@ pub struct Answer<'a> {
     pub rule: u32,
     /// The row with the least value among those of that depth; `None` where the sweep has none.
     pub at_rule: Option<&'a Row>,
-}
-
-impl Answer<'_> {
-    /// The answer in a sentence.
-    pub fn sentence(&self, shown: &Parameter) -> String {
-        let of = |row: &Row| {
-            let depth = super::parameter("D_MAX");
-            format!(
-                "D_MAX {}, N_OILF {}: {}",
-                depth.format(row.value(depth)),
-                row.key.n_oilf,
-                shown.format(row.value(shown))
-            )
-        };
-        let mut text = format!(
-            "{}: least {} at {}",
-            self.best.key.method,
-            shown.symbol,
-            of(self.best)
-        );
-        text += &format!("; the rule 1.2 log2 N + 2 gives D_MAX {}", self.rule);
-        match self.at_rule {
-            None => text += ", which is not among the points",
-            Some(row) => {
-                text += &format!(", where the least is at {}", of(row));
-                let both = row.value(shown).zip(self.best.value(shown));
-                let ratio = both.map(|(a, b)| a / b);
-                if let Some(ratio) = ratio.filter(|ratio| ratio.is_finite()) {
-                    text += &format!(" ({:+.1} %)", (ratio - 1.0) * 100.0);
-                }
-            }
-        }
-        text
-    }
 }
 
 /// The best settings of every method, by the least value of a parameter; methods in the order of

@@ -2,7 +2,8 @@
 
 use super::png;
 use crate::measure::heat::{HeatImage, HeatStatistics, Heatmap, RayFilter, Whole};
-use crate::measure::{grouped, parameter, significant};
+use crate::measure::parameter;
+use crate::present::number::{grouped, significant};
 use crate::present::overlay::{
     Captions, Colormap, HeatPicture, HeatScale, Range, Scale, blend, heat_colors, with_legend,
 };

@@ -2,7 +2,7 @@
 
 use super::Colormap;
 use crate::measure::heat::HeatImage;
-use crate::measure::{grouped, significant};
+use crate::present::number::{grouped, significant};
 
 /// How values spread over the colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

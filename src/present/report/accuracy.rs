@@ -1,8 +1,8 @@
 //! The trade of time for accuracy: text for people, JSON and CSV for programs.
 
-use super::plain_table;
+use super::table::plain_table;
 use crate::measure::accuracy::{Outcome, Trade};
-use crate::measure::significant;
+use crate::present::number::significant;
 use serde_json::{Value, json};
 use std::io::{Result, Write};
 

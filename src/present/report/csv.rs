@@ -1,6 +1,9 @@
 //! CSV for spreadsheets and statistics: one line for every parameter of every run.
 
-use super::{Report, Writer, exact_value, per_kind};
+use super::content::Report;
+use super::exact::exact_value;
+use super::per_kind;
+use super::writer::Writer;
 use crate::measure::{DELTA, LAMBDA, PARAMETERS, Unit};
 use serde_json::Value;
 use std::io::{Result, Write};

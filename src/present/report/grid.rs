@@ -1,6 +1,7 @@
 //! A plain table of text in the forms for people: terminal, Markdown, LaTeX.
 
-use super::{latex, markdown, text};
+use super::escape;
+use super::table::plain_table;
 use std::io::{Result, Write};
 
 /// A table: titles, and lines of as many cells each.
@@ -19,7 +20,7 @@ impl Grid {
     /// # Errors
     /// Those of `out`.
     pub fn write_text(&self, out: &mut dyn Write) -> Result<()> {
-        let mut table = text::plain_table(self.header.clone(), self.first_number);
+        let mut table = plain_table(self.header.clone(), self.first_number);
         for row in &self.rows {
             table.add_row(row.clone());
         }
@@ -32,10 +33,10 @@ impl Grid {
     /// Those of `out`.
     pub fn write_markdown(&self, out: &mut dyn Write) -> Result<()> {
         let line = |cells: &[String]| {
-            let cells: Vec<_> = cells.iter().map(|cell| markdown::escaped(cell)).collect();
+            let cells: Vec<_> = cells.iter().map(|cell| escape::markdown(cell)).collect();
             format!("| {} |", cells.join(" | "))
         };
-        writeln!(out, "\n## {}\n", markdown::escaped(&self.title))?;
+        writeln!(out, "\n## {}\n", escape::markdown(&self.title))?;
         writeln!(out, "{}", line(&self.header))?;
         let numbers = self.header.len() - self.first_number;
         let rule = "---|".repeat(self.first_number) + &"--:|".repeat(numbers);
@@ -51,7 +52,7 @@ impl Grid {
     /// Those of `out`.
     pub fn write_latex(&self, out: &mut dyn Write) -> Result<()> {
         let line = |cells: &[String]| {
-            let cells: Vec<_> = cells.iter().map(|cell| latex::escaped(cell)).collect();
+            let cells: Vec<_> = cells.iter().map(|cell| escape::latex(cell)).collect();
             format!("{} \\\\", cells.join(" & "))
         };
         let numbers = self.header.len() - self.first_number;

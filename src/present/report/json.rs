@@ -1,6 +1,9 @@
 //! JSON for programs: the paper's symbols as keys, shares as fractions, times in seconds.
 
-use super::{Report, SceneSummary, Writer, exact_value, per_kind};
+use super::content::{Report, SceneSummary};
+use super::exact::exact_value;
+use super::per_kind;
+use super::writer::Writer;
 use crate::measure::{DELTA, LAMBDA, Measurement, PARAMETERS, parameter};
 use crate::structure::MaxDepth;
 use serde_json::{Map, Value, json};

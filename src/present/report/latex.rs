@@ -1,7 +1,9 @@
 //! LaTeX tables for papers, in the manner of the paper's Table 5; no package is needed.
 
+use super::content::Report;
 use super::sections::{Section, delta_and_lambda, rows, tables, value_titles};
-use super::{Report, Writer, per_kind, words};
+use super::writer::Writer;
+use super::{escape, per_kind, words};
 use std::io::{Result, Write};
 
 pub(super) const WRITER: Writer = Writer {
@@ -30,7 +32,7 @@ fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
 fn write_section(section: &Section, report: &Report, out: &mut dyn Write) -> Result<()> {
     let titles: Vec<_> = value_titles(report)
         .iter()
-        .map(|title| format!("\\multicolumn{{1}}{{c}}{{{}}}", escaped(title)))
+        .map(|title| format!("\\multicolumn{{1}}{{c}}{{{}}}", escape::latex(title)))
         .collect();
     writeln!(out, "\n% {}", section.title)?;
     writeln!(
@@ -41,15 +43,15 @@ fn write_section(section: &Section, report: &Report, out: &mut dyn Write) -> Res
     writeln!(
         out,
         "\\multicolumn{{2}}{{l}}{{{}}} & {} \\\\\n\\hline",
-        escaped(section.title),
+        escape::latex(section.title),
         titles.join(" & ")
     )?;
     for row in rows(section, report) {
         let mut symbol = symbol(row.parameter.symbol);
         if !row.unit().is_empty() {
-            symbol += &format!(" [{}]", escaped(row.unit()));
+            symbol += &format!(" [{}]", escape::latex(row.unit()));
         }
-        let mut cells = vec![symbol, escaped(row.parameter.name)];
+        let mut cells = vec![symbol, escape::latex(row.parameter.name)];
         cells.extend(row.values.iter().map(|value| number(value)));
         cells.extend(row.second_to_first.as_deref().map(number));
         writeln!(out, "{} \\\\", cells.join(" & "))?;
@@ -71,31 +73,7 @@ fn symbol(symbol: &str) -> String {
 
 /// A number, whose groups of digits must not come apart at the end of a line.
 fn number(text: &str) -> String {
-    escaped(text).replace(' ', "\\,")
-}
-
-/// Text with the characters that mean something to LaTeX, or that its old fonts lack, replaced.
-pub(super) fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for c in text.chars() {
-        match c {
-            '#' | '$' | '%' | '&' | '_' | '{' | '}' => {
-                out.push('\\');
-                out.push(c);
-            }
-            '\\' => out += "\\textbackslash{}",
-            '~' => out += "\\textasciitilde{}",
-            '^' => out += "\\textasciicircum{}",
-            '³' => out += "$^3$",
-            'Δ' => out += "$\\Delta$",
-            'Λ' => out += "$\\Lambda$",
-            '–' => out += "--",
-            '≠' => out += "$\\neq$",
-            '→' => out += "$\\to$",
-            c => out.push(c),
-        }
-    }
-    out
+    escape::latex(text).replace(' ', "\\,")
 }
 
 #[cfg(test)]
@@ -111,7 +89,7 @@ mod tests {
 
     #[test]
     fn text_is_escaped() {
-        assert_eq!(escaped("a_b 5 %"), "a\\_b 5 \\%");
+        assert_eq!(escape::latex("a_b 5 %"), "a\\_b 5 \\%");
         assert_eq!(number("2 127 616"), "2\\,127\\,616");
     }
 }

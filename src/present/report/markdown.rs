@@ -1,7 +1,9 @@
 //! Markdown tables for issues and notes.
 
+use super::content::Report;
 use super::sections::{Section, delta_and_lambda, rows, tables, value_titles};
-use super::{Report, Writer, per_kind, words};
+use super::writer::Writer;
+use super::{escape, per_kind, words};
 use std::io::{Result, Write};
 
 pub(super) const WRITER: Writer = Writer {
@@ -12,14 +14,14 @@ pub(super) const WRITER: Writer = Writer {
 };
 
 fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
-    writeln!(out, "# {}\n", escaped(&report.scene.name))?;
+    writeln!(out, "# {}\n", escape::markdown(&report.scene.name))?;
     let lines = [
         words::scene(report),
         words::settings(report),
         words::times(report),
     ];
     for line in lines.concat() {
-        writeln!(out, "- {}", escaped(&line))?;
+        writeln!(out, "- {}", escape::markdown(&line))?;
     }
     for section in delta_and_lambda().into_iter().chain(tables()) {
         write_section(&section, report, out)?;
@@ -49,16 +51,4 @@ fn write_section(section: &Section, report: &Report, out: &mut dyn Write) -> Res
         writeln!(out, "| {} |", cells.join(" | "))?;
     }
     Ok(())
-}
-
-/// Text with the characters that Markdown would take for markup escaped.
-pub(super) fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for c in text.chars() {
-        if matches!(c, '\\' | '`' | '*' | '_' | '|' | '<' | '[' | '#') {
-            out.push('\\');
-        }
-        out.push(c);
-    }
-    out
 }

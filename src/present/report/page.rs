@@ -1,8 +1,10 @@
 //! A report as one HTML file that refers to nothing outside: pictures, tables, settings, machine.
 
+use super::content::Report;
+use super::exact::exact_value;
 use super::machine::Machine;
 use super::sections::{Section, delta_and_lambda, rows, tables, value_titles};
-use super::{Report, exact_value, words};
+use super::words;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};

@@ -1,9 +1,11 @@
 //! The paper's tables, printed figures beside computed ones.
 
+use super::escape;
 use super::grid::Grid;
-use super::{Writer, markdown};
-use crate::measure::paper::{CHARACTERISTICS, Cell, Mark, Reproduction, printed_unit};
+use super::writer::Writer;
+use crate::measure::paper::{CHARACTERISTICS, Cell, Mark, Reproduction};
 use crate::measure::parameter;
+use crate::present::words::printed_unit;
 use serde_json::{Map, Value, json};
 use std::io::{Result, Write};
 
@@ -65,14 +67,14 @@ fn write_text(results: &[Reproduction], out: &mut dyn Write) -> Result<()> {
 }
 
 fn write_markdown(results: &[Reproduction], out: &mut dyn Write) -> Result<()> {
-    writeln!(out, "{}", markdown::escaped(&legend()))?;
+    writeln!(out, "{}", escape::markdown(&legend()))?;
     for grid in grids(results) {
         grid.write_markdown(out)?;
     }
     writeln!(out)?;
     remarks(results)
         .iter()
-        .try_for_each(|remark| writeln!(out, "- {}", markdown::escaped(remark)))
+        .try_for_each(|remark| writeln!(out, "- {}", escape::markdown(remark)))
 }
 
 fn write_latex(results: &[Reproduction], out: &mut dyn Write) -> Result<()> {

@@ -1,8 +1,9 @@
 //! What rays of every kind did, kind by kind: tables for people, values for programs.
 
+use super::content::Report;
+use super::exact::exact;
 use super::grid::Grid;
 use super::sections::{NO_VALUE, value_titles};
-use super::{Report, exact};
 use crate::measure::{Change, RAY_FIGURES, RayFigure, change};
 use crate::trace::RayKind;
 use serde_json::{Map, Value, json};

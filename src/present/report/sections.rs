@@ -1,6 +1,6 @@
 //! The tables of a report, as all writers for people show them.
 
-use super::Report;
+use super::content::Report;
 use crate::measure::{Class, DELTA, LAMBDA, PARAMETERS, Parameter, Table, change, parameter};
 
 /// What stands where there is no value.

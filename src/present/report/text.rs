@@ -1,8 +1,10 @@
 //! Plain text for a terminal: Δ and Λ first, then every parameter.
 
+use super::content::Report;
 use super::sections::{Section, delta_and_lambda, rows, tables, value_titles};
-use super::{Report, Writer, per_kind, words};
-use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
+use super::table::plain_table;
+use super::writer::Writer;
+use super::{per_kind, words};
 use std::io::{Result, Write};
 
 pub(super) const WRITER: Writer = Writer {
@@ -69,17 +71,4 @@ fn write_section(
     }
     writeln!(out, "\n{}", section.title)?;
     writeln!(out, "{}", table.trim_fmt())
-}
-
-/// An empty table with a line under its titles; columns from `first_number` on are set to the right.
-pub fn plain_table(titles: Vec<String>, first_number: usize) -> Table {
-    let rule = LineStyle::none().fill('─').junction('─');
-    let mut table = Table::new();
-    table
-        .load_style(TableStyle::new().header_separator(rule))
-        .set_header(titles);
-    for column in table.column_iter_mut().skip(first_number) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    table
 }

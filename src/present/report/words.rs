@@ -1,6 +1,6 @@
 //! What a report says in sentences: the scene, the settings, the times.
 
-use super::Report;
+use super::content::Report;
 use crate::geometry::Vec3;
 use crate::measure::Measurement;
 use crate::scene::Sampling;

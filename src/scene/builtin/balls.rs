@@ -1,10 +1,12 @@
 //! `balls`: the sphereflake (E. Haines, Standard Procedural Databases).
 
-use super::Builtin;
+use super::entry::{Builtin, SPD_BACKGROUND};
 use super::percent_g::{round_g, round_point};
 use crate::geometry::Vec3;
 use crate::primitive::{Polygon, Primitive, Sphere};
-use crate::scene::{Camera, Light, Material, SceneParts};
+use crate::scene::camera::Camera;
+use crate::scene::material::{Light, Material};
+use crate::scene::parts::SceneParts;
 use glam::DMat3;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -66,7 +68,7 @@ fn generate(size: u32) -> SceneParts {
                 color: None,
             })
             .to_vec(),
-        background: super::SPD_BACKGROUND,
+        background: SPD_BACKGROUND,
         camera: Camera {
             from: Vec3::new(2.1, 1.3, 1.7),
             at: Vec3::ZERO,

@@ -6,11 +6,13 @@
 //! L. M. Milne-Thomson, Theoretical Hydrodynamics, chapter 15), and every streamline carries a bead
 //! at equal steps of time.
 
-use super::Builtin;
+use super::entry::{Builtin, SPD_BACKGROUND, reconstruction_note};
 use super::percent_g::round_point;
 use crate::geometry::Vec3;
 use crate::primitive::{Primitive, Sphere};
-use crate::scene::{Camera, Light, Material, SceneParts};
+use crate::scene::camera::Camera;
+use crate::scene::material::{Light, Material};
+use crate::scene::parts::SceneParts;
 
 pub(super) const BUILTIN: Builtin = Builtin {
     name: "fluid",
@@ -51,7 +53,7 @@ fn generate(size: u32) -> SceneParts {
         ]
         .map(light)
         .to_vec(),
-        background: super::SPD_BACKGROUND,
+        background: SPD_BACKGROUND,
         camera: Camera {
             from: Vec3::new(2.5, 3.0, 9.5),
             at: Vec3::new(0.5, 0.0, 0.0),
@@ -60,7 +62,7 @@ fn generate(size: u32) -> SceneParts {
             near: 1.0,
             resolution: [512, 512],
         },
-        notes: vec![super::reconstruction_note("fluid")],
+        notes: vec![reconstruction_note("fluid")],
     }
 }
 

@@ -5,11 +5,14 @@
 //! 2899 objects in all: 2514 spheres, 384 quadrangles of a 24 × 16 torus and the plane, which makes
 //! the scene's box so large that R_BBSC falls to 1.32 %.
 
+use super::entry::{Builtin, SPD_BACKGROUND, reconstruction_note};
+use super::fluid;
 use super::percent_g::round_point;
-use super::{Builtin, fluid};
 use crate::geometry::Vec3;
 use crate::primitive::{Polygon, Primitive};
-use crate::scene::{Camera, Material, SceneParts};
+use crate::scene::camera::Camera;
+use crate::scene::material::Material;
+use crate::scene::parts::SceneParts;
 use std::f64::consts::TAU;
 
 pub(super) const BUILTIN: Builtin = Builtin {
@@ -63,7 +66,7 @@ fn generate(size: u32) -> SceneParts {
         lights: [(5.0, 6.0, 6.0), (-4.0, 5.0, 3.0)]
             .map(fluid::light)
             .to_vec(),
-        background: super::SPD_BACKGROUND,
+        background: SPD_BACKGROUND,
         camera: Camera {
             from: Vec3::new(3.0, 1.6, 6.0),
             at: Vec3::new(0.5, -0.35, 0.0),
@@ -72,7 +75,7 @@ fn generate(size: u32) -> SceneParts {
             near: 1.0,
             resolution: [512, 512],
         },
-        notes: vec![super::reconstruction_note("m-fluid")],
+        notes: vec![reconstruction_note("m-fluid")],
     }
 }
 

@@ -1,6 +1,7 @@
 //! Generated scenes. A generator is one file here and one line in [`BUILTINS`].
 
 mod balls;
+mod entry;
 mod fluid;
 mod m_fluid;
 mod percent_g;
@@ -9,22 +10,9 @@ mod room;
 mod teaching;
 mod tetra;
 
-use super::{Note, NoteKind, SceneParts};
-use crate::geometry::Vec3;
+pub use entry::Builtin;
 
-/// A scene generator.
-pub struct Builtin {
-    /// Name on the command line and in lists.
-    pub name: &'static str,
-    /// One sentence: what it shows.
-    pub about: &'static str,
-    /// The size that the paper used; 1 where there is no other.
-    pub default_size: u32,
-    /// The sizes allowed.
-    pub sizes: std::ops::RangeInclusive<u32>,
-    /// Makes the scene of this size.
-    pub generate: fn(u32) -> SceneParts,
-}
+use crate::scene::parts::SceneParts;
 
 /// All generators.
 pub static BUILTINS: &[Builtin] = &[
@@ -36,18 +24,6 @@ pub static BUILTINS: &[Builtin] = &[
     room::BUILTIN,
     teaching::BUILTIN,
 ];
-
-/// Linear background colour of the Standard Procedural Databases.
-const SPD_BACKGROUND: Vec3 = Vec3::new(0.078, 0.361, 0.753);
-
-/// What a scene says that stands in for one that was never published.
-fn reconstruction_note(name: &str) -> Note {
-    let text = format!(
-        "A reconstruction: the scene '{name}' of the paper was never published. This one was made \
-         anew to meet its figures in Table 4 and the directions in Table 6."
-    );
-    Note::new(NoteKind::Remark, text)
-}
 
 /// Why a generator gave no scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,10 +1,12 @@
 //! `rings`: a pyramid of interlocked rings (E. Haines, Standard Procedural Databases).
 
-use super::Builtin;
+use super::entry::{Builtin, SPD_BACKGROUND};
 use super::percent_g::{round_g, round_point};
 use crate::geometry::Vec3;
 use crate::primitive::{Cone, Polygon, Primitive, Sphere};
-use crate::scene::{Camera, Light, Material, SceneParts};
+use crate::scene::camera::Camera;
+use crate::scene::material::{Light, Material};
+use crate::scene::parts::SceneParts;
 use std::f64::consts::PI;
 
 pub(super) const BUILTIN: Builtin = Builtin {
@@ -54,7 +56,7 @@ fn generate(size: u32) -> SceneParts {
             color: None,
         })
         .to_vec(),
-        background: super::SPD_BACKGROUND,
+        background: SPD_BACKGROUND,
         camera: Camera {
             from: round_point(Vec3::new(-1.0, -spacing, 0.5)),
             at: Vec3::new(-1.0, 0.0, 0.5),

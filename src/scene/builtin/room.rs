@@ -7,11 +7,13 @@
 //! layers; with method 2, 5.4 references a leaf and R_FVWV of 41 % mean closed boxes left whole.
 //! So furniture, walls and goods on shelves are boxes of boards (an outer and an inner skin).
 
-use super::Builtin;
+use super::entry::{Builtin, SPD_BACKGROUND, reconstruction_note};
 use super::percent_g::round_point;
 use crate::geometry::Vec3;
 use crate::primitive::{Polygon, Primitive};
-use crate::scene::{Camera, Light, Material, SceneParts};
+use crate::scene::camera::Camera;
+use crate::scene::material::{Light, Material};
+use crate::scene::parts::SceneParts;
 
 pub(super) const BUILTIN: Builtin = Builtin {
     name: "room",
@@ -76,7 +78,7 @@ fn generate(size: u32) -> SceneParts {
                 color: None,
             })
             .to_vec(),
-        background: super::SPD_BACKGROUND,
+        background: SPD_BACKGROUND,
         camera: Camera {
             from: Vec3::new(4.5, -8.0, 3.0),
             at: Vec3::new(-0.2, 0.0, 1.0),
@@ -85,7 +87,7 @@ fn generate(size: u32) -> SceneParts {
             near: 1.0,
             resolution: [512, 512],
         },
-        notes: vec![super::reconstruction_note("room")],
+        notes: vec![reconstruction_note("room")],
     }
 }
 

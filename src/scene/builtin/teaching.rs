@@ -1,11 +1,13 @@
 //! `teaching`: a small scene with every kind of primitive, few enough to follow each one's way
 //! through the tree.
 
-use super::Builtin;
+use super::entry::Builtin;
 use super::percent_g::round_point;
 use crate::geometry::Vec3;
 use crate::primitive::{Cone, Polygon, Primitive, Sphere, Triangle};
-use crate::scene::{Camera, Light, Material, SceneParts};
+use crate::scene::camera::Camera;
+use crate::scene::material::{Light, Material};
+use crate::scene::parts::SceneParts;
 
 pub(super) const BUILTIN: Builtin = Builtin {
     name: "teaching",

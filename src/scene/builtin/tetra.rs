@@ -1,10 +1,12 @@
 //! `tetra`: a tetrahedral pyramid (E. Haines, Standard Procedural Databases).
 
-use super::Builtin;
+use super::entry::{Builtin, SPD_BACKGROUND};
 use super::percent_g::round_point;
 use crate::geometry::Vec3;
 use crate::primitive::{Primitive, Triangle};
-use crate::scene::{Camera, Light, Material, SceneParts};
+use crate::scene::camera::Camera;
+use crate::scene::material::{Light, Material};
+use crate::scene::parts::SceneParts;
 
 pub(super) const BUILTIN: Builtin = Builtin {
     name: "tetra",
@@ -43,7 +45,7 @@ fn generate(size: u32) -> SceneParts {
             position: Vec3::new(2.0, -18.0, -5.0),
             color: None,
         }],
-        background: super::SPD_BACKGROUND,
+        background: SPD_BACKGROUND,
         camera: Camera {
             from: Vec3::new(1.022846, -3.177154, -2.174512),
             at: Vec3::new(-0.004103, -0.004103, 0.216539),

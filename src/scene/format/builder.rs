@@ -1,10 +1,15 @@
 //! Builds a scene from what a reader finds. Faces become triangles and polygons; faces that cannot
 //! are skipped and counted.
 
-use super::{Place, ReadError, complete};
+use super::complete;
+use super::error::ReadError;
+use super::place::Place;
 use crate::geometry::{Aabb, Vec3};
 use crate::primitive::{Polygon, Primitive, PrimitiveKind, ShapeError, Triangle};
-use crate::scene::{Camera, Light, Material, Note, NoteKind, SceneParts};
+use crate::scene::camera::Camera;
+use crate::scene::material::{Light, Material};
+use crate::scene::note::{Note, NoteKind};
+use crate::scene::parts::SceneParts;
 use std::collections::HashMap;
 
 /// Maximum number of objects and skipped faces of a file, including instances of meshes. This many

@@ -1,6 +1,7 @@
 //! Detection of a file's format.
 
-use super::{FORMATS, Format, for_path};
+use super::entry::Format;
+use super::registry::{FORMATS, for_path};
 use std::path::Path;
 
 /// Returns the format of a file, with a remark on how it was detected; `None` if neither extension

@@ -2,7 +2,10 @@
 
 use crate::geometry::{Aabb, Vec3};
 use crate::primitive::{Primitive, Shape};
-use crate::scene::{Camera, Light, Note, NoteKind, SceneParts};
+use crate::scene::camera::Camera;
+use crate::scene::material::Light;
+use crate::scene::note::{Note, NoteKind};
+use crate::scene::parts::SceneParts;
 
 /// Background for formats without one: gray, so that both dark and light objects stand out.
 pub(super) const BACKGROUND: Vec3 = Vec3::splat(0.18);

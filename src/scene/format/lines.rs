@@ -1,6 +1,7 @@
 //! The lines of a text file, with their numbers.
 
-use super::{Place, ReadError};
+use super::error::ReadError;
+use super::place::Place;
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
 use std::fmt::Display;

@@ -7,11 +7,14 @@
 //! costs no memory.
 
 use super::builder::{MAX_VERTICES, SceneBuilder};
+use super::entry::Format;
+use super::error::ReadError;
 use super::lines::{Lines, quoted};
-use super::{Format, Place, ReadError};
+use super::place::Place;
 use crate::geometry::Vec3;
 use crate::progress::Progress;
-use crate::scene::{NoteKind, SceneParts};
+use crate::scene::note::NoteKind;
+use crate::scene::parts::SceneParts;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{
     ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,

@@ -5,11 +5,14 @@
 //! The up direction is Z, as on the machines that STL was designed for.
 
 use super::builder::SceneBuilder;
+use super::entry::Format;
+use super::error::ReadError;
 use super::lines::Lines;
-use super::{Format, Place, ReadError};
+use super::place::Place;
 use crate::geometry::Vec3;
 use crate::progress::Progress;
-use crate::scene::{NoteKind, SceneParts};
+use crate::scene::note::NoteKind;
+use crate::scene::parts::SceneParts;
 
 pub(super) const FORMAT: Format = Format {
     name: "stl",

@@ -1,7 +1,6 @@
 //! The objects of a cell.
 
-use crate::structure::ObjectPlanes;
-use crate::structure::frame::is_inside;
+use crate::structure::frame::{ObjectPlanes, is_inside};
 
 /// Numbers of the objects of a cell: those inside it, and those that only touch it from outside, which
 /// are inside none of its parts either.

@@ -1,9 +1,10 @@
 //! How much a build has taken and may take.
 
-use super::{BuildError, Node};
+use super::error::BuildError;
 use crate::geometry::Aabb;
-use crate::structure::ObjectPlanes;
-use crate::structure::split::Structure;
+use crate::structure::frame::ObjectPlanes;
+use crate::structure::method::Structure;
+use crate::structure::node::Node;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// What the parts of a build hold together. Whether a tree fits does not depend on the order in which

@@ -1,9 +1,10 @@
 //! Which objects of a cell belong to its parts.
 
-use super::CellObjects;
+use super::cell_objects::CellObjects;
 use crate::geometry::{Aabb, Axis};
 use crate::primitive::{Primitive, PrimitiveKind, Shape};
-use crate::structure::{BuildSettings, Frame, ObjectPlanes, OverlapRule};
+use crate::structure::frame::{Frame, ObjectPlanes};
+use crate::structure::settings::{BuildSettings, OverlapRule};
 
 /// Decides whether an object belongs to a cell into whose parent it came.
 pub(super) struct Overlap<'a> {

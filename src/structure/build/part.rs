@@ -1,8 +1,10 @@
 //! A subtree in arrays of its own.
 
-use super::{BuildError, CellObjects, Limits, Node};
+use super::cell_objects::CellObjects;
+use super::error::BuildError;
+use super::limits::Limits;
 use crate::geometry::Axis;
-use crate::structure::StopReason;
+use crate::structure::node::{Node, StopReason};
 
 /// Nodes and references of a subtree in depth-first order, numbered from 0.
 #[derive(Default)]

@@ -1,8 +1,10 @@
 //! A uniform grid of about cubic voxels.
 
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
+use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::{Axis, Vec3};
-use crate::structure::{BuildSettings, StopReason};
+use crate::structure::method::{Constant, Structure};
+use crate::structure::node::StopReason;
+use crate::structure::settings::{BuildSettings, MethodInfo};
 use std::sync::OnceLock;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {

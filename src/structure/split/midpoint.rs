@@ -1,7 +1,9 @@
 //! The paper's method 1: the middle of the cell, axes in cyclic order.
 
-use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
+use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::Axis;
+use crate::structure::method::Structure;
+use crate::structure::settings::MethodInfo;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "midpoint",

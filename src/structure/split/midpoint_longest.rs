@@ -1,6 +1,8 @@
 //! The middle of the cell's longest axis.
 
-use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
+use super::rule::{Cell, Decision, SplitRule};
+use crate::structure::method::Structure;
+use crate::structure::settings::MethodInfo;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "midpoint-longest",

@@ -1,7 +1,9 @@
 //! No tree at all: one leaf that holds every object. The naive tracer, and the judge of all others.
 
-use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
-use crate::structure::StopReason;
+use super::rule::{Cell, Decision, SplitRule};
+use crate::structure::method::Structure;
+use crate::structure::node::StopReason;
+use crate::structure::settings::MethodInfo;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "none",

@@ -1,8 +1,10 @@
 //! The object median: as many objects below the plane as above it.
 
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
+use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::Axis;
-use crate::structure::{BuildSettings, StopReason};
+use crate::structure::method::{Constant, Structure};
+use crate::structure::node::StopReason;
+use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "object-median",

@@ -3,8 +3,10 @@
 //! Its leaves, and so all that is counted of leaves, are those of an octree with children by eights.
 //! Its inner nodes are the planes that part the children, seven a node: x, then y, then z.
 
-use super::{Cell, Decision, MethodInfo, SplitRule, Structure};
+use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::Axis;
+use crate::structure::method::Structure;
+use crate::structure::settings::MethodInfo;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "octree",

@@ -7,14 +7,18 @@
 //! blocks leave it out, as the neighbour has it.
 
 mod bins;
+mod cost;
 mod every_plane;
 mod extents;
 mod grid;
 
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
+use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::Axis;
-use crate::structure::{BuildSettings, StopReason};
+use crate::structure::method::{Constant, Structure};
+use crate::structure::node::StopReason;
+use crate::structure::settings::{BuildSettings, MethodInfo};
 use bins::Bins;
+use cost::{Areas, Best, Costs};
 use every_plane::Search;
 use extents::Extents;
 
@@ -90,87 +94,32 @@ pub(super) const CLIP: Constant = Constant {
     source: "V. Havran, Heuristic ray shooting algorithms, 2000 (split clipping)",
 };
 
-/// The ends of an extent along an axis, as planes.
-type Extent = [f32; 2];
-
 struct Sah {
-    block: u32,
-    traversal_cost: f32,
-    empty_factor: f32,
+    costs: Costs,
     exact: usize,
     clip: bool,
-}
-
-/// A plane and how many objects have a part on either side of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Plane {
-    at: f32,
-    below: usize,
-    above: usize,
-}
-
-/// The cheapest that was found for a cell.
-struct Best {
-    cost: f32,
-    /// `None` is a leaf.
-    plane: Option<(Axis, f32)>,
-}
-
-impl Best {
-    /// Of planes that cost the same the first along the first axis stays.
-    fn offer(&mut self, axis: Axis, at: f32, cost: f32) {
-        let earlier = |(other, plane): (Axis, f32)| (axis.index(), at) < (other.index(), plane);
-        let earlier = self.plane.is_some_and(earlier);
-        if cost < self.cost || cost == self.cost && earlier {
-            *self = Best {
-                cost,
-                plane: Some((axis, at)),
-            };
-        }
-    }
 }
 
 impl Sah {
     fn new(settings: &BuildSettings) -> Self {
         Sah {
-            block: settings.constant("block") as u32,
-            traversal_cost: settings.constant("traversal-cost") as f32,
-            empty_factor: settings.constant("empty-factor") as f32,
+            costs: Costs::new(settings),
             exact: settings.constant("exact") as usize,
             clip: settings.constant(CLIP.name) > 0.5,
         }
-    }
-
-    fn blocks(&self, objects: usize) -> f32 {
-        (objects as u32).div_ceil(self.block) as f32
-    }
-
-    /// Expected cost of a ray through the cell if it is split, in tests of a block, without the
-    /// factor for empty sides.
-    fn cost_of_parts(&self, plane: &Plane, areas: &Areas) -> f32 {
-        let work = areas.below(plane.at) * self.blocks(plane.below)
-            + areas.above(plane.at) * self.blocks(plane.above);
-        self.traversal_cost + work
-    }
-
-    /// The same with that factor.
-    fn cost(&self, plane: &Plane, areas: &Areas) -> f32 {
-        let empty = plane.below == 0 || plane.above == 0;
-        let factor = if empty { self.empty_factor } else { 1.0 };
-        factor * self.cost_of_parts(plane, areas)
     }
 
     /// The cheapest of the limits of bins.
     fn best_bin_limit(&self, cell: &Cell<'_>) -> Best {
         let bins = Bins::of(cell, self.clip);
         let mut best = Best {
-            cost: self.blocks(bins.objects()),
+            cost: self.costs.blocks(bins.objects()),
             plane: None,
         };
         for axis in Axis::ALL {
             let areas = Areas::new(cell, axis);
             for plane in bins.planes(axis).filter(|p| cell.divides(axis, p.at)) {
-                best.offer(axis, plane.at, self.cost(&plane, &areas));
+                best.offer(axis, plane.at, self.costs.cost(&plane, &areas));
             }
         }
         best
@@ -180,7 +129,7 @@ impl Sah {
     fn best_plane(&self, cell: &Cell<'_>) -> Best {
         Extents::with(cell, self.clip, |extents, scratch| {
             let mut best = Best {
-                cost: self.blocks(extents.objects()),
+                cost: self.costs.blocks(extents.objects()),
                 plane: None,
             };
             let size = cell.bounds.size();
@@ -189,7 +138,8 @@ impl Sah {
             for axis in axes {
                 let areas = Areas::new(cell, axis);
                 let ends = cell.local[axis.index()];
-                Search::new(self, &areas, axis, ends, &mut best).run(extents.along(axis), scratch);
+                Search::new(&self.costs, &areas, axis, ends, &mut best)
+                    .run(extents.along(axis), scratch);
             }
             best
         })
@@ -207,36 +157,5 @@ impl SplitRule for Sah {
             Some((axis, plane)) => Decision::Split { axis, plane },
             None => Decision::Leaf(StopReason::LeafIsCheaper),
         }
-    }
-}
-
-/// Surface areas of the two parts of a cell as shares of the cell's, linear in the plane.
-struct Areas {
-    ends: Extent,
-    /// Share of the two faces parallel to the plane.
-    faces: f32,
-    /// Share of the other four faces, a unit of the plane's coordinate.
-    rim: f32,
-}
-
-impl Areas {
-    fn new(cell: &Cell<'_>, axis: Axis) -> Self {
-        let (k, size) = (axis.index(), cell.bounds.size());
-        let (u, v) = (size[(k + 1) % 3], size[(k + 2) % 3]);
-        let ends = cell.local[k];
-        let area = cell.bounds.surface_area();
-        Areas {
-            ends,
-            faces: (2.0 * u * v / area) as f32,
-            rim: (2.0 * (u + v) * size[k] / area) as f32 / (ends[1] - ends[0]),
-        }
-    }
-
-    fn below(&self, plane: f32) -> f32 {
-        self.faces + self.rim * (plane - self.ends[0])
-    }
-
-    fn above(&self, plane: f32) -> f32 {
-        self.faces + self.rim * (self.ends[1] - plane)
     }
 }

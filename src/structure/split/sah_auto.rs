@@ -5,12 +5,14 @@
 //! With no such allowance and a quality ratio of 1, a cell is a leaf where no split costs less: the
 //! plain cost stop. The method's greatest depth is that of `D_MAX` automatic.
 
+use super::rule::{Cell, Decision, SplitRule};
 use super::sah::CLIP;
 use super::sweep::{Areas, Sweep};
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
 use crate::geometry::{Aabb, Axis};
 use crate::primitive::Shape;
-use crate::structure::{BuildSettings, StopReason};
+use crate::structure::method::{Constant, Structure};
+use crate::structure::node::StopReason;
+use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-auto",

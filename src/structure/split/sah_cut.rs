@@ -5,10 +5,12 @@
 //! bounds, clipped to the cell. The best split must pay before a gap is cut; a cut takes both ends
 //! of the gap at once and counts as one level of depth.
 
+use super::rule::{Cell, Decision, SplitRule};
 use super::sweep::{Areas, CandidatePlane, Sweep};
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
 use crate::geometry::Axis;
-use crate::structure::{BuildSettings, StopReason};
+use crate::structure::method::{Constant, Structure};
+use crate::structure::node::StopReason;
+use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-cut",

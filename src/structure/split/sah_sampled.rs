@@ -3,10 +3,12 @@
 //! Octree-R is an octree whose three planes are moved from the middle of a node to where the estimated
 //! number of tests is least. In a bintree one plane at a time is, along the cheapest axis or in turn.
 
+use super::rule::{Cell, Decision, SplitRule};
 use super::sweep::Areas;
-use super::{Cell, Constant, Decision, MethodInfo, SplitRule, Structure};
 use crate::geometry::Axis;
-use crate::structure::{BuildSettings, StopReason};
+use crate::structure::method::{Constant, Structure};
+use crate::structure::node::StopReason;
+use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-sampled",

@@ -1,6 +1,6 @@
 //! Candidate planes just outside the ends of a cell's objects, with what lies on their two sides.
 
-use super::Cell;
+use super::rule::Cell;
 use crate::geometry::{Aabb, Axis};
 
 /// Where the objects of a cell begin and end along an axis, each sorted.

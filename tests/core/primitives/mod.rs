@@ -6,45 +6,9 @@ mod polygons;
 mod spheres;
 mod triangles;
 
+use crate::support::random::Random;
 use bspscope::geometry::{Aabb, Ray, Vec3};
 use bspscope::primitive::{Cone, Polygon, Shape, ShapeError, Sphere, Triangle};
-
-/// SplitMix64 (Steele, Lea and Flood, 2014): the same numbers in every run.
-struct Random(u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn within(&mut self, lo: f64, hi: f64) -> f64 {
-        lo + (hi - lo) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.bits() % n as u64) as usize
-    }
-
-    fn point(&mut self, b: &Aabb) -> Vec3 {
-        Vec3::new(
-            self.within(b.lo.x, b.hi.x),
-            self.within(b.lo.y, b.hi.y),
-            self.within(b.lo.z, b.hi.z),
-        )
-    }
-
-    fn unit(&mut self) -> Vec3 {
-        loop {
-            let v = self.point(&Aabb::new(Vec3::NEG_ONE, Vec3::ONE));
-            if (1e-3..=1.0).contains(&v.length()) {
-                return v.normalize();
-            }
-        }
-    }
-}
 
 fn cube(center: Vec3, half: f64) -> Aabb {
     Aabb::new(center - half, center + half)

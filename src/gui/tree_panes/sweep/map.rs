@@ -4,8 +4,9 @@ use super::Shown;
 use crate::gui::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::gui::tree_panes::short;
 use crate::measure::heat::HeatImage;
-use crate::measure::sweep::{Row, is_wide};
+use crate::measure::sweep::Row;
 use crate::measure::{Unit, parameter};
+use crate::present::chart::is_wide;
 use crate::present::overlay::{Colormap, HeatScale, Range, Scale, colormap};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, StrokeKind, pos2, vec2};
 

@@ -8,7 +8,7 @@ use super::is_under_pointer;
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::State;
 use crate::gui::sweeping::Found;
-use crate::gui::turns::End;
+use crate::jobs::{End, Standing};
 use crate::measure::sweep::{Row, answers, rule_depth};
 use crate::measure::{Class, PARAMETERS, Parameter, parameter};
 use crate::structure::{MaxDepth, Method};
@@ -41,10 +41,9 @@ fn choices() -> impl Iterator<Item = &'static Parameter> {
 impl SweepPane {
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
         for action in pressed(ui.ctx(), Scope::Sweep, is_under_pointer(ui)) {
-            self.act(action, state, ui.ctx());
+            self.act(action, state);
         }
-        state.sweeping.saving.receive();
-        let found = state.sweeping.turns.found();
+        let found = state.sweeping.study.found().cloned();
         ui.horizontal_wrapped(|ui| self.toolbar(ui, state, found.as_deref()));
         let Some(found) = found.filter(|found| !found.rows.is_empty()) else {
             ui.weak("Which depth, which leaf size? Every parameter over a grid of settings.");
@@ -86,9 +85,9 @@ impl SweepPane {
         }
     }
 
-    fn act(&mut self, action: Action, state: &mut State, ctx: &egui::Context) {
+    fn act(&mut self, action: Action, state: &mut State) {
         match action {
-            Action::RunSweep => state.begin_sweep(ctx),
+            Action::RunSweep => state.begin_sweep(),
             Action::NextParameter | Action::PreviousParameter => {
                 let all: Vec<_> = choices().collect();
                 let at = all.iter().position(|p| p.symbol == self.shown.symbol);
@@ -105,15 +104,15 @@ impl SweepPane {
     }
 
     fn toolbar(&mut self, ui: &mut egui::Ui, state: &mut State, found: Option<&Found>) {
-        let progress = state.sweeping.progress();
-        if progress.is_some() {
+        let status = state.sweeping.study.status();
+        if status.is_some() {
             let about = "End the sweep; its rows stay, and it can be gone on with.";
             if ui
                 .button("Cancel sweep")
                 .on_hover_text(tip(about, Action::Cancel))
                 .clicked()
             {
-                state.sweeping.turns.cancel();
+                state.sweeping.study.cancel();
             }
             ui.ctx().request_repaint_after_secs(0.2);
         } else {
@@ -127,16 +126,21 @@ impl SweepPane {
                 )
                 .clicked()
             {
-                state.begin_sweep(ui.ctx());
+                state.begin_sweep();
             }
         }
-        settings(ui, state, progress.is_none());
-        let said = match (progress, state.sweeping.turns.end()) {
-            (Some((share, false)), _) => format!("{:.0} %", share * 100.0),
-            (Some((share, true)), _) => format!("{:.0} %, waits", share * 100.0),
+        settings(ui, state, status.is_none());
+        let said = match (status, state.sweeping.study.end()) {
+            (Some(status), _) => {
+                let waits = match status.standing {
+                    Standing::Running => "",
+                    Standing::Waiting | Standing::Paused => ", waits",
+                };
+                format!("{:.0} %{waits}", status.fraction * 100.0)
+            }
             (None, Some(End::Cancelled)) => "cancelled: the rows stay".to_owned(),
             (None, Some(End::Failed(why))) => format!("ended: {why}"),
-            (None, Some(End::Complete) | None) => String::new(),
+            (None, Some(End::Done(()) | End::Replaced) | None) => String::new(),
         };
         if let Some(found) = found {
             let (done, of) = (found.rows.len(), found.plan.points.len());
@@ -228,7 +232,7 @@ fn save(ui: &mut egui::Ui, state: &mut State, found: &Found) {
         .on_hover_text("Write the rows to the file; one that is there is replaced.")
         .clicked()
     {
-        saving.save(&found.rows, ui.ctx());
+        saving.save(&found.rows, &state.jobs);
     }
     if let Some(said) = &saving.said {
         ui.label(said);

@@ -2,7 +2,7 @@
 
 use super::Shown;
 use crate::gui::tree_panes::log_axis;
-use crate::measure::sweep::{Curve, curves, is_wide};
+use crate::present::chart::{Curve, curves, is_wide};
 use egui::{Color32, Rect, Sense, vec2};
 use egui_plot::{
     AxisHints, GridInput, GridMark, Line, LineStyle, MarkerShape, Plot, PlotPoint, Points, Text,

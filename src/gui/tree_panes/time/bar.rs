@@ -1,8 +1,8 @@
 //! The stacked bar of terms, and the table that is its legend.
 
 use super::duration;
-use crate::measure::grouped;
 use crate::measure::model::Part;
+use crate::present::number::grouped;
 use egui::{Color32, FontId, Rect, Sense, Stroke, StrokeKind, pos2, vec2};
 
 /// Colours that colour-blind people can tell apart (M. Okabe and K. Ito, 2008); numbers tell the same.

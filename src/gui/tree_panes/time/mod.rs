@@ -5,14 +5,14 @@ mod bar;
 
 use super::is_under_pointer;
 use crate::gui::modelling::Found;
-use crate::gui::picture_pass::{PicturePass, Standing};
+use crate::gui::picture_job::{PictureJob, Progress};
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::{Current, State};
 use crate::gui::symbol::grouped;
-use crate::gui::turns::End;
+use crate::jobs::{CountTerms, End, Scheduler, Standing};
+use crate::measure::heat::PIXEL_COUNTS_LIMIT;
 use crate::measure::model::{Part, PictureTerms, Region, TermTimes};
-use crate::measure::significant;
-use crate::worker::PIXEL_COUNTS_LIMIT;
+use crate::present::number::significant;
 use std::sync::Arc;
 
 /// Which part of the picture is asked about.
@@ -80,19 +80,19 @@ impl Source {
 pub struct TimePane {
     extent: Extent,
     source: Source,
-    terms: PicturePass<PictureTerms>,
+    terms: PictureJob<CountTerms>,
 }
 
 impl TimePane {
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
         for action in pressed(ui.ctx(), Scope::Time, is_under_pointer(ui)) {
-            self.act(action, state, ui.ctx());
+            self.act(action, state);
         }
         ui.horizontal_wrapped(|ui| self.toolbar(ui, state));
         let Some(current) = &state.current else {
             return;
         };
-        let found = state.modelling.turns.found();
+        let found = state.modelling.study.found().cloned();
         let Some(found) = found.filter(|found| found.is_of(current)) else {
             ui.weak(
                 "Where does the time of this picture go? What a node and a test take is measured once \
@@ -111,8 +111,7 @@ impl TimePane {
             });
             return;
         };
-        let resting = state.work.is_none() && state.measuring().is_none();
-        let Some(terms) = self.terms(ui, current, resting) else {
+        let Some(terms) = self.terms(ui, current, &state.jobs) else {
             return;
         };
         let region = match self.region(current, state.modelling.region) {
@@ -135,9 +134,9 @@ impl TimePane {
             .show(ui, |ui| bar::show(ui, &parts, measured));
     }
 
-    fn act(&mut self, action: Action, state: &mut State, ctx: &egui::Context) {
+    fn act(&mut self, action: Action, state: &mut State) {
         match action {
-            Action::MeasureTimes => state.begin_model(ctx),
+            Action::MeasureTimes => state.begin_model(),
             Action::NextExtent => {
                 self.extent = Extent::ALL[(self.extent as usize + 1) % Extent::ALL.len()];
             }
@@ -149,14 +148,17 @@ impl TimePane {
     }
 
     fn toolbar(&mut self, ui: &mut egui::Ui, state: &mut State) {
-        if let Some((share, waits)) = state.modelling.progress() {
+        if let Some(status) = state.modelling.study.status() {
             let cancel = ui.button("Cancel timing");
             let about = "Stop measuring the times; what is known of them stays.";
             if cancel.on_hover_text(tip(about, Action::Cancel)).clicked() {
-                state.modelling.turns.cancel();
+                state.modelling.study.cancel();
             }
-            ui.label(format!("{:.0} %", share * 100.0));
-            ui.weak(if waits { "waits" } else { "taking times …" });
+            ui.label(format!("{:.0} %", status.fraction * 100.0));
+            ui.weak(match status.standing {
+                Standing::Running => "taking times …",
+                Standing::Waiting | Standing::Paused => "waits",
+            });
             ui.ctx().request_repaint_after_secs(0.2);
         } else {
             let measure = ui.add_enabled(state.may_model(), egui::Button::new("Measure times"));
@@ -167,16 +169,16 @@ impl TimePane {
                 .on_disabled_hover_text("Begins with a finished picture of a scene with objects.")
                 .clicked()
             {
-                state.begin_model(ui.ctx());
+                state.begin_model();
             }
-            match state.modelling.turns.end() {
+            match state.modelling.study.end() {
                 Some(End::Cancelled) => {
                     ui.label("cancelled: what was found stays");
                 }
                 Some(End::Failed(why)) => {
                     ui.label(format!("ended: {why}"));
                 }
-                Some(End::Complete) | None => {}
+                Some(End::Done(()) | End::Replaced) | None => {}
             }
         }
         ui.separator();
@@ -201,7 +203,7 @@ impl TimePane {
         &mut self,
         ui: &mut egui::Ui,
         current: &Current,
-        resting: bool,
+        jobs: &Scheduler,
     ) -> Option<Arc<PictureTerms>> {
         let shown = &current.shown;
         let render = shown.setup.render;
@@ -210,15 +212,16 @@ impl TimePane {
             ui.weak(format!("Counted of pictures of up to {limit} pixels."));
             return None;
         }
-        let (scene, tree) = (Arc::clone(&shown.scene), Arc::clone(&shown.tree));
-        let terms = self.terms.get(current, resting, ui.ctx(), move |progress| {
-            PictureTerms::count(&scene, &tree, &render, progress)
+        let terms = self.terms.get(current, jobs, || CountTerms {
+            scene: Arc::clone(&shown.scene),
+            tree: Arc::clone(&shown.tree),
+            render,
         });
         if terms.is_none() {
-            ui.weak(match self.terms.standing() {
-                Standing::Running(done) => format!("counting tests … {:.0} %", done * 100.0),
-                Standing::Ended(why) => format!("tests not counted: {why}"),
-                Standing::Waiting | Standing::Done => "tests: counted when all else rests".into(),
+            ui.weak(match self.terms.progress() {
+                Progress::Running(done) => format!("counting tests … {:.0} %", done * 100.0),
+                Progress::Ended(why) => format!("tests not counted: {why}"),
+                Progress::Waiting | Progress::Done => "tests: counted when all else rests".into(),
             });
         }
         terms

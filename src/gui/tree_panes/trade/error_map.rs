@@ -1,11 +1,11 @@
 //! The chosen outcome's error of every pixel, in colours.
 
-use crate::gui::background::Latest;
 use crate::gui::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::gui::state::State;
+use crate::gui::tasks::Latest;
 use crate::gui::trading::Found;
 use crate::measure::heat::HeatImage;
-use crate::measure::significant;
+use crate::present::number::significant;
 use crate::present::overlay::{Colormap, HeatScale, Range, Scale, colormap, heat_colors};
 use egui::{Color32, ColorImage, Rect, TextureHandle, TextureOptions, pos2, vec2};
 use std::sync::Arc;

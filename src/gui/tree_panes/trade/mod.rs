@@ -9,9 +9,9 @@ use super::is_under_pointer;
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::State;
 use crate::gui::trading::Found;
-use crate::gui::turns::End;
+use crate::jobs::{End, Standing};
 use crate::measure::accuracy::{ERROR_MEASURES, ErrorMeasure, Outcome, Trade};
-use crate::measure::significant;
+use crate::present::number::significant;
 use egui::vec2;
 
 /// From this width on, in points, table and error map both stand beside the plot.
@@ -31,9 +31,9 @@ pub struct TradePane {
 impl TradePane {
     pub fn ui(&mut self, ui: &mut egui::Ui, state: &mut State) {
         for action in pressed(ui.ctx(), Scope::Trade, is_under_pointer(ui)) {
-            self.act(action, state, ui.ctx());
+            self.act(action, state);
         }
-        let found = state.trading.found();
+        let found = state.trading.study.found().cloned();
         ui.horizontal_wrapped(|ui| self.toolbar(ui, state));
         let Some(found) = found.filter(|found| !found.trade.outcomes.is_empty()) else {
             ui.weak(
@@ -79,9 +79,9 @@ impl TradePane {
         }
     }
 
-    fn act(&mut self, action: Action, state: &mut State, ctx: &egui::Context) {
+    fn act(&mut self, action: Action, state: &mut State) {
         match action {
-            Action::RunTrade => state.begin_trade(ctx),
+            Action::RunTrade => state.begin_trade(),
             Action::NextOutcome | Action::PreviousOutcome => {
                 let next = match (state.trading.chosen, action) {
                     (None, _) => 0,
@@ -97,7 +97,7 @@ impl TradePane {
     }
 
     fn toolbar(&mut self, ui: &mut egui::Ui, state: &mut State) {
-        if let Some((share, waits)) = state.trading.progress() {
+        if let Some(status) = state.trading.study.status() {
             if ui
                 .button("Cancel trade")
                 .on_hover_text(tip(
@@ -106,13 +106,12 @@ impl TradePane {
                 ))
                 .clicked()
             {
-                state.trading.turns.cancel();
+                state.trading.study.cancel();
             }
-            ui.label(format!("{:.0} %", share * 100.0));
-            ui.weak(if waits {
-                "waits for the picture"
-            } else {
-                "taking times …"
+            ui.label(format!("{:.0} %", status.fraction * 100.0));
+            ui.weak(match status.standing {
+                Standing::Running => "taking times …",
+                Standing::Waiting | Standing::Paused => "waits for the picture",
             });
             ui.ctx().request_repaint_after_secs(0.2);
         } else {
@@ -124,7 +123,7 @@ impl TradePane {
                 .on_disabled_hover_text("Begins with a finished picture.")
                 .clicked()
             {
-                state.begin_trade(ui.ctx());
+                state.begin_trade();
             }
             for (value, most, suffix, name, about) in [
                 (
@@ -147,14 +146,14 @@ impl TradePane {
                     .accessible_name(name)
                     .on_hover_text(about);
             }
-            match state.trading.turns.end() {
+            match state.trading.study.end() {
                 Some(End::Cancelled) => {
                     ui.label("cancelled: what was found stays");
                 }
                 Some(End::Failed(why)) => {
                     ui.label(format!("ended: {why}"));
                 }
-                Some(End::Complete) | None => {}
+                Some(End::Done(()) | End::Replaced) | None => {}
             }
         }
         egui::ComboBox::from_id_salt("error measure")
@@ -192,7 +191,7 @@ fn about(found: &Found) -> String {
         first.choice.setup.build.method.name,
         significant(first.median()),
         found.taken,
-        found.turns,
+        found.steps,
     )
 }
 

@@ -3,7 +3,7 @@
 use super::words;
 use crate::gui::tree_panes::log_axis::{marks, number};
 use crate::measure::accuracy::{ErrorMeasure, Outcome, Trade};
-use crate::measure::significant;
+use crate::present::number::significant;
 use egui::{Color32, Pos2, Rect, Sense, vec2};
 use egui_plot::{AxisHints, GridMark, Line, MarkerShape, Plot, PlotPoint, Points};
 

@@ -1,7 +1,7 @@
 //! The outcomes as rows.
 
 use crate::measure::accuracy::{Outcome, Trade};
-use crate::measure::significant;
+use crate::present::number::significant;
 use egui::{Align, Sense};
 use egui_extras::{Column, TableBuilder};
 

@@ -1,7 +1,7 @@
 //! A pixel's record for programs. Lengths are in scene units; null where a ray has no end, no hit
 //! or no parent, and where it runs along a plane.
 
-use super::PixelReport;
+use super::report::PixelReport;
 use crate::trace::{PixelRecord, RayKind, RecordedRay, Tally, srgb8};
 use serde_json::{Map, Value, json};
 use std::io::{Result, Write};

@@ -1,19 +1,9 @@
 //! The record of a pixel as text and JSON.
 
 mod json;
+mod report;
 mod text;
 
 pub use json::write as write_json;
+pub use report::PixelReport;
 pub use text::write as write_text;
-
-use crate::scene::Scene;
-use crate::structure::Method;
-use crate::trace::{PixelRecord, RenderSettings};
-
-/// What the rays of one pixel did in the trees of one or more methods.
-pub struct PixelReport<'a> {
-    pub scene: &'a Scene,
-    pub render: RenderSettings,
-    /// All of the same pixel.
-    pub records: Vec<(Method, PixelRecord)>,
-}

@@ -1,8 +1,8 @@
 //! A pixel's record for people: an outline, a line for every node that a ray came through.
 
-use super::PixelReport;
+use super::report::PixelReport;
 use crate::geometry::Vec3;
-use crate::present::report::plain_table;
+use crate::present::report::table::plain_table;
 use crate::scene::Scene;
 use crate::trace::{
     Children, InnerStep, LeafStep, PixelRecord, RayKind, RecordedRay, Step, Tally, srgb8,

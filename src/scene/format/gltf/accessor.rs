@@ -1,7 +1,8 @@
 //! Accessors: views of numbers in buffers, checked before anything is read.
 
 use crate::geometry::Vec3;
-use crate::scene::format::{Place, ReadError};
+use crate::scene::format::error::ReadError;
+use crate::scene::format::place::Place;
 use gltf_json::accessor::{ComponentType, Type};
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root};

@@ -1,8 +1,10 @@
 //! Loads the buffers: from the file, from data URIs, or from files in the same folder.
 
 use crate::progress::Progress;
+use crate::scene::format::error::ReadError;
+use crate::scene::format::input::{Input, MAX_BYTES, SiblingError};
 use crate::scene::format::lines::quoted;
-use crate::scene::format::{Input, MAX_BYTES, Place, ReadError, SiblingError};
+use crate::scene::format::place::Place;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};

@@ -1,6 +1,7 @@
 //! The container: JSON, and the binary chunk of a GLB.
 
-use crate::scene::format::{Place, ReadError};
+use crate::scene::format::error::ReadError;
+use crate::scene::format::place::Place;
 
 /// Bytes at the start and end of a file in which the `asset` key is looked for.
 const SNIFFED_BYTES: usize = 1 << 16;

@@ -3,7 +3,8 @@
 use super::nodes::PlacedLight;
 use crate::geometry::{Aabb, Vec3};
 use crate::scene::format::builder::SceneBuilder;
-use crate::scene::{Light, NoteKind};
+use crate::scene::material::Light;
+use crate::scene::note::NoteKind;
 use gltf_json::extensions::scene::khr_lights_punctual::Type;
 
 /// Distance of directional lights, in diagonals of the scene.

@@ -1,7 +1,7 @@
 //! Conversion of materials: base color, metal and glass.
 
 use crate::geometry::Vec3;
-use crate::scene::Material;
+use crate::scene::material::Material;
 use gltf_json::material::AlphaMode;
 use gltf_json::validation::Checked;
 

@@ -16,10 +16,16 @@ mod meshes;
 mod nodes;
 
 use super::builder::SceneBuilder;
-use super::{Format, Input, Place, ReadError, complete};
+use super::complete;
+use super::entry::Format;
+use super::error::ReadError;
+use super::input::Input;
+use super::place::Place;
 use crate::geometry::Vec3;
 use crate::progress::Progress;
-use crate::scene::{Camera, NoteKind, SceneParts};
+use crate::scene::camera::Camera;
+use crate::scene::note::NoteKind;
+use crate::scene::parts::SceneParts;
 use gltf_json::Root;
 
 pub(super) const FORMAT: Format = Format {

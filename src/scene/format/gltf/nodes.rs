@@ -2,9 +2,10 @@
 
 use crate::geometry::Vec3;
 use crate::progress::Progress;
-use crate::scene::NoteKind;
 use crate::scene::format::builder::SceneBuilder;
-use crate::scene::format::{Place, ReadError};
+use crate::scene::format::error::ReadError;
+use crate::scene::format::place::Place;
+use crate::scene::note::NoteKind;
 use glam::{DMat4, DQuat};
 use gltf_json::extensions::scene::khr_lights_punctual::{Light, Type};
 use gltf_json::scene::Node;

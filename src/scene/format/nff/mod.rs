@@ -25,8 +25,9 @@ mod write;
 pub use read::read;
 pub use write::write;
 
+use super::complete;
+use super::entry::Format;
 use super::lines::Lines;
-use super::{Format, complete};
 use crate::progress::Progress;
 
 pub(super) const FORMAT: Format = Format {

@@ -5,9 +5,13 @@ use super::write::Point;
 use crate::geometry::Vec3;
 use crate::primitive::{Cone, Primitive, Sphere};
 use crate::progress::Progress;
+use crate::scene::camera::{Camera, CameraError};
 use crate::scene::format::builder::SceneBuilder;
-use crate::scene::format::{Place, ReadError};
-use crate::scene::{Camera, CameraError, Light, Material, Note, NoteKind, SceneParts};
+use crate::scene::format::error::ReadError;
+use crate::scene::format::place::Place;
+use crate::scene::material::{Light, Material};
+use crate::scene::note::{Note, NoteKind};
+use crate::scene::parts::SceneParts;
 
 /// Maximum width and height in pixels.
 const MAX_RESOLUTION: u32 = 65_536;

@@ -3,8 +3,9 @@
 use super::write::NOTE;
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
+use crate::scene::format::error::ReadError;
 use crate::scene::format::lines::{parse, quoted};
-use crate::scene::format::{Place, ReadError};
+use crate::scene::format::place::Place;
 use std::fmt::Display;
 
 /// Words between two checks for cancellation.

@@ -2,7 +2,9 @@
 
 use crate::geometry::Vec3;
 use crate::primitive::Primitive;
-use crate::scene::{Material, NoteKind, SceneParts};
+use crate::scene::material::Material;
+use crate::scene::note::NoteKind;
+use crate::scene::parts::SceneParts;
 use std::fmt::{self, Display};
 use std::io::{BufWriter, Write};
 

@@ -14,11 +14,16 @@
 mod mtl;
 
 use super::builder::{MAX_VERTICES, SceneBuilder};
+use super::entry::Format;
+use super::error::ReadError;
+use super::input::{Input, SiblingError};
 use super::lines::{Line, Lines, Words, parse, quoted};
-use super::{Format, Input, Place, ReadError, SiblingError};
+use super::place::Place;
 use crate::geometry::Vec3;
 use crate::progress::Progress;
-use crate::scene::{Material, Note, NoteKind, SceneParts};
+use crate::scene::material::Material;
+use crate::scene::note::{Note, NoteKind};
+use crate::scene::parts::SceneParts;
 use std::collections::HashMap;
 
 pub(super) const FORMAT: Format = Format {

@@ -13,9 +13,11 @@
 
 use crate::geometry::Vec3;
 use crate::progress::Progress;
+use crate::scene::format::error::ReadError;
 use crate::scene::format::lines::{Line, Lines, Words, quoted};
-use crate::scene::format::{Place, ReadError};
-use crate::scene::{Material, NoteKind};
+use crate::scene::format::place::Place;
+use crate::scene::material::Material;
+use crate::scene::note::NoteKind;
 use std::collections::HashMap;
 
 /// One material of a file.

@@ -1,9 +1,10 @@
 //! The limits of bins as planes, for cells with many objects.
 
+use super::cost::Plane;
 use super::extents::{Extents, Scratch, Source};
 use super::grid::{BINS, Grid, count_bins};
-use super::{Cell, Plane};
 use crate::geometry::Axis;
+use crate::structure::split::rule::Cell;
 use rayon::prelude::*;
 
 /// How many objects begin and end in every bin of every axis.

@@ -3,9 +3,9 @@
 //! The planes are sorted into bins, and a bin is only looked into if, by the counts at its limits, one
 //! of its planes might be the cheapest. What is found is what looking at every plane finds.
 
+use super::cost::{Areas, Best, Costs, Extent, Plane};
 use super::extents::{Along, Scratch};
 use super::grid::{BINS, Grid, count_bins};
-use super::{Areas, Best, Extent, Plane, Sah};
 use crate::geometry::Axis;
 
 /// Objects a bin, on average.
@@ -13,7 +13,7 @@ const OBJECTS_PER_BIN: usize = 8;
 
 /// The search along one axis of a cell.
 pub(super) struct Search<'a> {
-    rule: &'a Sah,
+    costs: &'a Costs,
     areas: &'a Areas,
     axis: Axis,
     /// Of the cell.
@@ -32,14 +32,14 @@ struct Bin<'a> {
 
 impl<'a> Search<'a> {
     pub(super) fn new(
-        rule: &'a Sah,
+        costs: &'a Costs,
         areas: &'a Areas,
         axis: Axis,
         ends: Extent,
         best: &'a mut Best,
     ) -> Self {
         Search {
-            rule,
+            costs,
             areas,
             axis,
             ends,
@@ -113,7 +113,7 @@ impl<'a> Search<'a> {
     fn offer(&mut self, plane: Plane) {
         let [lo, hi] = self.ends;
         if lo < plane.at && plane.at < hi {
-            let cost = self.rule.cost(&plane, self.areas);
+            let cost = self.costs.cost(&plane, self.areas);
             self.best.offer(self.axis, plane.at, cost);
         }
     }
@@ -146,7 +146,7 @@ impl<'a> Search<'a> {
                 below: below.max(1),
                 above: above.max(1),
             };
-            self.rule.cost_of_parts(&plane, self.areas)
+            self.costs.cost_of_parts(&plane, self.areas)
         });
         a.min(b) * (1.0 - ROUNDING)
     }
@@ -231,7 +231,7 @@ mod tests {
     #[test]
     fn looking_into_few_bins_finds_what_trying_every_plane_finds() {
         let settings = BuildSettings::for_method(Method::named(METHOD.name).unwrap());
-        let rule = Sah::new(&settings);
+        let costs = Costs::new(&settings);
         let ends = [-0.75, 0.5];
         let (mut found, mut random) = (0, 1_u32);
         let mut next = |most: u32| {
@@ -255,14 +255,14 @@ mod tests {
                 rim: 1.0 / 1.25,
             };
             let leaf = || Best {
-                cost: rule.blocks(objects as usize),
+                cost: costs.blocks(objects as usize),
                 plane: None,
             };
             let mut expected = leaf();
             for at in extents.as_flattened() {
                 if ends[0] < *at && *at < ends[1] {
                     let plane = counted(&extents, *at);
-                    expected.offer(Axis::Y, *at, rule.cost(&plane, &areas));
+                    expected.offer(Axis::Y, *at, costs.cost(&plane, &areas));
                 }
             }
             let [begins, closes] = [0, 1].map(|i| extents.iter().map(|e| e[i]).collect::<Vec<_>>());
@@ -271,7 +271,7 @@ mod tests {
                 ends: &closes,
             };
             let mut best = leaf();
-            Search::new(&rule, &areas, Axis::Y, ends, &mut best)
+            Search::new(&costs, &areas, Axis::Y, ends, &mut best)
                 .run(along, &mut Scratch::default());
             assert_eq!((best.cost, best.plane), (expected.cost, expected.plane));
             found += usize::from(best.plane.is_some());

@@ -1,9 +1,10 @@
 //! Where the objects of a cell begin and end within it.
 
-use super::{Cell, Extent};
+use super::cost::Extent;
 use crate::geometry::Axis;
 use crate::primitive::Shape;
-use crate::structure::ObjectPlanes;
+use crate::structure::frame::ObjectPlanes;
+use crate::structure::split::rule::Cell;
 
 /// Gives the extents of a cell's objects.
 pub(super) struct Source<'a> {

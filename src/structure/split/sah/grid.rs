@@ -1,6 +1,6 @@
 //! Equally wide bins along an axis.
 
-use super::Extent;
+use super::cost::Extent;
 
 /// The most bins of a grid.
 pub(super) const BINS: usize = 64;

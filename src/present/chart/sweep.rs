@@ -2,8 +2,8 @@
 //! SVG. The font is part of the program.
 
 use super::curves::{Curve, CurvePoint, curves, is_wide};
-use super::{Row, rule_depth};
 use crate::measure::Parameter;
+use crate::measure::sweep::{Row, rule_depth};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;

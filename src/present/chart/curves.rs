@@ -1,6 +1,6 @@
 //! A parameter of a sweep over the greatest depth: a curve for every method and leaf size.
 
-use super::Row;
+use crate::measure::sweep::Row;
 use crate::measure::{Parameter, Unit, parameter};
 
 /// One curve.

@@ -1,0 +1,228 @@
+//! Verdicts on answers about rays.
+
+use super::crossing::{Crossing, Line};
+use super::object::crossings;
+use super::root::Root;
+use super::tolerance::Tolerance;
+use crate::geometry::{Aabb, Ray};
+use crate::primitive::Shape;
+use crate::scene::Scene;
+use crate::trace::Hit;
+use serde::Serialize;
+
+/// What was answered about a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Answer {
+    /// The nearest hit.
+    Nearest(Hit),
+    /// Whether anything lies on the ray before its end.
+    Blocked(bool),
+}
+
+/// Why two answers differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Both are exactly right: distances are exactly equal, or the ray meets an edge, touches a
+    /// curved surface, or starts or ends on one.
+    Tie,
+    /// Both are right but for rounding: for numbers within the tolerance of the scene's.
+    Rounding,
+    /// One is wrong, or both are.
+    Fault {
+        /// The first answer.
+        a_is_wrong: bool,
+        /// The second.
+        b_is_wrong: bool,
+    },
+}
+
+/// How many disagreements were judged, by [`Verdict`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Tally {
+    pub ties: u64,
+    pub roundings: u64,
+    pub faults: u64,
+}
+
+impl Tally {
+    pub fn add(&mut self, verdict: Verdict) {
+        *match verdict {
+            Verdict::Tie => &mut self.ties,
+            Verdict::Rounding => &mut self.roundings,
+            Verdict::Fault { .. } => &mut self.faults,
+        } += 1;
+    }
+}
+
+impl std::ops::AddAssign for Tally {
+    fn add_assign(&mut self, other: Tally) {
+        self.ties += other.ties;
+        self.roundings += other.roundings;
+        self.faults += other.faults;
+    }
+}
+
+/// The places where a ray may meet the objects of a scene, with the objects' numbers.
+struct Evidence(Vec<(u32, Crossing)>);
+
+impl Evidence {
+    fn gather(scene: &Scene, ray: &Ray, tolerance: &Tolerance) -> Self {
+        let is_usable = ray.direction.abs().max_element() > 0.0
+            && ray.origin.is_finite()
+            && ray.direction.is_finite();
+        if !is_usable {
+            return Evidence(Vec::new());
+        }
+        let line = Line::new(ray, tolerance);
+        let near = scene
+            .objects()
+            .iter()
+            .enumerate()
+            .filter(|(_, object)| may_meet(ray, &object.bounds(), tolerance));
+        let all = near.flat_map(|(number, object)| {
+            crossings(object, &line, tolerance)
+                .into_iter()
+                .map(move |crossing| (number as u32, crossing))
+        });
+        Evidence(all.collect())
+    }
+
+    /// Before where something is met for certain; `None` if nothing is.
+    fn limit(&self) -> Option<&Root> {
+        let certain = self.0.iter().filter(|(_, c)| c.certain);
+        certain.map(|(_, c)| &c.latest).min()
+    }
+
+    /// The crossing that a hit tells of: of those of its object the nearest.
+    fn crossing_of(&self, hit: &Hit) -> Option<&Crossing> {
+        let off = |c: &Crossing| {
+            let (lo, hi) = (c.earliest.to_f64(), c.latest.to_f64());
+            (lo - hit.t).max(hit.t - hi).max(0.0)
+        };
+        let own = self.0.iter().filter(|(object, _)| *object == hit.object);
+        own.map(|(_, crossing)| crossing)
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
+    }
+
+    /// Whether the answer can be right. Of how far away a hit is, only `slack` (relative) may be off.
+    fn allows(&self, answer: Answer, slack: Option<f64>) -> bool {
+        match answer {
+            Answer::Blocked(true) => !self.0.is_empty(),
+            Answer::Blocked(false) => self.limit().is_none(),
+            Answer::Nearest(hit) if !hit.is_hit() => self.limit().is_none(),
+            Answer::Nearest(hit) => self.crossing_of(&hit).is_some_and(|crossing| {
+                let in_front = self.limit().is_none_or(|limit| crossing.earliest <= *limit);
+                let distance = slack.is_none_or(|slack| {
+                    let slack = slack * hit.t.abs();
+                    let (lo, hi) = (crossing.earliest.to_f64(), crossing.latest.to_f64());
+                    lo - slack <= hit.t && hit.t <= hi + slack
+                });
+                in_front && distance
+            }),
+        }
+    }
+}
+
+/// Whether a ray may come near a box; only `false` is certain.
+fn may_meet(ray: &Ray, bounds: &Aabb, tolerance: &Tolerance) -> bool {
+    const ROUNDING: f64 = 64.0 * f64::EPSILON;
+    let far = bounds.magnitude() + ray.origin.abs().max_element();
+    let bounds = bounds.enlarged(tolerance.length + (tolerance.relative + ROUNDING) * far);
+    // In units in which neither the direction nor its inverse overflows.
+    let direction = ray.direction / ray.direction.abs().max_element();
+    let (mut enter, mut exit) = (f64::NEG_INFINITY, f64::INFINITY);
+    for k in 0..3 {
+        let (a, b) = (
+            (bounds.lo[k] - ray.origin[k]) / direction[k],
+            (bounds.hi[k] - ray.origin[k]) / direction[k],
+        );
+        // No number where the ray runs along the side of the box: then that side excludes nothing.
+        if a.is_nan() || b.is_nan() {
+            continue;
+        }
+        let (near, far) = (a.min(b), a.max(b));
+        enter = enter.max(near - ROUNDING * near.abs());
+        exit = exit.min(far + ROUNDING * far.abs());
+    }
+    enter <= exit && exit >= 0.0
+}
+
+/// The size of the numbers in a scene and a ray, a length: their largest coordinate.
+pub fn scale_of(scene: &Scene, ray: &Ray) -> f64 {
+    let bounds = scene.bounds();
+    let of_scene = if bounds.is_empty() {
+        0.0
+    } else {
+        bounds.magnitude()
+    };
+    of_scene.max(ray.origin.abs().max_element())
+}
+
+/// Why two answers about a ray differ.
+///
+/// Where both came from the same numbers by the same intersection tests, `rounding` is `None`, and
+/// nothing but an exact tie excuses a difference. Otherwise it says by how much the numbers of
+/// either may have been rounded.
+pub fn settle(
+    scene: &Scene,
+    ray: &Ray,
+    [a, b]: [Answer; 2],
+    rounding: Option<Tolerance>,
+) -> Verdict {
+    let exact = Evidence::gather(scene, ray, &Tolerance::NONE);
+    let mut right = [a, b].map(|answer| exact.allows(answer, None));
+    let is_tie = right == [true; 2] && !same_hit(&exact, a, b);
+    if is_tie {
+        return Verdict::Tie;
+    }
+    if let Some(tolerance) = rounding {
+        let rounded = Evidence::gather(scene, ray, &tolerance);
+        let within = [a, b].map(|answer| rounded.allows(answer, Some(tolerance.relative)));
+        if within == [true; 2] {
+            return Verdict::Rounding;
+        }
+        right = within;
+    }
+    // The same hit at two distances: no telling which of them is off.
+    let neither = right == [true; 2];
+    Verdict::Fault {
+        a_is_wrong: neither || !right[0],
+        b_is_wrong: neither || !right[1],
+    }
+}
+
+/// Whether two answers tell of the same crossing, at whatever distance.
+fn same_hit(exact: &Evidence, a: Answer, b: Answer) -> bool {
+    match (a, b) {
+        (Answer::Nearest(a), Answer::Nearest(b)) => {
+            let place = |hit| exact.crossing_of(hit).map(std::ptr::from_ref);
+            a.object == b.object && place(&a) == place(&b)
+        }
+        _ => false,
+    }
+}
+
+/// How right one answer is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// It is what exact arithmetic says, or one of several that it allows.
+    Right,
+    /// It is right but for rounding.
+    Rounded,
+    Wrong,
+}
+
+/// Holds one answer against exact arithmetic.
+pub fn examine(scene: &Scene, ray: &Ray, answer: Answer, tolerance: Tolerance) -> Standing {
+    // How far away a hit is was rounded in any case.
+    let allowed = |within: &Tolerance| {
+        Evidence::gather(scene, ray, within).allows(answer, Some(tolerance.relative))
+    };
+    if allowed(&Tolerance::NONE) {
+        Standing::Right
+    } else if allowed(&tolerance) {
+        Standing::Rounded
+    } else {
+        Standing::Wrong
+    }
+}

@@ -1,0 +1,13 @@
+//! What a pixel report holds.
+
+use crate::scene::Scene;
+use crate::structure::Method;
+use crate::trace::{PixelRecord, RenderSettings};
+
+/// What the rays of one pixel did in the trees of one or more methods.
+pub struct PixelReport<'a> {
+    pub scene: &'a Scene,
+    pub render: RenderSettings,
+    /// All of the same pixel.
+    pub records: Vec<(Method, PixelRecord)>,
+}

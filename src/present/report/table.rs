@@ -1,0 +1,16 @@
+//! Plain tables for a terminal.
+
+use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
+
+/// An empty table with a line under its titles; columns from `first_number` on are set to the right.
+pub fn plain_table(titles: Vec<String>, first_number: usize) -> Table {
+    let rule = LineStyle::none().fill('─').junction('─');
+    let mut table = Table::new();
+    table
+        .load_style(TableStyle::new().header_separator(rule))
+        .set_header(titles);
+    for column in table.column_iter_mut().skip(first_number) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}

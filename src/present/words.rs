@@ -1,0 +1,130 @@
+//! Results of [`crate::measure`] in words: titles, marks, sentences.
+
+use crate::measure::paper::{Cell, Mark, decimals};
+use crate::measure::sweep::{Answer, Row};
+use crate::measure::{Measurement, Parameter, Table, Unequal, Unit, parameter};
+use crate::structure::MaxDepth;
+use std::fmt;
+
+impl Table {
+    pub const fn title(self) -> &'static str {
+        match self {
+            Table::Scene => "Scene and image (Table 1)",
+            Table::Static => "Static properties of the tree (Table 2)",
+            Table::Dynamic => "Dynamic properties of the tree (Table 3)",
+            Table::Ours => "Beside the tables",
+        }
+    }
+}
+
+impl Measurement {
+    /// `D_MAX` in words, with how it was chosen.
+    pub fn depth_in_words(&self) -> String {
+        match self.build.d_max {
+            MaxDepth::Fixed(depth) => depth.to_string(),
+            MaxDepth::Automatic => format!("{} (automatic)", self.depth_limit),
+        }
+    }
+}
+
+impl fmt::Display for Unequal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unequal::Parameter { symbol, a, b } => {
+                let parameter = parameter(symbol);
+                write!(
+                    f,
+                    "{symbol} ({}, class {:?}) is {} in A and {} in B",
+                    parameter.name,
+                    parameter.class,
+                    parameter.format(*a),
+                    parameter.format(*b)
+                )
+            }
+            Unequal::Camera => f.write_str("the camera or the places of the samples differ"),
+            Unequal::Size => f.write_str("the pictures have another size"),
+            Unequal::Pixels { count, first } => {
+                let places: Vec<_> = first.iter().map(|[x, y]| format!("{x},{y}")).collect();
+                let more = if *count > first.len() { ", …" } else { "" };
+                write!(f, "{count} pixels differ: {}{more}", places.join(" "))
+            }
+        }
+    }
+}
+
+impl Mark {
+    pub const fn name(self) -> &'static str {
+        match self {
+            Mark::Equal => "equal after rounding",
+            Mark::SameDirection => "same direction",
+            Mark::Differs => "differs",
+        }
+    }
+
+    /// One character for tables.
+    pub const fn sign(self) -> &'static str {
+        match self {
+            Mark::Equal => "=",
+            Mark::SameDirection => "~",
+            Mark::Differs => "≠",
+        }
+    }
+}
+
+impl Cell {
+    /// The computed figure, with a digit more than is printed where it differs and is no whole
+    /// number; `–` where there is none.
+    pub fn computed_text(&self) -> String {
+        let more = usize::from(self.mark != Some(Mark::Equal));
+        match self.computed {
+            Some(value) if value.fract() == 0.0 && self.mark != Some(Mark::Equal) => {
+                format!("{value}")
+            }
+            Some(value) => format!("{value:.*}", decimals(self.printed) + more),
+            None => "–".into(),
+        }
+    }
+}
+
+/// The unit of a printed figure of a parameter; `ratio` for the column 2/1.
+pub fn printed_unit(parameter: &Parameter, ratio: bool) -> &'static str {
+    match (parameter.unit, ratio) {
+        (Unit::Percent, true) => "points",
+        (_, true) => "%",
+        (unit, false) => unit.suffix().trim_start(),
+    }
+}
+
+impl Answer<'_> {
+    /// The answer in a sentence.
+    pub fn sentence(&self, shown: &Parameter) -> String {
+        let of = |row: &Row| {
+            let depth = parameter("D_MAX");
+            format!(
+                "D_MAX {}, N_OILF {}: {}",
+                depth.format(row.value(depth)),
+                row.key.n_oilf,
+                shown.format(row.value(shown))
+            )
+        };
+        let mut text = format!(
+            "{}: least {} at {}",
+            self.best.key.method,
+            shown.symbol,
+            of(self.best)
+        );
+        text += &format!("; the rule 1.2 log2 N + 2 gives D_MAX {}", self.rule);
+        match self.at_rule {
+            None => text += ", which is not among the points",
+            Some(row) => {
+                text += &format!(", where the least is at {}", of(row));
+                let both = row.value(shown).zip(self.best.value(shown));
+                let ratio = both.map(|(a, b)| a / b);
+                if let Some(ratio) = ratio.filter(|ratio| ratio.is_finite()) {
+                    text += &format!(" ({:+.1} %)", (ratio - 1.0) * 100.0);
+                }
+            }
+        }
+        text
+    }
+}

@@ -1,0 +1,31 @@
+//! What a generator declares, and what generators share.
+
+use crate::geometry::Vec3;
+use crate::scene::note::{Note, NoteKind};
+use crate::scene::parts::SceneParts;
+
+/// A scene generator.
+pub struct Builtin {
+    /// Name on the command line and in lists.
+    pub name: &'static str,
+    /// One sentence: what it shows.
+    pub about: &'static str,
+    /// The size that the paper used; 1 where there is no other.
+    pub default_size: u32,
+    /// The sizes allowed.
+    pub sizes: std::ops::RangeInclusive<u32>,
+    /// Makes the scene of this size.
+    pub generate: fn(u32) -> SceneParts,
+}
+
+/// Linear background colour of the Standard Procedural Databases.
+pub(super) const SPD_BACKGROUND: Vec3 = Vec3::new(0.078, 0.361, 0.753);
+
+/// What a scene says that stands in for one that was never published.
+pub(super) fn reconstruction_note(name: &str) -> Note {
+    let text = format!(
+        "A reconstruction: the scene '{name}' of the paper was never published. This one was made \
+         anew to meet its figures in Table 4 and the directions in Table 6."
+    );
+    Note::new(NoteKind::Remark, text)
+}

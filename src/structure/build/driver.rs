@@ -1,0 +1,362 @@
+//! The one build driver: termination, distribution of objects, threads, memory, cancellation.
+//!
+//! Large cells are split into tasks, each of which builds a subtree in arrays of its own; they are put
+//! together in depth-first order. The tree is the same for any number of threads.
+
+use super::cell_objects::CellObjects;
+use super::error::BuildError;
+use super::limits::Limits;
+use super::overlap::{HalfCell, Overlap, Side};
+use super::part::Part;
+use crate::geometry::{Aabb, Axis};
+use crate::primitive::{Primitive, Shape};
+use crate::progress::Progress;
+use crate::scene::Scene;
+use crate::structure::frame::{Frame, ObjectPlanes};
+use crate::structure::method::Structure;
+use crate::structure::node::{Node, StopReason};
+use crate::structure::settings::BuildSettings;
+use crate::structure::split::rule::{Cell, Decision, SplitRule};
+use crate::structure::tree::Tree;
+use crate::structure::voxels::Voxels;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Builds the tree of a scene on the threads of the pool that it is called in (`rayon`), or of the
+/// global pool. The same scene and settings give the same tree, always.
+///
+/// A scene without objects gives a tree of one empty leaf.
+///
+/// # Errors
+/// Settings out of range, cancellation, or a tree that would not fit the memory limit.
+pub fn build(
+    scene: &Scene,
+    settings: &BuildSettings,
+    progress: &Progress,
+) -> Result<Tree, BuildError> {
+    settings.check()?;
+    let objects = scene.objects();
+    if objects.len() >= Node::MAX_LEAF {
+        return Err(BuildError::TooManyObjects(objects.len()));
+    }
+    // Entered once, and not for every cell.
+    rayon::scope(|_| in_pool(scene, settings, progress))
+}
+
+fn in_pool(
+    scene: &Scene,
+    settings: &BuildSettings,
+    progress: &Progress,
+) -> Result<Tree, BuildError> {
+    let objects = scene.objects();
+    let frame = Frame::around(&scene.bounds(), settings.root_margin);
+    let depth_limit = settings.d_max.resolve(objects.len());
+    let rule = (settings.method.rule)(settings);
+    let limits = Limits::new(
+        settings.memory_limit,
+        objects.len(),
+        settings.method.structure,
+    );
+    limits.reserve_pending(0, objects.len())?;
+    let (mut bounds, mut planes) = (Vec::new(), Vec::new());
+    objects
+        .par_iter()
+        .with_min_len(CHUNK)
+        .map(|object| {
+            if progress.is_cancelled() {
+                return (Aabb::EMPTY, ObjectPlanes::default());
+            }
+            let bounds = object.bounds();
+            (bounds, frame.planes_around(&bounds))
+        })
+        .unzip_into_vecs(&mut bounds, &mut planes);
+    progress.check()?;
+    let driver = Driver {
+        overlap: Overlap::new(settings, objects, &bounds, &planes, frame.slack()),
+        frame: &frame,
+        rule: rule.as_ref(),
+        settings,
+        depth_limit,
+        progress,
+        objects,
+        bounds: &bounds,
+        planes: &planes,
+        limits,
+        done: AtomicU64::new(0),
+    };
+    let place = Place {
+        bounds: frame.cell(),
+        local: [[-1.0, 1.0]; 3],
+        depth: 0,
+        failed_splits: 0,
+        pending: objects.len(),
+    };
+    let all = CellObjects::of_root(&planes, &place.local);
+    let mut part = Part::default();
+    driver.cell(&mut part, &all, &place)?;
+    part.finish(&driver.limits)?;
+    let Part {
+        mut nodes,
+        mut references,
+        depth_reached,
+        ..
+    } = part;
+    nodes.shrink_to_fit();
+    references.shrink_to_fit();
+    let voxels = (settings.method.structure == Structure::Grid).then(|| Voxels::of(&nodes));
+    Ok(Tree {
+        nodes,
+        voxels,
+        references,
+        frame,
+        settings: settings.clone(),
+        depth_limit,
+        depth_reached,
+        derived: Default::default(),
+    })
+}
+
+/// So many objects are treated between two looks at whether the build was cancelled.
+const CHUNK: usize = 1 << 14;
+
+/// A cell in the coordinates of the root cell: lower and upper end by axis.
+type Local = [[f32; 2]; 3];
+
+/// Where a cell lies.
+#[derive(Clone, Copy)]
+struct Place {
+    bounds: Aabb,
+    local: Local,
+    depth: u32,
+    /// Splits from the root to this cell that gained too little.
+    failed_splits: u32,
+    /// Objects in the lists of the cells from the root to this one.
+    pending: usize,
+}
+
+struct Driver<'a> {
+    overlap: Overlap<'a>,
+    frame: &'a Frame,
+    rule: &'a dyn SplitRule,
+    settings: &'a BuildSettings,
+    depth_limit: u32,
+    progress: &'a Progress,
+    objects: &'a [Primitive],
+    bounds: &'a [Aabb],
+    planes: &'a [ObjectPlanes],
+    limits: Limits,
+    /// Share of the work that is done, where every level counts half as much as the one above; the
+    /// bits of an `f64`.
+    done: AtomicU64,
+}
+
+/// Cells with more objects are split into tasks.
+const TASK: usize = 1 << 12;
+
+/// Cells with more objects look every time whether the build was cancelled.
+const LARGE: usize = 1 << 8;
+
+impl Driver<'_> {
+    /// Builds the subtree of a cell with these objects.
+    fn cell(
+        &self,
+        part: &mut Part,
+        objects: &CellObjects,
+        place: &Place,
+    ) -> Result<(), BuildError> {
+        debug_assert!(objects.are_partitioned(self.planes, &place.local));
+        if objects.len() > LARGE || part.nodes.len().is_multiple_of(64) {
+            self.progress.check()?;
+        }
+        match self.decide(objects, place) {
+            Decision::Leaf(stop) => self.leaf(part, objects, place.depth, stop),
+            Decision::Split { axis, plane } => {
+                self.split(part, objects, place, axis, [plane, plane])
+            }
+            Decision::FailedSplit { axis, plane } => {
+                let place = Place {
+                    failed_splits: place.failed_splits + 1,
+                    ..*place
+                };
+                self.split(part, objects, &place, axis, [plane, plane])
+            }
+            Decision::Cut { axis, slab } => self.split(part, objects, place, axis, slab),
+        }
+    }
+
+    fn decide(&self, objects: &CellObjects, place: &Place) -> Decision {
+        let structure = self.settings.method.structure;
+        if structure.ends_at(place.depth) {
+            if objects.len() == 0 {
+                return Decision::Leaf(StopReason::Empty);
+            }
+            if objects.len() <= self.settings.n_oilf as usize {
+                return Decision::Leaf(StopReason::FewObjects);
+            }
+            if place.depth + structure.levels() > self.depth_limit {
+                return Decision::Leaf(StopReason::MaxDepth);
+            }
+        }
+        let cell = Cell {
+            frame: self.frame,
+            bounds: place.bounds,
+            local: place.local,
+            depth: place.depth,
+            depth_limit: self.depth_limit,
+            failed_splits: place.failed_splits,
+            inside: &objects.inside,
+            touching: &objects.touching,
+            primitives: self.objects,
+            object_bounds: self.bounds,
+            object_planes: self.planes,
+            progress: self.progress,
+        };
+        match self.rule.decide(&cell) {
+            Decision::Split { axis, plane } | Decision::FailedSplit { axis, plane }
+                if !cell.divides(axis, plane) =>
+            {
+                Decision::Leaf(StopReason::TooThin)
+            }
+            decision => {
+                if let Decision::Cut { axis, slab } = decision {
+                    debug_assert!(slab.iter().all(|&p| cell.divides(axis, p)) && slab[0] < slab[1]);
+                }
+                decision
+            }
+        }
+    }
+
+    fn leaf(
+        &self,
+        part: &mut Part,
+        objects: &CellObjects,
+        depth: u32,
+        stop: StopReason,
+    ) -> Result<(), BuildError> {
+        part.leaf(&self.limits, objects, depth, stop)?;
+        if part.nodes.len().is_multiple_of(64) {
+            self.report_progress(part);
+        }
+        Ok(())
+    }
+
+    /// Says how much is done.
+    fn report_progress(&self, part: &mut Part) {
+        let more = std::mem::take(&mut part.done);
+        let add = |bits| Some((f64::from_bits(bits) + more).to_bits());
+        let before = self
+            .done
+            .fetch_update(Ordering::Relaxed, Ordering::Relaxed, add)
+            .unwrap_or_else(|bits| bits);
+        self.progress.set(f64::from_bits(before) + more);
+    }
+
+    /// Below | empty | above, where the empty slab between two planes is left out if they are one.
+    /// A slab takes one more inner node, but no level of depth of its own.
+    fn split(
+        &self,
+        part: &mut Part,
+        objects: &CellObjects,
+        place: &Place,
+        axis: Axis,
+        slab: [f32; 2],
+    ) -> Result<(), BuildError> {
+        let [below, above] = self.parts(place, objects.len(), axis, slab);
+        self.limits.reserve_pending(place.depth, below.1.pending)?;
+        let outer = part.inner(&self.limits, place.depth)?;
+        let apart = objects.len() > TASK && rayon::current_num_threads() > 1;
+        let built = if apart {
+            let (below, above) = rayon::join(
+                || self.build_separately(objects, &below),
+                || self.build_separately(objects, &above),
+            );
+            part.append(below?);
+            Some(above?)
+        } else {
+            self.child(part, objects, &below)?;
+            None
+        };
+        part.close(outer, axis, slab[0]);
+        if slab[0] < slab[1] {
+            let inner = part.inner(&self.limits, place.depth)?;
+            self.leaf(
+                part,
+                &CellObjects::default(),
+                place.depth + 1,
+                StopReason::CutOut,
+            )?;
+            part.close(inner, axis, slab[1]);
+        }
+        match built {
+            Some(above) => part.append(above),
+            None => self.child(part, objects, &above)?,
+        }
+        Ok(())
+    }
+
+    /// The parts of a cell with so many objects below and above a slab.
+    fn parts(
+        &self,
+        place: &Place,
+        objects: usize,
+        axis: Axis,
+        slab: [f32; 2],
+    ) -> [(HalfCell, Place); 2] {
+        let [first, second] = slab.map(|plane| self.frame.to_world(axis, f64::from(plane)));
+        let (below, rest) = place.bounds.split(axis, first);
+        let (_, above) = rest.split(axis, second);
+        let part = |bounds, side, plane| {
+            let mut local = place.local;
+            local[axis.index()][if side == Side::Below { 1 } else { 0 }] = plane;
+            let place = Place {
+                bounds,
+                local,
+                depth: place.depth + 1,
+                failed_splits: place.failed_splits,
+                pending: place.pending + objects,
+            };
+            (HalfCell::new(self.frame, bounds, side, axis, plane), place)
+        };
+        [
+            part(below, Side::Below, slab[0]),
+            part(above, Side::Above, slab[1]),
+        ]
+    }
+
+    /// Takes over from the parent's objects those of a child and builds it.
+    fn child(
+        &self,
+        part: &mut Part,
+        objects: &CellObjects,
+        (half, place): &(HalfCell, Place),
+    ) -> Result<(), BuildError> {
+        let mut own = part.spare.pop().unwrap_or_default();
+        own.clear();
+        for (list, inside) in [(&objects.inside, true), (&objects.touching, false)] {
+            for chunk in list.chunks(CHUNK) {
+                if list.len() > CHUNK {
+                    self.progress.check()?;
+                }
+                self.overlap.select(half, chunk, inside, &mut own);
+            }
+        }
+        self.cell(part, &own, place)?;
+        part.spare.push(own);
+        Ok(())
+    }
+
+    /// The same in arrays of its own.
+    fn build_separately(
+        &self,
+        objects: &CellObjects,
+        child: &(HalfCell, Place),
+    ) -> Result<Part, BuildError> {
+        let mut part = Part::default();
+        self.child(&mut part, objects, child)?;
+        part.finish(&self.limits)?;
+        self.report_progress(&mut part);
+        // What waits to be put together holds only what it needs.
+        part.spare = Vec::new();
+        Ok(part)
+    }
+}

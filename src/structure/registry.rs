@@ -1,0 +1,51 @@
+//! Build methods by name, from the registry.
+
+use super::settings::{BuildSettings, Method, SettingsError};
+use super::split::SPLIT_RULES;
+use serde::{Deserialize, Deserializer};
+
+impl Method {
+    /// All methods in the order of the registry.
+    pub fn all() -> impl Iterator<Item = Method> {
+        SPLIT_RULES.iter().map(Method::new)
+    }
+
+    /// The method of this name.
+    ///
+    /// # Errors
+    /// A name that is not in the registry.
+    pub fn named(name: &str) -> Result<Method, SettingsError> {
+        Method::all()
+            .find(|m| m.name == name)
+            .ok_or_else(|| SettingsError::UnknownMethod {
+                found: name.to_owned(),
+                known: Method::all().map(|m| m.name).collect::<Vec<_>>().join(", "),
+            })
+    }
+
+    /// The paper's two methods, 1 then 2.
+    pub fn of_the_paper() -> Vec<Method> {
+        Method::all().filter(|m| m.paper.is_some()).collect()
+    }
+}
+
+impl std::str::FromStr for Method {
+    type Err = SettingsError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Method::named(text)
+    }
+}
+
+impl<'de> Deserialize<'de> for Method {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        Method::named(&name).map_err(serde::de::Error::custom)
+    }
+}
+
+impl Default for BuildSettings {
+    fn default() -> Self {
+        BuildSettings::for_method(Method::new(&SPLIT_RULES[0]))
+    }
+}

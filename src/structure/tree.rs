@@ -1,0 +1,191 @@
+//! The finished tree: nodes, references, cells.
+
+use super::derived::Derived;
+use super::frame::Frame;
+use super::node::{Node, NodeKind, StopReason};
+use super::settings::BuildSettings;
+use super::voxels::Voxels;
+use crate::geometry::{Aabb, Axis};
+
+/// A finished tree; immutable. Node 0 is the root, at depth 0.
+///
+/// Nodes lie in depth-first order: the lower child of an inner node follows it at once, so the
+/// subtree of a node is one contiguous stretch of the array.
+#[derive(Debug)]
+pub struct Tree {
+    pub(super) nodes: Vec<Node>,
+    pub(super) references: Vec<u32>,
+    pub(super) voxels: Option<Voxels>,
+    pub(super) frame: Frame,
+    pub(super) settings: BuildSettings,
+    pub(super) depth_limit: u32,
+    pub(super) depth_reached: u32,
+    pub(super) derived: Derived,
+}
+
+/// A cell of the tree, as [`Tree::cells`] meets it.
+#[derive(Clone, Copy, Debug)]
+pub struct CellOfNode {
+    /// Index of the node.
+    pub node: u32,
+    /// Levels below the root; a cut that takes an empty slab out is one level, with two planes.
+    pub depth: u32,
+    pub bounds: Aabb,
+}
+
+impl Tree {
+    /// All nodes, 8 bytes each; there is at least one.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// What a node is.
+    pub fn kind(&self, node: u32) -> NodeKind {
+        self.nodes[node as usize].kind(node)
+    }
+
+    /// The objects a leaf refers to, ascending; none for inner nodes.
+    pub fn leaf_objects(&self, node: u32) -> &[u32] {
+        match self.kind(node) {
+            NodeKind::Leaf { first, count, .. } => {
+                &self.references[first as usize..(first + count) as usize]
+            }
+            NodeKind::Inner { .. } => &[],
+        }
+    }
+
+    /// The object numbers of all leaves, one leaf after the other.
+    pub fn references(&self) -> &[u32] {
+        &self.references
+    }
+
+    /// The grid that the leaves form, if they do: rays then go from voxel to voxel.
+    #[inline]
+    pub fn voxels(&self) -> Option<&Voxels> {
+        self.voxels.as_ref()
+    }
+
+    /// The root cell and the coordinates in which split planes are stored.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// The root cell: the scene's bounds and the root margin.
+    pub fn root_cell(&self) -> Aabb {
+        self.frame.cell()
+    }
+
+    /// What the tree was built with.
+    pub fn settings(&self) -> &BuildSettings {
+        &self.settings
+    }
+
+    /// The greatest depth that was allowed, `D_MAX`, automatic or not; a grid may be deeper.
+    pub fn depth_limit(&self) -> u32 {
+        self.depth_limit
+    }
+
+    /// The greatest depth of any leaf, `D_REACH`.
+    pub fn depth_reached(&self) -> u32 {
+        self.depth_reached
+    }
+
+    /// What another module makes of the tree, once: one thing a tree, kept as long as it.
+    ///
+    /// # Panics
+    /// If something of another type is kept already.
+    pub(crate) fn derived<T: Send + Sync + 'static>(&self, make: impl FnOnce() -> T) -> &T {
+        self.derived.get(make)
+    }
+
+    /// Bytes held by nodes, references and the places of voxels.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.nodes.as_slice())
+            + size_of_val(self.references.as_slice())
+            + self.voxels.as_ref().map_or(0, Voxels::bytes)
+    }
+
+    /// The root with its cell.
+    pub fn root(&self) -> CellOfNode {
+        CellOfNode {
+            node: 0,
+            depth: 0,
+            bounds: self.root_cell(),
+        }
+    }
+
+    /// Every node with its depth and cell, in the order of the array.
+    pub fn cells(&self) -> impl Iterator<Item = CellOfNode> + '_ {
+        let mut stack = vec![self.root()];
+        std::iter::from_fn(move || {
+            let cell = stack.pop()?;
+            if let Some([below, above]) = self.children(&cell) {
+                stack.push(above);
+                stack.push(below);
+            }
+            Some(cell)
+        })
+    }
+
+    /// The cell of a node, found from the root down.
+    ///
+    /// # Panics
+    /// If there is no such node.
+    pub fn cell_of(&self, node: u32) -> CellOfNode {
+        let mut cell = self.root();
+        while cell.node != node {
+            let [below, above] = self.children(&cell).expect("the node is in the tree");
+            // Subtrees are contiguous in the array.
+            cell = if node < above.node { below } else { above };
+        }
+        cell
+    }
+
+    /// The cells of the two children of an inner node, below and above its plane; `None` for a leaf.
+    pub fn children(&self, cell: &CellOfNode) -> Option<[CellOfNode; 2]> {
+        let NodeKind::Inner {
+            axis,
+            plane,
+            below,
+            above,
+        } = self.kind(cell.node)
+        else {
+            return None;
+        };
+        let (lower, upper) = cell
+            .bounds
+            .split(axis, self.frame.to_world(axis, f64::from(plane)));
+        Some(
+            [(below, lower), (above, upper)].map(|(node, bounds)| CellOfNode {
+                node,
+                depth: cell.depth + u32::from(!self.is_second_plane(node)),
+                bounds,
+            }),
+        )
+    }
+
+    /// Whether a node is the second plane of a cut, which counts no level of depth of its own: the
+    /// slab that was cut out lies below it.
+    fn is_second_plane(&self, node: u32) -> bool {
+        let cut_out = |below| {
+            matches!(
+                self.kind(below),
+                NodeKind::Leaf {
+                    stop: StopReason::CutOut,
+                    ..
+                }
+            )
+        };
+        matches!(self.kind(node), NodeKind::Inner { below, .. } if cut_out(below))
+    }
+
+    /// The world coordinate of an inner node's plane with its axis; `None` for a leaf.
+    pub fn plane(&self, node: u32) -> Option<(Axis, f64)> {
+        match self.kind(node) {
+            NodeKind::Inner { axis, plane, .. } => {
+                Some((axis, self.frame.to_world(axis, f64::from(plane))))
+            }
+            NodeKind::Leaf { .. } => None,
+        }
+    }
+}
