@@ -10,8 +10,8 @@ pub use edits::{Edits, any_setting};
 pub use setting::{Affects, Choice, Group, Kind, Range, Setting, Value};
 pub use settings::{SETTINGS, setting};
 
-use crate::scene::{Cylinders, Scene, SceneRequest, SceneSource};
-use crate::structure::BuildSettings;
+use crate::scene::{Cylinders, SceneRequest, SceneSource};
+use crate::structure::{BuildSettings, Method};
 use crate::trace::RenderSettings;
 
 /// Everything that decides the structure, the picture and what is counted.
@@ -32,12 +32,12 @@ impl Setup {
         }
     }
 
-    /// This setup with the camera that it uses of a scene spelled out, so that it stays the same
-    /// when the scene's own camera changes.
-    #[must_use]
-    pub fn with_camera_of(mut self, scene: &Scene) -> Self {
-        self.render.camera = self.render.camera.resolve(scene.camera()).into();
-        self
+    /// The paper's `balls` with this method and the paper's other settings.
+    pub fn of_method(method: Method) -> Self {
+        Setup {
+            build: BuildSettings::for_method(method),
+            ..Setup::default()
+        }
     }
 }
 

@@ -210,6 +210,14 @@ impl Setting {
     /// # Errors
     /// What is expected.
     pub fn parse(&self, text: &str) -> Result<Value, String> {
+        self.check(self.read(text)?)
+    }
+
+    /// Reads what has the form of a value, whether it is allowed or not.
+    ///
+    /// # Errors
+    /// What is expected.
+    pub fn read(&self, text: &str) -> Result<Value, String> {
         let text = text.trim();
         let value = match self.kind {
             Kind::Number(_) => text.parse().ok().map(Value::Number),
@@ -232,8 +240,7 @@ impl Setting {
             Kind::Depth => return Ok(Value::Depth(text.parse()?)),
             Kind::Cylinders => return Ok(Value::Cylinders(text.parse()?)),
         };
-        let value = value.ok_or_else(|| format!("expected {}, found '{text}'", self.expected()))?;
-        self.check(value)
+        value.ok_or_else(|| format!("expected {}, found '{text}'", self.expected()))
     }
 
     /// A value of this setting's kind that is allowed.
@@ -298,6 +305,44 @@ impl Setting {
             }
         }
         Ok(values)
+    }
+
+    /// Some values other than the default, for tests that walk all settings.
+    pub fn examples(&self) -> Vec<Value> {
+        let default = self.default(&Setup::default());
+        let values = match self.kind {
+            Kind::Number(range) | Kind::Angle(range) if range.whole => {
+                vec![
+                    Value::Number(range.lowest + 2.0),
+                    Value::Number(range.lowest + 3.0),
+                ]
+            }
+            Kind::Number(range) | Kind::Angle(range) => {
+                let width = (range.highest - range.lowest).min(1.0);
+                vec![
+                    Value::Number(range.lowest + width / 3.0),
+                    Value::Number(range.lowest + width * (0.1 + 0.2)),
+                ]
+            }
+            Kind::Choice(choices) => {
+                let names = choices().into_iter().map(|c| Value::Choice(c.name));
+                names.collect()
+            }
+            Kind::Switch => [false, true].map(Value::Switch).to_vec(),
+            Kind::Size => vec![Value::Size([24, 16]), Value::Size([16, 8])],
+            Kind::Point => vec![
+                Value::Point(Vec3::new(-1.0 / 3.0, -2e-9, 3e20)),
+                Value::Point(Vec3::new(0.0, -1.0, 7.0)),
+            ],
+            Kind::Depth => [MaxDepth::Fixed(7), MaxDepth::Automatic]
+                .map(Value::Depth)
+                .to_vec(),
+            Kind::Cylinders => vec![Value::Cylinders(Cylinders::Polygons(10))],
+        };
+        values
+            .into_iter()
+            .filter(|value| *value != default)
+            .collect()
     }
 
     fn has_ranges(&self) -> bool {

@@ -28,6 +28,7 @@ mod properties;
 mod reconstructions;
 mod record;
 mod scheduler;
+mod settings;
 mod stability;
 mod visits;
 mod workspace;
