@@ -1,7 +1,7 @@
 //! The command line as a user meets it: exit codes, outputs, files, and what goes to which stream.
 
 use crate::support::program::Program;
-use bspscope::measure::{DELTA, LAMBDA, PARAMETERS, Unit};
+use bspscope::measure::{DELTA, LAMBDA, Unit, parameters};
 use bspscope::structure::Method;
 use serde_json::Value;
 use std::io::Read;
@@ -42,7 +42,7 @@ fn wrong_use_is_told_with_exit_code_2() {
             "measure balls:1 --method midpoint --set gap-fraction=0.5",
             "--set gap-fraction",
         ),
-        ("measure balls:99", "balls takes sizes 0 to"),
+        ("measure balls:99", "the size of balls must be from 0 to"),
         (
             "measure tetra:5 --memory-limit 0",
             "--memory-limit: expected a whole number from 1",
@@ -50,7 +50,7 @@ fn wrong_use_is_told_with_exit_code_2() {
         ("render teaching -o picture.jpg", ".png or .exr"),
         ("render teaching --resolution 16x16 -o no/a.png", "no/a.png"),
         ("measure balls:1 --resolution 16x16 -o no/a.txt", "no/a.txt"),
-        ("generate balls:1 -o .", ".: is a folder"),
+        ("generate balls:1 -o .", ".: this is a folder"),
     ] {
         let errors = program.refused_in_a_line(arguments);
         assert!(errors.contains(part), "{arguments}: {errors}");
@@ -90,11 +90,11 @@ fn json_has_every_symbol_and_sets_delta_and_lambda_apart() {
         let keys = |part: &str| -> Vec<String> {
             run[part].as_object().unwrap().keys().cloned().collect()
         };
-        let symbols: Vec<_> = PARAMETERS.iter().map(|p| p.symbol).collect();
+        let symbols: Vec<_> = parameters().iter().map(|p| p.symbol).collect();
         assert_eq!(keys("parameters"), symbols);
         assert_eq!(keys("delta"), DELTA);
         assert_eq!(keys("lambda"), LAMBDA);
-        for parameter in PARAMETERS {
+        for parameter in parameters() {
             let value = &run["parameters"][parameter.symbol];
             assert!(value.is_number(), "{}: {value}", parameter.symbol);
             let whole = matches!(parameter.unit, Unit::Count | Unit::Bytes);
@@ -214,7 +214,7 @@ fn the_load_report_is_told_on_standard_error_and_in_the_report() {
     assert!(text.contains("polygons: 1"), "{text}");
     let refused = program.refused_in_a_line("generate balls:1 -o balls.obj");
     assert!(
-        refused.contains("OBJ files cannot hold all of a scene"),
+        refused.contains("OBJ files cannot represent every scene"),
         "{refused}"
     );
 }
@@ -272,8 +272,8 @@ fn every_form_has_every_symbol_for_every_method() {
     let csv = program.done(&format!("{measure} --format csv"));
     let mut csv = csv::Reader::from_reader(csv.as_bytes());
     let lines: Vec<csv::StringRecord> = csv.records().map(Result::unwrap).collect();
-    assert_eq!(lines.len(), 2 * PARAMETERS.len());
-    for parameter in PARAMETERS {
+    assert_eq!(lines.len(), 2 * parameters().len());
+    for parameter in parameters() {
         let symbol = parameter.symbol;
         assert!(
             text.lines().any(|l| l.starts_with(&format!(" {symbol} "))),
@@ -369,7 +369,7 @@ fn generated_files_measure_as_their_generator_does() {
                 .unwrap()
                 .iter()
                 .flat_map(|run| {
-                    PARAMETERS
+                    parameters()
                         .iter()
                         .filter(|p| p.unit == Unit::Count)
                         .map(|p| run["parameters"][p.symbol].clone())

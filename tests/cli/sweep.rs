@@ -1,11 +1,11 @@
 //! `bspscope sweep`, `merge` and `model`, as a user meets them.
 
 use crate::support::program::Program;
-use bspscope::measure::{Class, PARAMETERS};
+use bspscope::measure::{Class, parameters};
 
 /// The cells of a file of rows, those that depend on the machine left empty.
 fn counts(program: &Program, name: &str) -> Vec<Vec<String>> {
-    let times: Vec<_> = PARAMETERS
+    let times: Vec<_> = parameters()
         .iter()
         .filter(|p| p.class == Class::T)
         .map(|p| p.symbol)
@@ -65,7 +65,7 @@ fn shards_merge_to_the_whole_and_missing_points_are_told() {
     );
     let text = program.ends(1, "merge part-1.jsonl part-3.jsonl -o two.csv");
     assert!(
-        text.contains("missing points, from 0: 1 4 7 10 13"),
+        text.contains("missing points (counted from 0): 1 4 7 10 13"),
         "{text}"
     );
     program.ends(
