@@ -12,6 +12,7 @@ mod foreign;
 mod formats;
 mod gltf;
 mod heat;
+mod html;
 mod jobs;
 mod judge;
 mod leaks;
