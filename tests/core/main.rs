@@ -28,6 +28,7 @@ mod properties;
 mod reconstructions;
 mod record;
 mod scheduler;
+mod settings;
 mod simd;
 mod stability;
 mod tolerant;
