@@ -36,7 +36,7 @@
 //! | [`present::report`] | text, JSON, CSV, Markdown, LaTeX; the page of HTML | a line in [`present::report::WRITERS`] |
 //! | [`present::export`] | pictures, heatmaps with legends, leaf boxes, the report put together | a line in [`present::export::LEAF_WRITERS`] |
 //! | [`lesson`] | guided tours in plain text: what they look at, ask and tell; whether it holds | a line in [`lesson::LESSONS`] |
-//! | [`workspace`] | what was looked at and how, as a file; settings as a command | a field with a default |
+//! | [`workspace`] | what was looked at and how, as a file | a field with a default |
 //! | [`cli`], `gui` | the two faces; they never import each other but to start the window | |
 //!
 //! # The one data flow

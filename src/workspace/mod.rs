@@ -2,13 +2,11 @@
 //! (`.bspscope`, TOML). Data without a window: [`side`] is one setup, [`view`] is what is
 //! shown, [`command`] puts settings into a line to paste.
 
-mod command;
 mod names;
 mod scene;
 mod side;
 mod view;
 
-pub use command::measure_command;
 pub use view::{
     Arrangement, CutSettings, Heat, NODES_A_RAY, PicturePlace, Selected, View, View3dSettings,
     Which,

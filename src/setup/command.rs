@@ -1,7 +1,7 @@
 //! A setup as a line for the command line.
 
+use super::{SETTINGS, Setup};
 use crate::scene::SceneSource;
-use crate::setup::{SETTINGS, Setup};
 use std::path::absolute;
 
 /// Settings that are spelled out even at their defaults.
