@@ -1,6 +1,7 @@
 //! Axis-aligned boxes: bounds of objects and cells of trees.
 
-use super::{Axis, Vec3};
+use super::Axis;
+use glam::DVec3 as Vec3;
 use serde::{Deserialize, Serialize};
 
 /// An axis-aligned closed box. Empty where `lo > hi` on any axis ([`Aabb::EMPTY`]).
@@ -11,7 +12,7 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// The box that holds nothing: the neutral element of [`Aabb::union`].
+    /// The empty box: the neutral element of [`Aabb::union`].
     pub const EMPTY: Aabb = Aabb {
         lo: Vec3::INFINITY,
         hi: Vec3::NEG_INFINITY,
@@ -21,7 +22,7 @@ impl Aabb {
         Aabb { lo, hi }
     }
 
-    /// The tight box around points; empty without points.
+    /// Returns the tight box around points; empty without points.
     pub fn around(points: impl IntoIterator<Item = Vec3>) -> Self {
         points
             .into_iter()
@@ -40,7 +41,7 @@ impl Aabb {
         Aabb::new(self.lo.max(other.lo), self.hi.min(other.hi))
     }
 
-    /// Whether two closed boxes share a point; touching counts.
+    /// Returns whether two closed boxes share a point; touching counts.
     pub fn touches(&self, other: &Aabb) -> bool {
         self.lo.cmple(other.hi).all() && other.lo.cmple(self.hi).all()
     }
@@ -49,12 +50,12 @@ impl Aabb {
         self.lo.cmple(point).all() && point.cmple(self.hi).all()
     }
 
-    /// The box moved outwards by `margin` (a length) on every side.
+    /// Returns the box enlarged by `margin` (a length) on every side.
     pub fn enlarged(&self, margin: f64) -> Aabb {
         Aabb::new(self.lo - margin, self.hi + margin)
     }
 
-    /// Edge lengths; zero for the empty box.
+    /// Returns the edge lengths; zero for an empty box.
     pub fn size(&self) -> Vec3 {
         if self.is_empty() {
             Vec3::ZERO
@@ -67,24 +68,24 @@ impl Aabb {
         self.lo * 0.5 + self.hi * 0.5
     }
 
-    /// Volume; 0 for an empty or a flat box.
+    /// Returns the volume; 0 for an empty or flat box.
     pub fn volume(&self) -> f64 {
         let size = self.size();
         size.x * size.y * size.z
     }
 
-    /// Surface area; 0 for an empty box.
+    /// Returns the surface area; 0 for an empty box.
     pub fn surface_area(&self) -> f64 {
         let size = self.size();
         2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)
     }
 
-    /// The largest absolute coordinate of any corner: the scale of rounding errors inside the box.
+    /// Returns the largest absolute coordinate of any corner: the scale of rounding errors in the box.
     pub fn magnitude(&self) -> f64 {
         self.lo.abs().max(self.hi.abs()).max_element()
     }
 
-    /// The axis of the longest edge; the first of equals.
+    /// Returns the axis of the longest edge; the first of equals.
     pub fn longest_axis(&self) -> Axis {
         let size = self.size();
         if size.x >= size.y && size.x >= size.z {
@@ -96,7 +97,7 @@ impl Aabb {
         }
     }
 
-    /// The two closed halves on either side of a plane, which is clamped into the box.
+    /// Returns the two closed parts below and above a plane, which is clamped to the box.
     pub fn split(&self, axis: Axis, plane: f64) -> (Aabb, Aabb) {
         let (mut below, mut above) = (*self, *self);
         let plane = plane.clamp(self.lo[axis.index()], self.hi[axis.index()]);
@@ -105,7 +106,7 @@ impl Aabb {
         (below, above)
     }
 
-    /// The eight corners; bit `k` of the index chooses `hi` on axis `k`.
+    /// Returns the eight corners; bit `k` of the index selects `hi` on axis `k`.
     pub fn corners(&self) -> [Vec3; 8] {
         std::array::from_fn(|i| {
             Vec3::new(

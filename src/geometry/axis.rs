@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A coordinate axis; also the orientation of a split plane (the plane is perpendicular to it).
+/// A coordinate axis, or the orientation of a split plane perpendicular to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
@@ -15,22 +15,22 @@ pub enum Axis {
 impl Axis {
     pub const ALL: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
-    /// Index of the coordinate, 0 to 2.
+    /// Returns the index of the coordinate, 0 to 2.
     pub const fn index(self) -> usize {
         self as usize
     }
 
-    /// The axis with this index modulo 3.
+    /// Returns the axis with this index modulo 3.
     pub const fn from_index(index: usize) -> Axis {
         Self::ALL[index % 3]
     }
 
-    /// x → y → z → x.
+    /// Returns the next axis in the order x → y → z → x.
     pub const fn next(self) -> Axis {
         Self::from_index(self as usize + 1)
     }
 
-    /// `x`, `y` or `z`.
+    /// Returns `x`, `y` or `z`.
     pub const fn name(self) -> &'static str {
         ["x", "y", "z"][self as usize]
     }

@@ -1,6 +1,6 @@
-//! Points, boxes, axes and rays: what every other folder speaks in.
+//! Points, boxes, axes and rays, for all other folders.
 //!
-//! Everything here is `f64`: scenes are stored and trees are built in it.
+//! Everything here is `f64`, the precision in which scenes are stored and trees are built.
 
 mod aabb;
 mod axis;

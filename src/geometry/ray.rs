@@ -1,10 +1,10 @@
-//! A ray with the stretch of it that counts.
+//! Rays with an interval.
 
-use super::Vec3;
+use glam::DVec3 as Vec3;
 
 /// Points `origin + t · direction` for `t` in the closed interval `[t_min, t_max]`.
 ///
-/// `direction` need not have unit length; renderers give it, so that `t` is a distance there.
+/// `direction` need not have unit length. Renderers use unit length, so that `t` is a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     pub origin: Vec3,
@@ -14,7 +14,7 @@ pub struct Ray {
 }
 
 impl Ray {
-    /// A ray without an end.
+    /// Returns a ray without an end.
     pub const fn new(origin: Vec3, direction: Vec3) -> Self {
         Ray {
             origin,
@@ -24,7 +24,7 @@ impl Ray {
         }
     }
 
-    /// A ray that ends at `t_max`.
+    /// Returns a ray that ends at `t_max`.
     pub const fn to(origin: Vec3, direction: Vec3, t_max: f64) -> Self {
         Ray {
             origin,
@@ -34,7 +34,7 @@ impl Ray {
         }
     }
 
-    /// The point at parameter `t`.
+    /// Returns the point at parameter `t`.
     pub fn at(&self, t: f64) -> Vec3 {
         self.origin + t * self.direction
     }

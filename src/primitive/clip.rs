@@ -1,8 +1,8 @@
-//! Outlines cut off at the faces of a cell.
+//! Clipping of outlines at the faces of a cell.
 
 use crate::geometry::{Aabb, Axis, Vec3};
 
-/// Bounds of the part of a convex or plane outline within a closed cell, `None` if there is none
+/// Returns the bounds of the part of a convex or planar outline within a closed cell, if any
 /// (I. E. Sutherland and G. W. Hodgman, Reentrant polygon clipping, 1974).
 pub(super) fn bounds_of_outline(vertices: &[Vec3], cell: &Aabb) -> Option<Aabb> {
     let mut outline = vertices.to_vec();

@@ -3,8 +3,8 @@
 use super::{Polygon, Shape, ShapeError, SurfacePoint, gjk, numeric};
 use crate::geometry::{Aabb, Ray, Vec3};
 
-/// An open cylinder or truncated cone, without end caps; a cylinder where both radii are equal.
-/// Either radius may be 0, which makes that end a tip.
+/// An open cylinder or truncated cone, without end caps. It is a cylinder if both radii are equal. One
+/// radius may be 0, which makes that end a tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
     base: Vec3,
@@ -14,25 +14,27 @@ pub struct Cone {
     side: Side,
 }
 
-/// The surface as its intersection wants it.
+/// The lateral surface in the form used for intersection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Side {
     /// From base to apex, of unit length.
     pub(super) axis: Vec3,
-    /// The middle of the axis, from which heights count.
+    /// The middle of the axis, where the height is 0.
     pub(super) middle: Vec3,
     pub(super) half_length: f64,
-    /// The radius at the middle, and by how much it grows per height.
+    /// The radius at the middle, and its growth per height.
     pub(super) middle_radius: f64,
     pub(super) slope: f64,
-    /// Square of the largest distance from the middle, rounding included.
+    /// Square of the largest distance from the middle, including rounding.
     pub(super) squared_reach: f64,
 }
 
 impl Cone {
+    /// Creates a cylinder or cone.
+    ///
     /// # Errors
-    /// A number that is not finite, a negative radius, two radii 0, or an axis without length: no
-    /// longer than the rounding of its ends.
+    /// A number that is not finite, a negative radius, two radii of 0, or an axis that is no longer than the
+    /// rounding of its ends.
     pub fn new(
         base: Vec3,
         base_radius: f64,
@@ -73,7 +75,7 @@ impl Cone {
         })
     }
 
-    /// The centre of the circle at the base.
+    /// Returns the center of the circle at the base.
     pub fn base(&self) -> Vec3 {
         self.base
     }
@@ -82,7 +84,7 @@ impl Cone {
         self.base_radius
     }
 
-    /// The centre of the circle at the apex, the end of the axis.
+    /// Returns the center of the circle at the apex, the end of the axis.
     pub fn apex(&self) -> Vec3 {
         self.apex
     }
@@ -91,7 +93,7 @@ impl Cone {
         self.apex_radius
     }
 
-    /// The length of the axis.
+    /// Returns the length of the axis.
     pub fn length(&self) -> f64 {
         2.0 * self.side.half_length
     }
@@ -100,17 +102,17 @@ impl Cone {
         &self.side
     }
 
-    /// Whether both radii are equal.
+    /// Returns whether both radii are equal.
     pub fn is_cylinder(&self) -> bool {
         self.base_radius == self.apex_radius
     }
 
-    /// The open regular inscribed prism, or frustum, of `sides` planar polygons (at least 3):
-    /// quadrilaterals base i, base i+1, apex i+1, apex i, or triangles where a radius is 0.
+    /// Returns the open regular inscribed prism, or frustum, of `sides` (at least 3) planar polygons:
+    /// quadrilaterals base i, base i+1, apex i+1, apex i, or triangles if a radius is 0.
     ///
-    /// Vertices count by the right-hand rule about the axis from the direction axis × x, or from
-    /// axis × y where that vanishes. The same on every platform. A side too narrow for its
-    /// coordinates is left out.
+    /// Vertices are numbered by the right-hand rule about the axis, starting at the direction axis × x, or
+    /// axis × y where that is 0. The result is the same on every platform. Leaves out a side that is too
+    /// narrow for its coordinates.
     pub fn prism(&self, sides: u32) -> Vec<Polygon> {
         let axis = self.side.axis;
         let u = axis
@@ -141,9 +143,9 @@ impl Cone {
         (0..sides).filter_map(side).collect()
     }
 
-    /// The farthest point of the solid in a direction: on the rim of one end or the other. `u` and
-    /// `v` span the plane across the axis, so that even the noise of a direction along the axis,
-    /// which is all that its part in that plane may be, points to the rim.
+    /// Returns the farthest point of the solid in a direction, which is on the rim of one end. `u` and `v` span
+    /// the plane perpendicular to the axis, so that the result is on the rim even if the direction's component
+    /// in that plane is only rounding.
     fn support(&self, direction: Vec3, (u, v): (Vec3, Vec3)) -> Vec3 {
         let (x, y) = (direction.dot(u), direction.dot(v));
         let length = (x * x + y * y).sqrt();
@@ -163,12 +165,12 @@ impl Cone {
 }
 
 impl Side {
-    /// The quadratic of the infinite cone or cylinder, its roots kept where their height is that of
-    /// the surface; there the radius is not negative, so the cone's other half never counts.
+    /// Solves the quadratic equation of the infinite cone or cylinder, and keeps roots at heights of the
+    /// surface. There the radius is not negative, so roots on the cone's other half are excluded.
     ///
-    /// The ray starts at its point nearest the middle and the roots are no differences of nearly
-    /// equal numbers, for the reasons that Haines, Günther and Akenine-Möller give for spheres
-    /// (Ray Tracing Gems, 2019, ch. 7). A line that runs in the surface has no hit.
+    /// Distances are relative to the point of the ray nearest to the middle, and the roots are no
+    /// differences of nearly equal numbers, for the reasons that Haines, Günther and Akenine-Möller give
+    /// for spheres (Ray Tracing Gems, 2019, ch. 7). A line within the surface has no hit.
     #[inline]
     pub(super) fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let direction = ray.direction;
@@ -194,8 +196,8 @@ impl Side {
         if discriminant < 0.0 {
             return None;
         }
-        // Parallel to the side, a is 0 and the first root infinite or no number: it fails the
-        // comparisons, and the second is that of the linear equation.
+        // If the ray is parallel to the side, a is 0. The first root is infinite or NaN and fails the
+        // comparisons; the second is that of the linear equation.
         let q = -(b + discriminant.sqrt().copysign(b));
         let (s0, s1) = (q / a, c / q);
         let (near, far) = if s0 < s1 { (s0, s1) } else { (s1, s0) };
@@ -209,8 +211,8 @@ impl Side {
 }
 
 impl Shape for Cone {
-    /// The tight box of the two discs: one of radius r and unit normal n reaches r √(1 − nᵢ²) along
-    /// axis i, here by the other two components of n, which leave nothing to cancel.
+    /// Returns the tight box of the two discs. A disc of radius r and unit normal n extends r √(1 − nᵢ²) along
+    /// axis i, computed from the other two components of n to avoid cancellation.
     fn bounds(&self) -> Aabb {
         let n = self.side.axis;
         let squares = n * n;
@@ -226,7 +228,7 @@ impl Shape for Cone {
         numeric::grown(base.union(&disc(self.apex, self.apex_radius)))
     }
 
-    /// The solid between the two discs, its inside included.
+    /// Tests the solid between the two discs.
     fn overlaps(&self, cell: &Aabb) -> bool {
         let bounds = self.bounds();
         let across = self.side.axis.any_orthonormal_pair();
@@ -243,7 +245,7 @@ impl Shape for Cone {
         self.side.intersect(ray, t_max)
     }
 
-    /// The larger diameter or the length of the side, whichever is less.
+    /// Returns the smaller of the larger diameter and the length of the side.
     fn min_width(&self) -> f64 {
         let slant = self.length().hypot(self.apex_radius - self.base_radius);
         slant.min(2.0 * self.base_radius.max(self.apex_radius))
@@ -251,15 +253,15 @@ impl Shape for Cone {
 
     fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
         let side = &self.side;
-        let met = ray.at(t) - side.middle;
-        let height = met.dot(side.axis);
-        let across = met - height * side.axis;
+        let hit = ray.at(t) - side.middle;
+        let height = hit.dot(side.axis);
+        let across = hit - height * side.axis;
         let distance = across.length();
         let outward = across
             .try_normalize()
             .unwrap_or_else(|| side.axis.any_orthonormal_vector());
 
-        // In the half-plane through the axis and the point, the surface is a straight segment.
+        // In the half-plane through the axis and the point, the surface is a segment.
         let slant = (1.0 + side.slope * side.slope).sqrt();
         let (along_radius, along_axis) = (side.slope / slant, 1.0 / slant);
         let along = (distance - side.middle_radius) * along_radius + height * along_axis;

@@ -1,19 +1,19 @@
-//! Whether two convex bodies are apart, known only by their farthest points in a direction.
+//! Tests whether two convex bodies are disjoint, given their farthest points in a direction.
 //!
 //! After Gilbert, Johnson and Keerthi, "A fast procedure for computing the distance between complex
 //! objects in three-dimensional space" (IEEE Journal of Robotics and Automation 4(2), 1988).
 
 use crate::geometry::Vec3;
 
-/// More than any smooth pair needs; bodies that barely touch may use them up.
+/// More than smooth bodies need. Bodies that barely touch may reach it.
 const MAX_ITERATIONS: usize = 64;
 
-/// Whether the origin certainly lies outside the convex body whose farthest point in a direction
-/// is `support`: the difference of two bodies is such a body, and holds the origin where they
-/// share a point. `scale` bounds the coordinates that `support` was computed from.
+/// Returns whether the origin certainly lies outside the convex body whose farthest point in a direction is
+/// `support`. The difference of two bodies is such a body, and contains the origin if they share a point.
+/// `scale` bounds the coordinates that `support` was computed from.
 ///
-/// `true` comes with a plane between the two that rounding cannot account for; everything left
-/// open is `false`.
+/// Returns `true` only if a separating plane exists by more than rounding, and `false` in all doubtful
+/// cases.
 pub(super) fn excludes_origin(support: impl Fn(Vec3) -> Vec3, scale: f64) -> bool {
     let mut nearest = support(Vec3::X);
     let mut simplex = Simplex::default();
@@ -31,7 +31,7 @@ pub(super) fn excludes_origin(support: impl Fn(Vec3) -> Vec3, scale: f64) -> boo
         let Some(next) = simplex.reduce_to_nearest() else {
             return false;
         };
-        // No nearer than before: what is left of the distance is rounding.
+        // Not nearer than before: the rest of the distance is rounding.
         if next.length_squared() >= nearest.length_squared() {
             return false;
         }
@@ -47,7 +47,7 @@ struct Simplex {
     len: usize,
 }
 
-/// A point of a simplex and the smallest part of the simplex that holds it.
+/// A point of a simplex, and the smallest part of the simplex that contains it.
 type Candidate = (Vec3, Simplex);
 
 impl Simplex {
@@ -62,8 +62,8 @@ impl Simplex {
         self.len += 1;
     }
 
-    /// The point nearest the origin, keeping only the vertices it depends on; `None` where the
-    /// origin lies inside.
+    /// Returns the point nearest to the origin and removes the vertices that it does not depend on; `None` if
+    /// the origin lies inside.
     fn reduce_to_nearest(&mut self) -> Option<Vec3> {
         let [a, b, c, d] = self.points;
         let (point, part) = match self.len {
@@ -73,7 +73,8 @@ impl Simplex {
             _ => [(a, b, c, d), (a, b, d, c), (a, c, d, b), (b, c, d, a)]
                 .into_iter()
                 .filter(|&(p, q, r, opposite)| {
-                    // Not certainly on the inner side; always so for a flat tetrahedron.
+                    // Keeps the faces that do not certainly have the origin on their inner side. A flat
+                    // tetrahedron has only such faces.
                     let normal = (q - p).cross(r - p);
                     normal.dot(-p) * normal.dot(opposite - p) <= 0.0
                 })
@@ -101,7 +102,7 @@ fn nearest_on_segment(a: Vec3, b: Vec3) -> Candidate {
     } else if s > 0.0 {
         (a + s * along, Simplex::of(&[a, b]))
     } else {
-        // Also for two equal points, where s is not a number.
+        // Also for two equal points, where s is NaN.
         (a, Simplex::of(&[a]))
     }
 }

@@ -1,23 +1,23 @@
-//! Rounding: what the primitives share to stay right at the last places of an `f64`.
+//! Robust arithmetic that the primitives share.
 
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
 
-/// The box moved outwards by four units of relative precision of its coordinates, axis by axis,
-/// so that points computed on the surface inside stay inside. A coordinate 0 does not move.
+/// Enlarges a box by four units of relative precision of its coordinates, axis by axis, so that points
+/// computed on the surface inside stay inside. A coordinate of 0 does not move.
 pub(super) fn grown(tight: Aabb) -> Aabb {
     let margin = 4.0 * f64::EPSILON * tight.lo.abs().max(tight.hi.abs());
     Aabb::new(tight.lo - margin, tight.hi + margin)
 }
 
-/// Whether squares of a direction with this length (or squared length) neither overflow nor
-/// vanish. Kernels hand other rays to [`with_direction_rescaled`].
+/// Returns whether squares of a direction with this length (or squared length) neither overflow nor
+/// underflow. Other rays need [`with_direction_rescaled`].
 #[inline]
 pub(super) fn is_workable(length: f64) -> bool {
     (1e-200..=1e200).contains(&length)
 }
 
-/// Asks `intersect` with the direction scaled to a largest component from 1 to 2; `None` where there
-/// is no direction. The scale is a power of two, so that `t` suffers no rounding by it.
+/// Calls `intersect` with the direction scaled to a largest component from 1 to 2; `None` if there is no
+/// direction. The scale is a power of two, so that it does not round `t`.
 #[cold]
 pub(super) fn with_direction_rescaled(
     ray: &Ray,
@@ -39,8 +39,8 @@ pub(super) fn with_direction_rescaled(
     t.is_finite().then(|| t.max(ray.t_min).min(t_max))
 }
 
-/// Whether a plane perpendicular to `axis` certainly lies between the points and the cell. Any
-/// axis is a fair question; `false` where rounding leaves it open.
+/// Returns whether a plane perpendicular to `axis`, which may be any, certainly lies between the points
+/// and the cell; `false` where rounding leaves it open.
 pub(super) fn separates(axis: Vec3, points: &[Vec3], cell: &Aabb) -> bool {
     let near = Vec3::select(axis.cmpge(Vec3::ZERO), cell.lo, cell.hi).dot(axis);
     let far = Vec3::select(axis.cmpge(Vec3::ZERO), cell.hi, cell.lo).dot(axis);
@@ -55,7 +55,7 @@ pub(super) fn separates(axis: Vec3, points: &[Vec3], cell: &Aabb) -> bool {
     lo - far > slack || near - hi > slack
 }
 
-/// Whether some plane spanned by a coordinate axis and the edge `from`–`to` certainly lies between
+/// Returns whether some plane spanned by a coordinate axis and the edge `from`–`to` certainly lies between
 /// the points and the cell.
 pub(super) fn edge_separates(from: Vec3, to: Vec3, points: &[Vec3], cell: &Aabb) -> bool {
     let edge = to - from;
@@ -64,13 +64,12 @@ pub(super) fn edge_separates(from: Vec3, to: Vec3, points: &[Vec3], cell: &Aabb)
         .any(|axis| separates(axis.cross(edge), points, cell))
 }
 
-/// Unit vectors of the normals given, the surface's own where one is zero; `None` where one is not
-/// finite.
+/// Normalizes normals; a zero one becomes the surface's own. `None` if one is not finite.
 pub(super) fn unit_normals(normals: &[Vec3], own: Vec3) -> Option<Vec<Vec3>> {
     normals
         .iter()
         .map(|n| {
-            // Unit length stays as it is: a scene that was written must read back the same.
+            // Unit vectors are kept, so that a scene that was written reads back the same.
             if (n.length_squared() - 1.0).abs() <= 16.0 * f64::EPSILON {
                 return Some(*n);
             }
@@ -80,9 +79,9 @@ pub(super) fn unit_normals(normals: &[Vec3], own: Vec3) -> Option<Vec<Vec3>> {
         .collect()
 }
 
-/// Coordinates in which the ray is the third axis: shearing and scaling make its direction
-/// (0, 0, 1). After Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2(1),
-/// 2013). Two primitives that share an edge see the very same coordinates of it.
+/// Coordinates in which the ray is the third axis: shearing and scaling make its direction (0, 0, 1).
+/// After Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2(1), 2013). Two primitives
+/// that share an edge compute identical coordinates of it.
 #[derive(Clone, Copy)]
 pub(super) struct Shear {
     /// The axis of the direction's largest component.
@@ -93,7 +92,7 @@ pub(super) struct Shear {
 }
 
 impl Shear {
-    /// `None` where the direction has to be rescaled first.
+    /// Returns the shear of a direction; `None` if the direction must be rescaled first.
     #[inline]
     pub(super) fn of(direction: Vec3) -> Option<Shear> {
         let size = direction.abs();
@@ -104,45 +103,45 @@ impl Shear {
         } else {
             Axis::Z
         };
-        let turned = turned(direction, axis);
-        let shear = Shear::of_turned(turned);
-        is_workable(turned.z.abs()).then_some(Shear { axis, ..shear })
+        let rotated = rotated(direction, axis);
+        let shear = Shear::of_rotated(rotated);
+        is_workable(rotated.z.abs()).then_some(Shear { axis, ..shear })
     }
 
-    /// The same for a direction that is [`turned`] already, its largest component about 1.
+    /// Returns the shear of a [`rotated`] direction whose largest component is about 1.
     #[inline(always)]
-    pub(super) fn of_turned(turned: Vec3) -> Shear {
-        let z = 1.0 / turned.z;
+    pub(super) fn of_rotated(rotated: Vec3) -> Shear {
+        let z = 1.0 / rotated.z;
         Shear {
             axis: Axis::Z,
-            x: turned.x * z,
-            y: turned.y * z,
+            x: rotated.x * z,
+            y: rotated.y * z,
             z,
         }
     }
 
-    /// A vector from the ray's origin in the sheared coordinates; the third is its `t`.
+    /// Transforms a vector from the ray's origin. The third coordinate is its `t`.
     #[inline]
     pub(super) fn apply(&self, from_origin: Vec3) -> Vec3 {
-        self.apply_turned(self.turn(from_origin))
+        self.apply_rotated(self.rotate(from_origin))
     }
 
-    /// A vector's coordinates in cyclic order with the one along the direction's axis last.
+    /// Rotates coordinates cyclically so that the one along the direction's axis is the last.
     #[inline]
-    pub(super) fn turn(&self, v: Vec3) -> Vec3 {
-        turned(v, self.axis)
+    pub(super) fn rotate(&self, v: Vec3) -> Vec3 {
+        rotated(v, self.axis)
     }
 
-    /// [`Shear::apply`] for a vector that is turned already.
+    /// [`Shear::apply`] for a vector that is already rotated.
     #[inline(always)]
-    pub(super) fn apply_turned(&self, v: Vec3) -> Vec3 {
+    pub(super) fn apply_rotated(&self, v: Vec3) -> Vec3 {
         Vec3::new(v.x - self.x * v.z, v.y - self.y * v.z, self.z * v.z)
     }
 }
 
-/// The coordinates in cyclic order with the one along `axis` last.
+/// Rotates coordinates cyclically so that the one along `axis` is the last.
 #[inline]
-pub(super) fn turned(v: Vec3, axis: Axis) -> Vec3 {
+pub(super) fn rotated(v: Vec3, axis: Axis) -> Vec3 {
     match axis {
         Axis::X => Vec3::new(v.y, v.z, v.x),
         Axis::Y => Vec3::new(v.z, v.x, v.y),

@@ -1,16 +1,16 @@
-//! Objects as `f32` in the coordinates of a [`UnitFrame`].
+//! Objects packed as `f32` in the coordinates of a [`UnitFrame`].
 //!
-//! What is rounded to `f32` is the object, the ray and the distance. A test is an arithmetic filter
-//! (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates",
-//! Discrete & Computational Geometry 18, 1997): it is decided in `f32` where the bound on the rounding
-//! allows, as nearly all misses are, and else in `f64`, in which the product of two `f32` is exact.
+//! Objects, rays and distances are rounded to `f32`. A test is an arithmetic filter (Shewchuk, "Adaptive
+//! precision floating-point arithmetic and fast robust geometric predicates", Discrete & Computational
+//! Geometry 18, 1997). It is decided in `f32` if the bound on rounding allows, which holds for nearly all
+//! misses. Otherwise it is decided in `f64`, where the product of two `f32` is exact.
 //!
-//! So a hit is the right one of an object that is off by no more than the rounding of its numbers. It
-//! lies within 4 ε (1 + o) of the true surface, with ε = 2⁻²³ and o the largest coordinate of the
-//! ray's origin, in lengths of the frame: √3 ε/2 of each coordinate of object and origin; √3 ε of the
-//! distance, at most √3 (o + ½), for the direction and for the distance itself; and 2 ε for the
-//! derived numbers of a cone. The bound holds at every angle, as no sum is a difference of nearly
-//! equal rounded numbers; the walk through a tree relies on it.
+//! So a hit is exact for the rounded object and ray. It lies within 4 ε (1 + o) of the exact surface, where
+//! ε = 2⁻²³ and o is the largest coordinate of the ray's origin, in lengths of the frame. The parts are
+//! √3 ε/2 of each coordinate of object and origin; √3 ε of the distance, which is at most √3 (o + ½),
+//! for the direction and for the distance itself; and 2 ε for the derived numbers of a cone. The bound
+//! holds at every angle because no sum is a difference of nearly equal rounded numbers. Traversal relies
+//! on it.
 
 use super::numeric::Shear;
 use super::{
@@ -20,27 +20,27 @@ use crate::geometry::{Ray, Vec3};
 use glam::Vec3 as Point;
 use std::hint::select_unpredictable;
 
-/// An object in the form that intersection wants it in: itself, or packed.
+/// An object in the form that intersection uses: itself or packed.
 pub trait Form: Sized + Send + Sync {
     type Of;
-    /// What it is tested with.
+    /// The ray that it is tested with.
     type Ray;
 
-    /// The form of an object.
+    /// Converts an object.
     fn of(shape: &Self::Of, frame: &UnitFrame) -> Self;
 
-    /// As [`Shape::intersect`]; `t_max` and the result of packed objects are those of an `f32`.
+    /// As [`Shape::intersect`]. For packed objects, `t_max` and the result are representable as `f32`.
     fn intersect(&self, ray: &Self::Ray, t_max: f64) -> Option<f64>;
 
-    /// [`Form::intersect`] without its filter, for a ray that may hit. A packed object's ray is that of
-    /// a [`PackedRay`] in `f64`.
+    /// Runs the exact test: [`Form::intersect`] without the filter. For packed objects, the ray is that of a
+    /// [`PackedRay`] in `f64`.
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64>;
 
-    /// The largest distance (a length of the frame) between the form and the object, and between a
-    /// point of it and the same point as `f32`; 0 where nothing is rounded.
+    /// Returns the maximum distance, in lengths of the frame, between the form and the object, and between
+    /// a point of it and the same point as `f32`; 0 where nothing is rounded.
     fn rounding(&self) -> f64;
 
-    /// Bytes that it takes, with what it points to.
+    /// Returns its memory in bytes, including what it points to.
     fn bytes(&self) -> usize;
 }
 
@@ -71,23 +71,23 @@ impl<S: Shape + Clone> Form for S {
     }
 }
 
-/// How far beyond `t_max` a distance may lie that rounds to it: a factor.
+/// Bound on the ratio between a distance that rounds to `t_max` and `t_max`.
 const UP: f64 = 1.0 + f32::EPSILON as f64;
 
-/// Rounds a distance of at most `t_max` · [`UP`]. Those that round to `t_max` count as `t_max`, so that
-/// what wins a tie does not depend on the order of the tests.
+/// Rounds a distance of at most `t_max` · [`UP`]. Those that round to `t_max` count as `t_max`, so that the
+/// winner of a tie does not depend on the order of the tests.
 #[inline(always)]
 fn rounded(t: f64, t_max: f64) -> Option<f64> {
     let t = f64::from(t as f32);
     (t <= t_max).then_some(t)
 }
 
-/// What [`Form::rounding`] is for coordinates of at most `reach`.
+/// Returns [`Form::rounding`] for coordinates of at most `reach`.
 fn rounding_within(reach: f32) -> f64 {
     4.0 * f64::from(f32::EPSILON * reach)
 }
 
-/// A sphere as `f32`: 16 bytes.
+/// A packed sphere: 16 bytes.
 pub struct PackedSphere {
     center: Point,
     radius: f32,
@@ -99,7 +99,7 @@ impl PackedSphere {
         PackedSphere { center, radius }
     }
 
-    /// Whether the ray's line certainly misses it, decided in `f32`.
+    /// Returns whether the ray's line certainly misses it, decided in `f32`.
     #[inline(always)]
     fn is_missed_by(&self, ray: &PackedRay) -> bool {
         let reach = self.radius + ray.distance_error();
@@ -123,7 +123,7 @@ impl Form for PackedSphere {
         if self.is_missed_by(ray) {
             return None;
         }
-        self.intersect_exact(&ray.widened, t_max)
+        self.intersect_exact(&ray.as_f64, t_max)
     }
 
     #[inline(always)]
@@ -144,29 +144,29 @@ impl Form for PackedSphere {
     }
 }
 
-/// A triangle as `f32`: 36 bytes. Shading takes its normals from the scene.
+/// A packed triangle: 36 bytes. Normals for shading are in the scene.
 pub struct PackedTriangle {
     vertices: [Point; 3],
 }
 
 impl PackedTriangle {
-    /// Where a ray from `origin` meets a triangle with these vertices, NaN where it does not: for
-    /// coordinates in cyclic order with the axis of the direction's largest component last. With
-    /// [`PackedTriangle::round_hit`] it is [`Form::intersect_exact`].
+    /// Returns where a ray from `origin` hits a triangle with these vertices; NaN for a miss. Coordinates are
+    /// in cyclic order with the axis of the direction's largest component last. Followed by
+    /// [`PackedTriangle::round_hit`] this is [`Form::intersect_exact`].
     #[inline(always)]
-    pub(crate) fn crossing_turned(
+    pub(crate) fn crossing_rotated(
         vertices: [Vec3; 3],
         origin: Vec3,
         direction: Vec3,
         t_min: f64,
     ) -> f64 {
         let [a, b, c] = vertices;
-        let shear = Shear::of_turned(direction);
+        let shear = Shear::of_rotated(direction);
         triangle::crossing_or_nan([a - origin, b - origin, c - origin], &shear, t_min)
     }
 
-    /// A distance of [`PackedTriangle::crossing_turned`] rounded, if it is at most `t_max` then; NaN if
-    /// not. Without branches.
+    /// Rounds a distance of [`PackedTriangle::crossing_rotated`]; NaN if the result is above `t_max`.
+    /// Branchless.
     #[inline(always)]
     pub(crate) fn round_hit(crossing: f64, t_max: f64) -> f64 {
         let t = f64::from(crossing as f32);
@@ -174,7 +174,7 @@ impl PackedTriangle {
         select_unpredictable(within, t, f64::NAN)
     }
 
-    /// Whether the ray's line certainly misses it, decided in `f32`.
+    /// Returns whether the ray's line certainly misses it, decided in `f32`.
     #[inline(always)]
     fn is_missed_by(&self, ray: &PackedRay) -> bool {
         let [a, b, c] = self.vertices.map(|v| ray.sheared(v));
@@ -184,8 +184,8 @@ impl PackedTriangle {
         let size = [a, b, c]
             .iter()
             .fold(0.0_f32, |m, p| m.max(p[0].abs()).max(p[1].abs()));
-        // Four coordinates off by 4 ε of `reach`, of which `size` is at most twice, and 2 ε of the
-        // products.
+        // Errors of four coordinates, 4 ε of `reach` each, where `size` is at most twice `reach`; and 2 ε of
+        // the products.
         let error = 24.0 * f32::EPSILON * ray.reach * size;
         u.min(v).min(w) < -error && u.max(v).max(w) > error
     }
@@ -206,7 +206,7 @@ impl Form for PackedTriangle {
         if self.is_missed_by(ray) {
             return None;
         }
-        self.intersect_exact(&ray.widened, t_max)
+        self.intersect_exact(&ray.as_f64, t_max)
     }
 
     #[inline(always)]
@@ -233,13 +233,13 @@ fn reach(points: &[Point]) -> f32 {
         .fold(0.0, |reach, p| p.abs().max_element().max(reach))
 }
 
-/// A polygon as the `f32` vertices of its outline, which rounding puts a little off a common plane.
+/// A packed polygon: the vertices of its outline, which rounding moves off their common plane.
 pub struct PackedPolygon {
     vertices: Box<[Point]>,
 }
 
 impl PackedPolygon {
-    /// Whether the ray's line certainly misses it, decided in `f32`.
+    /// Returns whether the ray's line certainly misses it, decided in `f32`.
     #[inline(always)]
     fn is_missed_by(&self, ray: &PackedRay) -> bool {
         let (mut lo, mut hi) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
@@ -273,7 +273,7 @@ impl Form for PackedPolygon {
         if self.is_missed_by(ray) {
             return None;
         }
-        self.intersect_exact(&ray.widened, t_max)
+        self.intersect_exact(&ray.as_f64, t_max)
     }
 
     #[inline(always)]
@@ -292,13 +292,25 @@ impl Form for PackedPolygon {
 }
 
 impl PackedPolygon {
-    /// Where the ray's line passes through the outline, by the even–odd rule; on the outline counts.
+    /// Returns where the ray's line crosses the polygon, by the even–odd rule. The outline is inside.
     ///
-    /// In coordinates in which the ray is the third axis, the chord of the outline along the first
-    /// axis that holds the origin ends on two edges. `t` there is a mean of those of the chord's
-    /// ends, and those are means of their edges' vertices: never off the polygon, however the ray
-    /// grazes it. An edge is decided from the very same numbers whichever neighbour asks. A ray that
-    /// runs within the plane, as far as can be told, has no hit, as with triangles.
+    /// In coordinates where the ray is the third axis, the chord of the outline along the first axis
+    /// through the origin ends on two edges. `t` at the origin is interpolated between the ends of the
+    /// chord, and there between the vertices of the edges. So the hit stays on the polygon however small
+    /// the angle. Adjacent polygons decide an edge from the same numbers. A ray within rounding of the
+    /// plane has no hit, as with triangles.
+    ///
+    /// ```text
+    /// a = last vertex, sheared
+    /// for each vertex b, sheared:
+    ///     the edge a–b contains the origin: remember its t there
+    ///     else if it crosses the first axis at x:
+    ///         x > 0: toggle inside; remember the edge if it is the nearest to the right
+    ///         x < 0: remember the edge if it is the nearest to the left
+    ///     a = b
+    /// no hit if the area is within rounding of 0
+    /// hit on an edge, or if inside: interpolate between the left and the right edge
+    /// ```
     fn crossing(&self, ray: &Ray) -> Option<f64> {
         let shear = Shear::of(ray.direction)?;
         let (mut distance, mut perimeter, mut area) = (0.0_f64, 0.0, 0.0);
@@ -308,12 +320,12 @@ impl PackedPolygon {
             shear.apply(from_origin)
         };
         let mut a = apply(self.vertices.last()?);
-        // The nearest edges that cross the axis on either side of the origin, and where.
+        // Where the nearest edges on both sides of the origin cross the axis, and their vertices.
         let (mut left, mut right) = ((f64::NEG_INFINITY, a, a), (f64::INFINITY, a, a));
         let (mut inside, mut on_edge) = (false, None);
         for vertex in &self.vertices {
             let b = apply(vertex);
-            // Changes sign, and nothing else, where the edge is walked the other way.
+            // Reversing the edge only changes the sign.
             let cross = a.x * b.y - a.y * b.x;
             area += cross;
             perimeter += (b.x - a.x).abs() + (b.y - a.y).abs();
@@ -343,8 +355,8 @@ impl PackedPolygon {
     }
 }
 
-/// The third coordinate where the segment's first two are 0, on whose line the origin is known to
-/// lie; `None` beyond its ends.
+/// Returns the third coordinate of a segment where its first two are 0; `None` beyond its ends. The
+/// origin must lie on the line of the segment in the first two coordinates.
 fn t_of_origin(a: Vec3, b: Vec3) -> Option<f64> {
     if a.y.min(b.y) > 0.0 || a.y.max(b.y) < 0.0 {
         return None;
@@ -359,7 +371,7 @@ fn t_of_origin(a: Vec3, b: Vec3) -> Option<f64> {
     })
 }
 
-/// A cylinder or cone as `f32`: 40 bytes.
+/// A packed cylinder or cone: 40 bytes.
 pub struct PackedCone {
     axis: Point,
     middle: Point,
@@ -370,7 +382,7 @@ pub struct PackedCone {
 }
 
 impl PackedCone {
-    /// The same numbers widened.
+    /// Converts the numbers to `f64`.
     #[inline(always)]
     fn side(&self) -> cone::Side {
         cone::Side {
@@ -383,12 +395,12 @@ impl PackedCone {
         }
     }
 
-    /// Whether the ray's line certainly misses it, decided in `f32`.
+    /// Returns whether the ray's line certainly misses it, decided in `f32`.
     #[inline(always)]
     fn is_missed_by(&self, ray: &PackedRay) -> bool {
         let radius = self.middle_radius + self.slope.abs() * self.half_length;
-        // The distance between the ray's line and the axis, times the length of their cross product:
-        // 6 ε of its factors' size, each, and 8 ε of the sum.
+        // The distance between the ray's line and the axis, times the length of their cross product. Its
+        // error is 6 ε of the size of each factor, and 8 ε of the sum.
         let normal = ray.direction.cross(self.axis);
         let speed = ray.direction.abs().max_element();
         let error = 64.0 * f32::EPSILON * ray.reach * speed;
@@ -397,7 +409,7 @@ impl PackedCone {
         if apart > 0.0 && apart * apart > around * around * normal.length_squared() {
             return true;
         }
-        // The ball around it.
+        // The bounding sphere.
         let error = ray.distance_error();
         let more = error * (2.0 * (self.half_length + radius) + error);
         ray.squared_distance(self.middle) > self.squared_reach + more
@@ -417,7 +429,7 @@ impl Form for PackedCone {
             half_length: (side.half_length * scale) as f32,
             middle_radius: (side.middle_radius * scale) as f32,
             slope: side.slope as f32,
-            // It only rules out: rounding must not make it smaller.
+            // Used to rule out hits, so it is rounded up.
             squared_reach: (side.squared_reach * scale * scale) as f32 * (1.0 + 8.0 * f32::EPSILON)
                 + f32::EPSILON * f32::EPSILON,
         }
@@ -428,7 +440,7 @@ impl Form for PackedCone {
         if self.is_missed_by(ray) {
             return None;
         }
-        self.intersect_exact(&ray.widened, t_max)
+        self.intersect_exact(&ray.as_f64, t_max)
     }
 
     #[inline(always)]
@@ -447,7 +459,7 @@ impl Form for PackedCone {
     }
 }
 
-/// One object of a scene of several kinds.
+/// A packed object of any kind.
 pub enum PackedPrimitive {
     Sphere(PackedSphere),
     Triangle(PackedTriangle),
@@ -515,8 +527,8 @@ mod tests {
         }
     }
 
-    /// Rays that pass within a few roundings of the outline of what they are aimed at: where `f64`
-    /// finds a hit, `f32` must not have ruled it out.
+    /// Traces rays within a few roundings of the outline of their target: where `f64` finds a hit, `f32`
+    /// must not have ruled it out.
     #[test]
     fn what_is_ruled_out_is_missed() {
         let frame = UnitFrame::around(&Aabb::new(Vec3::splat(-0.5), Vec3::splat(0.5)));
@@ -548,7 +560,7 @@ mod tests {
                 let Some(ray) = PackedRay::new(&frame, &ray) else {
                     continue;
                 };
-                let wide = &ray.widened;
+                let wide = &ray.as_f64;
                 let far = f64::INFINITY;
                 let (hit, missed) = match k {
                     0 => {

@@ -1,32 +1,32 @@
-//! A ray as packed objects are tested with it.
+//! Rays for tests of packed objects.
 
 use super::UnitFrame;
 use crate::geometry::{Axis, Ray, Vec3};
 use glam::Vec3 as Point;
 
-/// A ray in the coordinates of a [`UnitFrame`], its numbers those of an `f32`.
+/// A ray in the coordinates of a [`UnitFrame`], rounded to `f32`.
 #[derive(Debug)]
 pub struct PackedRay {
     pub(crate) frame: UnitFrame,
-    /// The same numbers widened.
-    pub(crate) widened: Ray,
+    /// The rounded ray in `f64`.
+    pub(crate) as_f64: Ray,
     pub(super) origin: Point,
     pub(super) direction: Point,
-    /// 1 over the square of the direction's length.
+    /// 1 / direction².
     per_square: f32,
-    /// The axis of the direction's largest component, and the other two over that one.
+    /// The axis of the direction's largest component, and the other two components divided by it.
     axis: Axis,
     shear: [f32; 2],
-    /// Bound on how far any coordinate of the scene is from that of the origin.
+    /// Bound on the difference between any coordinate of the scene and that of the origin.
     pub(super) reach: f32,
-    /// Where on the ray in the world this one's origin lies.
+    /// Distance of this origin along the ray in the world.
     start: f64,
-    /// Distances here per distance in the world: a power of two.
+    /// Ratio of distances here to those in the world: a power of two.
     scale: f64,
 }
 
-/// A ray of the world as `f32` in the coordinates of a [`UnitFrame`]: what every test of packed
-/// objects starts from.
+/// A ray of the world in the coordinates of a [`UnitFrame`], rounded to `f32`: the input of all tests of
+/// packed objects.
 #[derive(Clone, Copy)]
 pub(crate) struct FramedRay {
     pub(crate) origin: Point,
@@ -34,19 +34,19 @@ pub(crate) struct FramedRay {
     pub(crate) direction: Point,
     pub(crate) t_min: f32,
     pub(crate) t_max: f32,
-    /// Where on the ray in the world this one's origin lies.
+    /// Distance of this origin along the ray in the world.
     pub(crate) start: f64,
-    /// Distances here per distance in the world: a power of two.
+    /// Ratio of distances here to those in the world: a power of two.
     pub(crate) scale: f64,
 }
 
 impl FramedRay {
-    /// A ray whose origin is farther out than this is moved towards the scene, whose coordinates are
-    /// at most ½: rounding is that of places near the scene, wherever the eye is.
+    /// An origin farther away than this is moved along the ray towards the scene, whose coordinates are at
+    /// most ½. So rounding does not grow with the distance of the eye.
     pub(crate) const FAR: f64 = 2.0;
 
-    /// `None` where the ray certainly misses the scene, has no direction, or one so short or long that
-    /// its distances to the scene have no number.
+    /// Transforms a ray. `None` if it certainly misses the scene, has no direction, or one so short or long
+    /// that distances to the scene are not finite.
     #[inline(always)]
     pub(crate) fn new(frame: &UnitFrame, ray: &Ray) -> Option<Self> {
         let (origin, direction) = (frame.point(ray.origin), ray.direction);
@@ -58,13 +58,13 @@ impl FramedRay {
         }
     }
 
-    /// Rays whose direction is not about of unit length, or whose origin is far away. By itself, so
-    /// that numbers of common rays stay in registers.
+    /// Transforms a ray whose direction is not about of unit length, or whose origin is far away. Not
+    /// inlined, so that common rays stay in registers.
     #[cold]
     #[inline(never)]
     fn uncommon(frame: &UnitFrame, ray: &Ray) -> Option<Self> {
         let largest = ray.direction.abs().max_element();
-        // Directions get a largest component from ½ to 2; every `t` takes the opposite scale.
+        // The largest component becomes at least ½ and less than 2; every `t` is scaled inversely.
         let (mut direction, mut scale) = (ray.direction, frame.scale());
         if !(0.5..2.0).contains(&largest) {
             (direction, scale) = rescaled(direction, largest, scale)?;
@@ -92,7 +92,7 @@ impl FramedRay {
     }
 }
 
-/// A direction with a largest component from 1 to 2, and the scale of distances with it.
+/// Scales a direction to a largest component from 1 to 2. Returns it with the scale of distances.
 fn rescaled(direction: Vec3, largest: f64, scale: f64) -> Option<(Vec3, f64)> {
     if !(largest > 0.0 && largest.is_finite()) {
         return None;
@@ -103,8 +103,8 @@ fn rescaled(direction: Vec3, largest: f64, scale: f64) -> Option<(Vec3, f64)> {
 }
 
 impl PackedRay {
-    /// `None` where the ray certainly misses the scene, has no direction, or one so short or long that
-    /// its distances to the scene have no number.
+    /// Transforms a ray. `None` if it certainly misses the scene, has no direction, or one so short or long
+    /// that distances to the scene are not finite.
     #[inline(always)]
     pub fn new(frame: &UnitFrame, ray: &Ray) -> Option<Self> {
         let framed = FramedRay::new(frame, ray)?;
@@ -117,16 +117,16 @@ impl PackedRay {
         } else {
             Axis::Z
         };
-        let turned = turned(direction, axis);
+        let rotated = rotated(direction, axis);
         Some(PackedRay {
             frame: *frame,
             origin: framed.origin,
             direction,
             per_square: 1.0 / direction.length_squared(),
             axis,
-            shear: [turned.x / turned.z, turned.y / turned.z],
+            shear: [rotated.x / rotated.z, rotated.y / rotated.z],
             reach: 0.5 + framed.origin.abs().max_element(),
-            widened: Ray {
+            as_f64: Ray {
                 origin: framed.origin.as_dvec3(),
                 direction: direction.as_dvec3(),
                 t_min: f64::from(framed.t_min),
@@ -137,15 +137,15 @@ impl PackedRay {
         })
     }
 
-    /// A distance on this ray as one on the ray in the world.
+    /// Converts a distance along this ray to one along the ray in the world.
     #[inline(always)]
     pub fn to_world(&self, t: f64) -> f64 {
         self.start + t / self.scale
     }
 
-    /// The square of the distance between a point of the scene and the ray's line, from which it is
-    /// off by less than 12 ε of three times `reach` in length: u = ε/2 for the difference, 9 u for
-    /// the foot's place along the line, 3 u for the foot, in every coordinate.
+    /// Returns the squared distance between a point of the scene and the ray's line. The distance has an
+    /// error of less than 12 ε of three times `reach`: in each coordinate, u = ε/2 for the difference, 9 u
+    /// for the position of the nearest point along the line, and 3 u for that point.
     #[inline(always)]
     pub(super) fn squared_distance(&self, point: Point) -> f32 {
         let to_point = point - self.origin;
@@ -153,25 +153,25 @@ impl PackedRay {
         (to_point - along * self.direction).length_squared()
     }
 
-    /// Bound on the error of [`PackedRay::squared_distance`]'s root.
+    /// Returns a bound on the error of the square root of [`PackedRay::squared_distance`].
     #[inline(always)]
     pub(super) fn distance_error(&self) -> f32 {
         48.0 * f32::EPSILON * self.reach
     }
 
-    /// A point of the scene in coordinates in which the ray is the third axis, the first two of them
-    /// ([`super::numeric::Shear`]). They are off by less than 4 ε of `reach`: u for the difference,
-    /// 4 u for the product and 2 u for the sum.
+    /// Returns the first two coordinates of a point of the scene in coordinates where the ray is the third
+    /// axis ([`super::numeric::Shear`]). Their error is less than 4 ε of `reach`: u for the difference, 4 u
+    /// for the product and 2 u for the sum.
     #[inline(always)]
     pub(super) fn sheared(&self, point: Point) -> [f32; 2] {
-        let v = turned(point - self.origin, self.axis);
+        let v = rotated(point - self.origin, self.axis);
         [v.x - self.shear[0] * v.z, v.y - self.shear[1] * v.z]
     }
 }
 
-/// The coordinates in cyclic order with the one along `axis` last.
+/// Rotates coordinates cyclically so that the one along `axis` is the last.
 #[inline(always)]
-fn turned(v: Point, axis: Axis) -> Point {
+fn rotated(v: Point, axis: Axis) -> Point {
     match axis {
         Axis::X => Point::new(v.y, v.z, v.x),
         Axis::Y => Point::new(v.z, v.x, v.y),
@@ -179,7 +179,7 @@ fn turned(v: Point, axis: Axis) -> Point {
     }
 }
 
-/// Where a ray enters the cube from −1 to 1; `None` where it misses it.
+/// Returns where a ray enters the cube from −1 to 1; `None` for a miss.
 fn entry(origin: Vec3, direction: Vec3) -> Option<f64> {
     let (mut enter, mut exit) = (0.0_f64, f64::INFINITY);
     for k in 0..3 {

@@ -5,41 +5,41 @@ use super::numeric::{self, Shear};
 use super::{Shape, ShapeError, SurfacePoint};
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
 
-/// Vertices may lie this far off their common plane, in lengths of the polygon: files round to six
+/// Maximum distance of vertices from their common plane, in lengths of the polygon. Files round to six
 /// digits, which is a hundred times less.
 const MAX_DEVIATION: f64 = 1e-4;
 
-/// Vertices this far off their common plane, in lengths of the largest coordinate, are off it by
-/// rounding alone.
+/// Distance of vertices from their common plane that rounding accounts for, in lengths of the largest
+/// coordinate.
 const FLATNESS: f64 = 8.0 * f64::EPSILON;
 
 /// A planar simple polygon of 3 or more vertices.
 ///
-/// Its surface is the part of the vertices' mean plane within the outline: the vertices moved into
-/// that plane along the axis nearest its normal, by no more than a file's rounding. Where the
-/// outline crosses itself, the even–odd rule tells inside from outside.
+/// Its surface is the part of the vertices' mean plane within the outline. The outline consists of the
+/// vertices projected to that plane along the axis nearest to its normal. Where the outline intersects
+/// itself, the even–odd rule determines the inside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
     vertices: Vec<Vec3>,
     normals: Option<Vec<Vec3>>,
-    /// Unit normal of the plane, on the side from which the vertices run counter-clockwise.
+    /// Unit normal of the plane on the side where the vertices are counterclockwise.
     normal: Vec3,
-    /// A point of the plane amid the vertices.
+    /// A point of the plane: the mean of the vertices.
     anchor: Vec3,
-    /// The axis of the normal's largest component, which the projection drops.
+    /// The axis of the normal's largest component, along which vertices are projected.
     axis: Axis,
     /// The projected vertices.
     outline: Vec<[f64; 2]>,
     bounds: Aabb,
-    /// Whether the vertices lie in the plane but for rounding.
+    /// Whether the vertices lie in the plane up to rounding.
     is_flat: bool,
     /// The largest absolute coordinate: the scale of rounding errors.
     magnitude: f64,
 }
 
 impl Polygon {
-    /// Vertex normals are brought to unit length; a zero one becomes the polygon's own. Equal
-    /// neighbours among the vertices and vertices on a line do no harm.
+    /// Creates a polygon. Normalizes vertex normals; a zero one becomes the polygon's own. Equal or collinear
+    /// neighboring vertices are allowed.
     ///
     /// # Errors
     /// Too few vertices, a number that is not finite, no area, or vertices off a common plane.
@@ -109,26 +109,26 @@ impl Polygon {
         self.normals.as_deref()
     }
 
-    /// Unit normal, on the side from which the vertices run counter-clockwise.
+    /// Returns the unit normal on the side where the vertices are counterclockwise.
     pub fn normal(&self) -> Vec3 {
         self.normal
     }
 
-    /// The axis along which vertices off the plane are moved into it: that of the normal's largest
+    /// Returns the axis along which vertices are projected to the plane: that of the normal's largest
     /// component.
     pub fn projection_axis(&self) -> Axis {
         self.axis
     }
 
-    /// Triangles that cover the polygon: indices of vertices, counter-clockwise like the polygon.
+    /// Triangulates the polygon: indices of vertices, in the orientation of the polygon.
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         Self::triangulate(&self.vertices)
     }
 
-    /// Triangles that cover a closed loop of vertices, planar or not; none where it has no area.
+    /// Triangulates a closed loop of vertices, planar or not. Returns no triangle if it has no area.
     ///
-    /// Ears are cut off the loop as seen along its normal. Vertices without effect on the shape
-    /// there need not appear.
+    /// Clips ears of the loop as seen along its normal. Vertices that do not affect the shape may be left
+    /// out.
     pub fn triangulate(vertices: &[Vec3]) -> Vec<[u32; 3]> {
         let Some(normal) = newell_normal(vertices) else {
             return Vec::new();
@@ -153,28 +153,28 @@ impl Polygon {
         triangles.collect()
     }
 
-    /// The vertices of the outline in space: each moved into the plane along the dropped axis, but
-    /// left as it is where only rounding keeps it off; neighbours in a mesh then have it in common.
+    /// Returns the vertices projected to the plane, or unchanged if they lie in it up to rounding:
+    /// neighbors in a mesh then have vertices in common.
     pub(super) fn vertices_in_plane(&self) -> impl Iterator<Item = Vec3> {
-        let normal = numeric::turned(self.normal, self.axis);
-        let anchor = numeric::turned(self.anchor, self.axis);
+        let normal = numeric::rotated(self.normal, self.axis);
+        let anchor = numeric::rotated(self.anchor, self.axis);
         let axis = self.axis.index();
         self.vertices.iter().map(move |&v| {
             if self.is_flat {
                 return v;
             }
-            let turned = numeric::turned(v, self.axis);
-            let rise = normal.x * (turned.x - anchor.x) + normal.y * (turned.y - anchor.y);
+            let rotated = numeric::rotated(v, self.axis);
+            let rise = normal.x * (rotated.x - anchor.x) + normal.y * (rotated.y - anchor.y);
             let mut moved = v;
             moved[axis] = anchor.z - rise / normal.z;
             moved
         })
     }
 
-    /// Whether the ray's line passes through the outline, the outline included.
+    /// Returns whether the ray's line crosses the polygon, including its outline.
     ///
-    /// Decided from the very same numbers for an edge, whichever polygon or triangle of a mesh asks:
-    /// no line slips through between two that share it.
+    /// All polygons and triangles of a mesh decide an edge from the same numbers, so no line passes between
+    /// two that share it.
     #[cold]
     fn is_pierced_by(&self, ray: &Ray) -> bool {
         let Some(shear) = Shear::of(ray.direction) else {
@@ -188,12 +188,12 @@ impl Polygon {
         is_inside(&sheared, [0.0; 2], 0.0).unwrap_or(true)
     }
 
-    /// [`Shape::intersect`] for a direction of any length that is neither huge nor tiny.
+    /// [`Shape::intersect`] for a direction that is neither huge nor tiny.
     #[inline]
     fn intersect_workable(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let speed = self.normal.dot(ray.direction);
         let length = ray.direction.abs().element_sum();
-        // What is left of the speed may be rounding alone: the ray runs within the plane.
+        // The ray is within rounding of the plane.
         if speed.abs() <= 4.0 * f64::EPSILON * length {
             return None;
         }
@@ -204,7 +204,7 @@ impl Polygon {
             return None;
         }
         let point = ray.origin + t * ray.direction;
-        // The rounding of the plane's distance is drawn out along a ray that grazes it.
+        // The smaller the angle, the more the rounding of the distance moves the point.
         let reach = to_plane.abs().element_sum() + t.abs() * length + self.magnitude;
         let slack = 4.0 * FLATNESS * reach * (length / speed).abs();
         let hit = self.bounds.enlarged(slack).contains(point)
@@ -213,9 +213,9 @@ impl Polygon {
         hit.then_some(t)
     }
 
-    /// Unit normal at a point of the polygon, from those at the vertices by mean value coordinates
-    /// (Hormann and Floater, "Mean value coordinates for arbitrary planar polygons", ACM
-    /// Transactions on Graphics 25(4), 2006); the plane's own where they cancel out.
+    /// Interpolates vertex normals at a point of the polygon by mean value coordinates (Hormann and Floater,
+    /// "Mean value coordinates for arbitrary planar polygons", ACM Transactions on Graphics 25(4), 2006).
+    /// Returns the plane's own normal where they cancel.
     fn interpolated(&self, normals: &[Vec3], point: Vec3) -> Vec3 {
         let mut sum = Vec3::ZERO;
         let mut previous = self.vertices.len() - 1;
@@ -226,11 +226,11 @@ impl Polygon {
             if rb == 0.0 {
                 return normals[i];
             }
-            // The tangent of half the angle under which the point sees the edge.
+            // tan(φ/2) = sin φ / (1 + cos φ), where φ is the angle that the edge subtends at the point.
             let sine = a.cross(b).dot(self.normal);
             let one_plus_cosine = ra * rb + a.dot(b);
             if one_plus_cosine <= 4.0 * f64::EPSILON * ra * rb {
-                // On the edge, the other vertices count for nothing.
+                // On the edge, the other vertices have no weight.
                 return (rb * normals[previous] + ra * normals[i]).normalize_or(self.normal);
             }
             if ra > 0.0 {
@@ -243,9 +243,9 @@ impl Polygon {
     }
 }
 
-/// Unit normal by Newell's method (Sutherland, Sproull and Schumacker, "A characterization of ten
+/// Returns the unit normal by Newell's method (Sutherland, Sproull and Schumacker, "A characterization of ten
 /// hidden-surface algorithms", ACM Computing Surveys 6(1), 1974), here as the sum of the fan's
-/// cross products; `None` where that is within rounding of zero.
+/// cross products; `None` if that is within rounding of zero.
 fn newell_normal(vertices: &[Vec3]) -> Option<Vec3> {
     let first = *vertices.first()?;
     let scale = vertices
@@ -263,16 +263,16 @@ fn newell_normal(vertices: &[Vec3]) -> Option<Vec3> {
     (length > 4.0 * f64::EPSILON * rounding).then(|| sum / length)
 }
 
-/// The two coordinates other than that along `axis`.
+/// Returns the two coordinates other than that along `axis`.
 #[inline]
 fn project(v: Vec3, axis: Axis) -> [f64; 2] {
-    let turned = numeric::turned(v, axis);
-    [turned.x, turned.y]
+    let rotated = numeric::rotated(v, axis);
+    [rotated.x, rotated.y]
 }
 
-/// Whether a point lies in a closed outline: the number of edges that cross the half-line to its
-/// right is odd (Haines, "Point in polygon strategies", Graphics Gems IV, 1994). `None` within
-/// `slack` of an edge, or just on one for `slack` 0.
+/// Returns whether a point lies in a closed outline: whether an odd number of edges cross the half-line to
+/// its right (Haines, "Point in polygon strategies", Graphics Gems IV, 1994). `None` within `slack` of an
+/// edge, or exactly on one for `slack` 0.
 #[inline]
 fn is_inside(outline: &[[f64; 2]], point: [f64; 2], slack: f64) -> Option<bool> {
     let [x, y] = point;
@@ -282,7 +282,7 @@ fn is_inside(outline: &[[f64; 2]], point: [f64; 2], slack: f64) -> Option<bool> 
     for vertex in outline {
         let (bx, by) = (vertex[0] - x, vertex[1] - y);
         if ay.min(by) <= slack && ay.max(by) >= -slack {
-            // Changes sign, and nothing else, where the edge is walked the other way.
+            // Reversing the edge only changes the sign.
             let cross = ax * by - ay * bx;
             if cross.abs() <= slack * ((bx - ax).abs() + (by - ay).abs())
                 && ax.min(bx) <= slack
@@ -291,7 +291,7 @@ fn is_inside(outline: &[[f64; 2]], point: [f64; 2], slack: f64) -> Option<bool> 
                 return None;
             }
             if (ay > 0.0) != (by > 0.0) {
-                // Where the products vanish, the edge lies wholly to one side.
+                // If the products underflow, the edge lies entirely on one side.
                 let is_right = if cross == 0.0 {
                     ax > 0.0
                 } else {
@@ -317,9 +317,9 @@ impl Shape for Polygon {
         self.bounds
     }
 
-    /// After Green and Hatch, "Fast polygon–cube intersection testing" (Graphics Gems V, 1995):
-    /// they meet where an edge meets the cell, or else where the plane's cut through the cell lies
-    /// within the outline altogether; then so does its point on the diagonal.
+    /// After Green and Hatch, "Fast polygon–cube intersection testing" (Graphics Gems V, 1995): polygon and
+    /// cell overlap if an edge overlaps the cell, or if the plane's cross-section of the cell lies within
+    /// the outline. Then so does its point on the cell's diagonal.
     fn overlaps(&self, cell: &Aabb) -> bool {
         if !self.bounds.touches(cell) {
             return false;
@@ -353,7 +353,7 @@ impl Shape for Polygon {
         let cut = if share > 0.0 {
             from + share.min(1.0) * (to - from)
         } else {
-            // Also for a cell that is flat and in the plane.
+            // Also for a flat cell in the plane.
             from
         };
         is_inside(&self.outline, project(cut, self.axis), slack).unwrap_or(true)
@@ -363,10 +363,10 @@ impl Shape for Polygon {
         bounds_of_outline(&self.vertices, cell)
     }
 
-    /// Where the ray meets the plane, inside or on the outline. A ray in the plane has no hit.
+    /// Returns where the ray crosses the plane, inside or on the outline. A ray in the plane has no hit.
     ///
-    /// A point within rounding of an edge is decided by the line's passing the edge in space, as
-    /// triangles do: both polygons at a common edge may report it, never neither.
+    /// Within rounding of an edge, the side on which the line passes the edge in space decides, as for
+    /// triangles: at a common edge both polygons may report the hit, but never neither.
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         if numeric::is_workable(self.normal.dot(ray.direction).abs()) {
@@ -376,7 +376,7 @@ impl Shape for Polygon {
         }
     }
 
-    /// The area over the bounds' longest edge, which is at most the width.
+    /// Returns the area divided by the longest edge of the bounds, which is at most the width.
     fn min_width(&self) -> f64 {
         let first = self.vertices[0];
         let size = self.bounds.size().max_element();

@@ -1,5 +1,5 @@
-//! The objects as intersection kernels want them: in one precision, and one kind in one array where
-//! a scene has one kind.
+//! The objects of a scene for intersection kernels: in one precision, and as an array of one kind if the
+//! scene has only one.
 
 use super::packed::{
     Form, PackedCone, PackedPolygon, PackedPrimitive, PackedSphere, PackedTriangle,
@@ -9,26 +9,26 @@ use super::{
 };
 use crate::geometry::Aabb;
 
-/// The objects of a scene by number, in one of two precisions.
+/// The objects of a scene by index, in one of two precisions.
 pub enum Shapes {
     F64(Arrays<Sphere, Triangle, Polygon, Cone, Primitive>),
     F32 {
         frame: UnitFrame,
         arrays: Arrays<PackedSphere, PackedTriangle, PackedPolygon, PackedCone, PackedPrimitive>,
-        /// `None` without objects that have a width.
+        /// `None` if no object has a width.
         thinnest: Option<ThinnestObject>,
     },
 }
 
-/// The object that rounding changes most, by its width.
+/// The object with the smallest width relative to its rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThinnestObject {
     pub object: u32,
-    /// Its width ([`super::Shape::min_width`]) over its rounding ([`Shapes::rounding`]).
+    /// Its width ([`super::Shape::min_width`]) divided by its rounding ([`Shapes::rounding`]).
     pub min_width: f64,
 }
 
-/// The array of all objects. A scene of one kind runs without a choice of kind per test.
+/// The array of all objects. A scene of one kind needs no branch on the kind per test.
 pub enum Arrays<S, T, P, C, M> {
     Spheres(Vec<S>),
     Triangles(Vec<T>),
@@ -37,7 +37,7 @@ pub enum Arrays<S, T, P, C, M> {
     Mixed(Vec<M>),
 }
 
-/// Runs `$body` with `$objects` bound to the one array there is, compiled once for every kind.
+/// Evaluates `$body` with `$objects` bound to the array, monomorphized for each kind.
 macro_rules! with_array {
     ($arrays:expr, $objects:ident => $body:expr) => {
         match $arrays {
@@ -98,7 +98,7 @@ where
 }
 
 impl Shapes {
-    /// Objects within `bounds`, prepared for a precision.
+    /// Converts objects within `bounds` to a precision.
     pub fn of(objects: &[Primitive], bounds: &Aabb, precision: Precision) -> Self {
         let frame = UnitFrame::around(bounds);
         match precision {
@@ -124,8 +124,8 @@ impl Shapes {
         }
     }
 
-    /// How far, a length in the world, rounding may put an object's surface from where it is, and a
-    /// point on it from the surface, beyond what `f64` does.
+    /// Returns a bound on the distance, a length in the world, by which rounding to `f32` may move the surface
+    /// of an object, and a point on it from the surface.
     pub fn rounding(&self, object: u32) -> f64 {
         match self {
             Shapes::F64(_) => 0.0,
@@ -135,7 +135,7 @@ impl Shapes {
         }
     }
 
-    /// Bytes that the objects take.
+    /// Returns the memory of the objects in bytes.
     pub fn bytes(&self) -> usize {
         macro_rules! sum {
             ($arrays:expr) => {
@@ -149,13 +149,13 @@ impl Shapes {
     }
 }
 
-/// The object with the least width for its rounding. Objects without any width, such as a sphere of
-/// radius 0, lose nothing.
+/// Returns the object with the smallest width relative to its rounding. Ignores objects without width, such
+/// as a sphere of radius 0: rounding does not change their shape.
 fn thinnest(objects: &[Primitive], roundings: Vec<f64>) -> Option<ThinnestObject> {
     let widths = objects.iter().zip(roundings).zip(0..);
-    let frail = widths.filter_map(|((shape, rounding), object)| {
+    let thin = widths.filter_map(|((shape, rounding), object)| {
         let min_width = shape.min_width() / rounding;
         (min_width > 0.0).then_some(ThinnestObject { object, min_width })
     });
-    frail.min_by(|a, b| a.min_width.total_cmp(&b.min_width))
+    thin.min_by(|a, b| a.min_width.total_cmp(&b.min_width))
 }

@@ -3,7 +3,7 @@
 use super::{Shape, ShapeError, SurfacePoint, numeric};
 use crate::geometry::{Aabb, Ray, Vec3};
 
-/// A sphere; radius 0 is a point that no ray hits but by chance.
+/// A sphere. Radius 0 is a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     pub center: Vec3,
@@ -11,6 +11,8 @@ pub struct Sphere {
 }
 
 impl Sphere {
+    /// Creates a sphere.
+    ///
     /// # Errors
     /// A number that is not finite, or a negative radius.
     pub fn new(center: Vec3, radius: f64) -> Result<Self, ShapeError> {
@@ -32,14 +34,14 @@ impl Shape for Sphere {
         ))
     }
 
-    /// The solid ball: whether the point of the cell nearest the centre is within the radius.
+    /// Tests the solid ball: whether the point of the cell nearest to the center is within the radius.
     fn overlaps(&self, cell: &Aabb) -> bool {
         let nearest = self.center.clamp(cell.lo, cell.hi);
         nearest.distance_squared(self.center) <= self.radius * self.radius
     }
 
-    /// The solid ball's: along an axis it reaches as far as at the point of the cell that is nearest
-    /// to its centre in the other two.
+    /// Returns those of the solid ball. Its extent along an axis is that at the point of the cell nearest to
+    /// the center in the other two axes.
     fn bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
         let away = self.center.clamp(cell.lo, cell.hi) - self.center;
         let away = away * away;
@@ -50,9 +52,9 @@ impl Shape for Sphere {
     }
 
     /// After Haines, Günther and Akenine-Möller, "Precision improvements for ray/sphere
-    /// intersection" (Ray Tracing Gems, 2019, ch. 7): the discriminant comes from the centre's
-    /// offset from the ray, not from a difference of squares of the distance, which would leave
-    /// nothing of a small sphere far away; and no root is a difference of nearly equal numbers.
+    /// intersection" (Ray Tracing Gems, 2019, ch. 7). The discriminant is computed from the offset of the
+    /// center from the ray, because a difference of squared distances would cancel for a small sphere far
+    /// away. No root is a difference of nearly equal numbers.
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let direction = ray.direction;
@@ -71,7 +73,7 @@ impl Shape for Sphere {
         let q = b + (a * discriminant).sqrt().copysign(b);
         let c = to_center.length_squared() - squared_radius;
         let (t0, t1) = (c / q, q / a);
-        // Where q is 0, t0 is infinite or no number, and t1 the one root.
+        // If q is 0, t0 is infinite or NaN, and t1 is the only root.
         let (near, far) = if t0 < t1 { (t0, t1) } else { (t1, t0) };
         let in_reach = |t: &f64| ray.t_min <= *t && *t <= t_max && t.is_finite();
         Some(near)
@@ -79,7 +81,7 @@ impl Shape for Sphere {
             .or_else(|| Some(far).filter(in_reach))
     }
 
-    /// The diameter.
+    /// Returns the diameter.
     fn min_width(&self) -> f64 {
         2.0 * self.radius
     }
@@ -90,7 +92,7 @@ impl Shape for Sphere {
             point: self.center + self.radius * normal,
             normal,
             shading_normal: normal,
-            // The unit normal is good to 2 ε, its multiple and the sum to ε/2 each.
+            // 2 ε for the unit normal, ε/2 each for its multiple and the sum.
             error: 4.0 * f64::EPSILON * (self.center.abs().element_sum() + self.radius),
         }
     }

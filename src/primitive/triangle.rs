@@ -5,7 +5,7 @@ use super::numeric::{self, Shear};
 use super::{Shape, ShapeError, SurfacePoint};
 use crate::geometry::{Aabb, Ray, Vec3};
 
-/// A triangle; `normals`, one a vertex and of unit length, shade it smoothly.
+/// A triangle. `normals`, one unit vector per vertex, are for smooth shading.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Triangle {
     pub vertices: [Vec3; 3],
@@ -13,12 +13,12 @@ pub struct Triangle {
 }
 
 impl Triangle {
-    /// Vertex normals are brought to unit length; a zero one becomes the triangle's own.
+    /// Creates a triangle. Normalizes vertex normals; a zero one becomes the triangle's own.
     ///
     /// # Errors
-    /// A number that is not finite, or three vertices on a line: the height over the longest edge
-    /// is within four units of relative precision of that edge, so that coordinates of the edge's
-    /// size cannot tell the triangle from a line, nor its normal from noise.
+    /// A number that is not finite, or collinear vertices: the height over the longest edge is at most four
+    /// units of relative precision of that edge. Coordinates of the edge's size then cannot distinguish the
+    /// triangle from a line, and its normal is noise.
     pub fn new(vertices: [Vec3; 3], normals: Option<[Vec3; 3]>) -> Result<Self, ShapeError> {
         if vertices.iter().any(|v| !v.is_finite()) {
             return Err(ShapeError::NotFinite);
@@ -41,15 +41,15 @@ impl Triangle {
         Ok(Triangle { vertices, normals })
     }
 
-    /// Unit normal, on the side from which the vertices run counter-clockwise.
+    /// Returns the unit normal on the side where the vertices are counterclockwise.
     pub fn normal(&self) -> Vec3 {
         self.normal_and_flatness().0
     }
 
-    /// The unit normal, and the height over the longest edge in lengths of that edge.
+    /// Returns the unit normal, and the height over the longest edge in lengths of that edge.
     ///
-    /// The two shorter edges are multiplied: a product with the longest one would drown the area
-    /// of a needle in rounding. They are scaled first, as the squares of tiny ones would vanish.
+    /// Multiplies the two shorter edges because in a product with the longest one, rounding would exceed the
+    /// area of a needle. Scales them first because the squares of tiny ones would underflow.
     fn normal_and_flatness(&self) -> (Vec3, f64) {
         let [a, b, c] = self.vertices;
         let edges = [b - a, c - b, a - c];
@@ -69,8 +69,8 @@ impl Triangle {
         (cross.normalize_or(Vec3::Z), cross.length() / longest)
     }
 
-    /// Weights of the vertices, none negative and of sum 1, for the point of the triangle below or
-    /// above `point` along the normal, or for one near by where there is none.
+    /// Returns barycentric coordinates, not negative and of sum 1, of the projection of `point` along the
+    /// normal, or of a point nearby if that is outside.
     fn weights(&self, point: Vec3, normal: Vec3) -> [f64; 3] {
         let [a, b, c] = self.vertices.map(|v| v - point);
         let areas = [b.cross(c), c.cross(a), a.cross(b)].map(|n| n.dot(normal).max(0.0));
@@ -83,18 +83,18 @@ impl Triangle {
     }
 }
 
-/// Where a ray meets a triangle within an interval, its vertices given from the ray's origin and
-/// [turned](Shear::turn).
+/// Returns where a ray hits a triangle within an interval. The vertices are relative to the ray's origin
+/// and [rotated](Shear::rotate).
 ///
-/// An edge function of 0 counts as inside, whichever its sign would be with more digits: both
-/// triangles at an edge may report the hit, never neither. A triangle seen edge-on has no hit.
+/// An edge function of 0 counts as inside, whatever its exact sign is. So at an edge, both triangles may
+/// report the hit, but never neither. A triangle seen edge-on has no hit.
 #[inline(always)]
 pub(super) fn crossing(
     vertices: [Vec3; 3],
     shear: &Shear,
     [t_min, t_max]: [f64; 2],
 ) -> Option<f64> {
-    let [a, b, c] = vertices.map(|v| shear.apply_turned(v));
+    let [a, b, c] = vertices.map(|v| shear.apply_rotated(v));
     let u = c.x * b.y - c.y * b.x;
     let v = a.x * c.y - a.y * c.x;
     let w = b.x * a.y - b.y * a.x;
@@ -107,13 +107,13 @@ pub(super) fn crossing(
     (in_reach && !is_edge_on(vertices, determinant, [a, b, c])).then_some(t)
 }
 
-/// [`crossing`] up to any distance, NaN where there is none; without branches, so that a loop over many
-/// triangles computes several at a time. It does the same arithmetic.
+/// [`crossing`] without an upper limit; NaN for a miss. Branchless, so that a loop over many triangles is
+/// vectorized. The arithmetic is the same.
 #[inline(always)]
 pub(super) fn crossing_or_nan(vertices: [Vec3; 3], shear: &Shear, t_min: f64) -> f64 {
-    let a = shear.apply_turned(vertices[0]);
-    let b = shear.apply_turned(vertices[1]);
-    let c = shear.apply_turned(vertices[2]);
+    let a = shear.apply_rotated(vertices[0]);
+    let b = shear.apply_rotated(vertices[1]);
+    let c = shear.apply_rotated(vertices[2]);
     let u = c.x * b.y - c.y * b.x;
     let v = a.x * c.y - a.y * c.x;
     let w = b.x * a.y - b.y * a.x;
@@ -128,11 +128,11 @@ pub(super) fn crossing_or_nan(vertices: [Vec3; 3], shear: &Shear, t_min: f64) ->
     }
 }
 
-/// Whether the determinant of the edge functions may be rounding alone: then their signs mean
-/// nothing, and the ray runs within the triangle's plane as far as can be told.
+/// Returns whether the determinant of the edge functions is within rounding of 0. Then their signs are
+/// meaningless, and the ray is within rounding of the triangle's plane.
 ///
-/// A sheared coordinate is off by some 3 ε of the distance to the vertex, and the determinant by
-/// that times the longest sheared edge for each vertex.
+/// A sheared coordinate has an error of about 3 ε of the distance to the vertex, and the determinant has
+/// that times the longest sheared edge, for each vertex.
 #[inline(always)]
 fn is_edge_on(vertices: [Vec3; 3], determinant: f64, [a, b, c]: [Vec3; 3]) -> bool {
     let distance = vertices
@@ -170,17 +170,16 @@ impl Shape for Triangle {
     }
 
     /// After Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2(1), 2013).
-    ///
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let Some(shear) = Shear::of(ray.direction) else {
             return numeric::with_direction_rescaled(ray, t_max, |r, t| self.intersect(r, t));
         };
-        let vertices = self.vertices.map(|v| shear.turn(v - ray.origin));
+        let vertices = self.vertices.map(|v| shear.rotate(v - ray.origin));
         crossing(vertices, &shear, [ray.t_min, t_max])
     }
 
-    /// The height over the longest edge.
+    /// Returns the height over the longest edge.
     fn min_width(&self) -> f64 {
         let [a, b, c] = self.vertices;
         let longest = (b - a).length().max((c - b).length()).max((a - c).length());
@@ -200,8 +199,8 @@ impl Shape for Triangle {
             point: mean(&self.vertices),
             normal,
             shading_normal,
-            // Weights of sum 1 are good to 3 rounding errors, a product to one more and the two
-            // sums to two: γ₆ of Pharr, Jakob and Humphreys, "Physically based rendering" (3.9).
+            // Three rounding errors for the weights, one for a product and two for the sums: γ₆ of Pharr,
+            // Jakob and Humphreys, "Physically based rendering" (3.9).
             error: 3.5 * f64::EPSILON * magnitude.element_sum(),
         }
     }

@@ -1,20 +1,20 @@
-//! The coordinates in which `f32` holds a scene.
+//! The coordinates that represent a scene in `f32`.
 
 use crate::geometry::{Aabb, Vec3};
 
-/// Coordinates with the scene's centre as origin, scaled by a power of two so that the scene's
-/// longest edge is from ½ to 1: no coordinate of it is above ½.
+/// Coordinates with the scene's center as origin, scaled by a power of two so that the scene's longest
+/// edge is from ½ to 1: its coordinates are at most ½.
 ///
-/// A scene that is moved or scaled as a whole loses nothing by that but the 24 bits of its own size.
+/// So the precision does not depend on the position and size of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnitFrame {
-    /// The scene's centre, scaled.
+    /// The scene's center, scaled.
     center: Vec3,
     scale: f64,
 }
 
 impl UnitFrame {
-    /// The frame of a scene with these bounds; those of a scene without extent are not scaled.
+    /// Returns the frame of a scene with these bounds. A scene without extent is not scaled.
     pub fn around(bounds: &Aabb) -> Self {
         let half = (bounds.hi * 0.5 - bounds.lo * 0.5).max_element();
         if bounds.is_empty() || half == 0.0 {
@@ -32,20 +32,20 @@ impl UnitFrame {
         }
     }
 
-    /// Lengths here per length in the world: a power of two.
+    /// Returns the ratio of lengths here to those in the world: a power of two.
     pub fn scale(&self) -> f64 {
         self.scale
     }
 
-    /// The scene's centre, scaled: what [`UnitFrame::point`] takes off.
+    /// Returns the scene's center, scaled: what [`UnitFrame::point`] subtracts.
     pub(crate) fn center(&self) -> Vec3 {
         self.center
     }
 
-    /// A point of the world.
+    /// Transforms a point of the world.
     #[inline]
     pub fn point(&self, world: Vec3) -> Vec3 {
-        // Scaled first: the difference of two huge coordinates may be too large for a number.
+        // Scales first because the difference of two huge coordinates may overflow.
         world * self.scale - self.center
     }
 }

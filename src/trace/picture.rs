@@ -1,4 +1,4 @@
-//! The picture in memory and the tiles it is traced in.
+//! Images in memory, and the tiles that they are rendered in.
 
 use crate::geometry::Vec3;
 
@@ -15,7 +15,7 @@ pub struct Tile {
 }
 
 impl Tile {
-    /// Number of pixels.
+    /// Returns the number of pixels.
     pub const fn len(&self) -> usize {
         self.width as usize * self.height as usize
     }
@@ -24,13 +24,13 @@ impl Tile {
         self.len() == 0
     }
 
-    /// The picture's coordinates of a pixel of the tile, counted row by row.
+    /// Returns the coordinates in the image of a pixel of the tile, given by its index row by row.
     pub const fn pixel(&self, index: u32) -> (u32, u32) {
         (self.x + index % self.width, self.y + index / self.width)
     }
 }
 
-/// The tiles that cover a picture, row by row.
+/// Returns the tiles of an image, row by row.
 pub fn tiles(width: u32, height: u32) -> Vec<Tile> {
     let mut tiles = Vec::new();
     for y in (0..height).step_by(TILE as usize) {
@@ -46,7 +46,7 @@ pub fn tiles(width: u32, height: u32) -> Vec<Tile> {
     tiles
 }
 
-/// A picture of linear colours, row by row from the upper left.
+/// An image of linear colors, row by row from the upper left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     pub width: u32,
@@ -55,7 +55,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// A black picture.
+    /// Returns a black image.
     pub fn new(width: u32, height: u32) -> Self {
         Picture {
             width,
@@ -64,18 +64,18 @@ impl Picture {
         }
     }
 
-    /// Linear colours, row by row.
+    /// Returns the linear colors, row by row.
     pub fn pixels(&self) -> &[[f32; 3]] {
         &self.pixels
     }
 
-    /// Linear colour of a pixel.
+    /// Returns the linear color of a pixel.
     pub fn get(&self, x: u32, y: u32) -> [f32; 3] {
         self.pixels[(y * self.width + x) as usize]
     }
 
-    /// Blends sample number `sample` of a tile's pixels in: each pixel becomes the mean of its
-    /// samples so far. Sample 0 replaces what was there.
+    /// Adds sample number `sample` of a tile's pixels: each pixel becomes the mean of its samples so far.
+    /// Sample 0 replaces the pixels.
     pub fn add_tile(&mut self, tile: &Tile, sample: u32, colors: &[Vec3]) {
         let share = 1.0 / (sample as f32 + 1.0);
         for (row, colors) in colors.chunks_exact(tile.width as usize).enumerate() {
@@ -93,13 +93,13 @@ impl Picture {
         }
     }
 
-    /// 8-bit sRGB, row by row (IEC 61966-2-1); values outside 0 to 1 are clipped.
+    /// Converts to 8-bit sRGB, row by row (IEC 61966-2-1). Values outside 0 to 1 are clipped.
     pub fn to_srgb8(&self) -> Vec<[u8; 3]> {
         self.pixels.iter().map(|p| p.map(srgb8)).collect()
     }
 }
 
-/// A linear value as 8-bit sRGB (IEC 61966-2-1), clipped to 0 to 1.
+/// Converts a linear value to 8-bit sRGB (IEC 61966-2-1). Values outside 0 to 1 are clipped.
 pub fn srgb8(linear: f32) -> u8 {
     let linear = linear.clamp(0.0, 1.0);
     let encoded = if linear <= 0.003_130_8 {

@@ -1,34 +1,34 @@
-//! What a traversal can be watched with. A probe is a type parameter: `()` costs nothing.
+//! Observers of traversals. A probe is a type parameter: `()` costs nothing.
 
 use serde::Serialize;
 use std::iter::Sum;
 use std::ops::AddAssign;
 
-/// Which children of an inner node a ray goes on to.
+/// The children of an inner node that a ray visits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Children {
-    /// Only the child that the ray meets first: it ends before the plane.
+    /// Only the near child: the ray ends before the plane.
     Near,
-    /// Only the other one: the ray begins behind the plane.
+    /// Only the far child: the ray begins behind the plane.
     Far,
-    /// Both, the near one first.
+    /// Both, the near child first.
     Both,
 }
 
-/// Is told of everything a traversal does.
+/// Observes every step of a traversal.
 pub trait Probe {
-    /// An inner node is traversed while the ray is between the two distances `within`; it meets the
-    /// plane at `t` (infinite or NaN where it runs along it), and the far child, if it goes on to
-    /// both, at `t_far`.
+    /// Called when an inner node is traversed. `within` is the ray's interval within its cell, `t` where the
+    /// ray crosses the plane (infinite or NaN if parallel), and `t_far` where the far child begins if both
+    /// children are visited.
     fn inner(&mut self, node: u32, within: [f64; 2], t: f64, t_far: f64, children: Children);
-    /// A leaf is visited, while the ray is between the two distances.
+    /// Called when a leaf is visited. `within` is the ray's interval within its cell.
     fn leaf(&mut self, node: u32, objects: &[u32], within: [f64; 2]);
-    /// An object is tested; `hit` is where the ray meets it before the nearest hit so far.
+    /// Called when an object is tested. `hit` is the distance of a hit before the closest one so far.
     fn test(&mut self, object: u32, hit: Option<f64>);
 }
 
-/// Watches nothing: the probe of timed kernels.
+/// Observes nothing: the probe of timed kernels.
 impl Probe for () {
     #[inline(always)]
     fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Children) {}
@@ -38,7 +38,7 @@ impl Probe for () {
     fn test(&mut self, _: u32, _: Option<f64>) {}
 }
 
-/// What one ray did.
+/// The counts of one ray.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RayCounts {
     /// Inner nodes traversed.
@@ -69,7 +69,7 @@ impl Probe for RayCounts {
     }
 }
 
-/// The most that any one ray did; every count may be that of another ray.
+/// Maxima over single rays. Each maximum may be that of another ray.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RayMaxima {
     /// Inner nodes and leaves traversed.
@@ -87,7 +87,7 @@ pub struct RayMaxima {
 }
 
 impl RayMaxima {
-    /// Takes in another ray.
+    /// Includes another ray.
     pub fn add(&mut self, counts: &RayCounts) {
         *self = self.merge(RayMaxima {
             nodes: counts.inner_nodes + counts.leaves,
@@ -99,7 +99,7 @@ impl RayMaxima {
         });
     }
 
-    /// The most of both.
+    /// Returns the maxima of both.
     pub fn merge(self, other: RayMaxima) -> RayMaxima {
         RayMaxima {
             nodes: self.nodes.max(other.nodes),
@@ -112,7 +112,7 @@ impl RayMaxima {
     }
 }
 
-/// What all rays of one kind did; `N` counts them. Adding tallies in any order gives the same.
+/// The counts of all rays of one kind, in numbers of type `N`. The order of additions does not matter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally<N = u64> {
     /// Rays formed.
@@ -129,7 +129,7 @@ pub struct Tally<N = u64> {
     pub empty_leaves: N,
 }
 
-/// What the rays of one pixel did, by [`super::RayKind`].
+/// The counts of one pixel, by [`super::RayKind`].
 pub type PixelTallies = [Tally<u32>; 4];
 
 impl<N: From<u32> + AddAssign> Tally<N> {

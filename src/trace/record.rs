@@ -1,6 +1,6 @@
-//! Everything that the rays of one pixel did: for learning why it costs what it costs.
+//! A record of everything that the rays of one pixel do, to explain the cost of the pixel.
 
-use super::kernel::{any_hit, closest_hit};
+use super::query::{any_hit, closest_hit};
 use super::whitted::spawn;
 use super::{
     Children, Hit, PixelTallies, Probe, RayCounts, RayKind, RenderError, RenderSettings, Scratch,
@@ -21,16 +21,16 @@ pub struct InnerStep {
     pub axis: Axis,
     /// World coordinate of the plane.
     pub plane: f64,
-    /// Where on the ray the node's cell lies between, widened by rounding.
+    /// The interval of the ray within the node's cell, widened for rounding.
     pub t_enter: f64,
     pub t_exit: f64,
-    /// Where the ray meets the plane; `None` where it runs along it.
+    /// Where the ray crosses the plane; `None` if it is parallel.
     pub t_plane: Option<f64>,
-    /// Where the far child begins, widened by rounding, if the ray goes on to both.
+    /// Where the far child begins, widened for rounding, if the ray visits both children.
     pub t_far: f64,
     #[serde(rename = "way")]
     pub children: Children,
-    /// The child that the ray meets first, and the other.
+    /// Indices of the near and the far child.
     pub near: u32,
     pub far: u32,
 }
@@ -39,28 +39,28 @@ pub struct InnerStep {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TestStep {
     pub object: u32,
-    /// Where the ray meets the object, if it does before the nearest hit so far.
+    /// The distance of a hit before the closest one so far, if any.
     pub hit: Option<f64>,
 }
 
-/// Why a walk went on after a leaf, or ended there.
+/// Why a traversal continues after a leaf, or ends there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LeafOutcome {
-    /// Nothing is hit so far: on to the next leaf.
+    /// There is no hit so far: continues with the next leaf.
     NothingYet,
-    /// The nearest hit so far lies beyond this leaf: the next one may hold a nearer.
+    /// The closest hit so far lies beyond this leaf: the next leaf may hold a closer one.
     HitBeyond,
-    /// The nearest hit lies before the next leaf: done.
+    /// The closest hit lies before the next leaf: ends.
     HitNearer,
-    /// Something blocks the light: done.
+    /// Something blocks the light: ends.
     Blocked,
-    /// No leaf is left on the ray: done.
+    /// No leaf is left on the ray: ends.
     NoLeafLeft,
 }
 
 impl LeafOutcome {
-    /// One short phrase for people.
+    /// Returns a short phrase.
     pub const fn text(self) -> &'static str {
         match self {
             LeafOutcome::NothingYet => "no hit yet: on to the next leaf",
@@ -79,11 +79,11 @@ pub struct LeafStep {
     pub node: u32,
     pub depth: u32,
     pub bounds: Aabb,
-    /// Number of objects that the leaf refers to; 0 is an empty leaf.
+    /// Number of references to objects; 0 for an empty leaf.
     pub objects: u32,
     /// Why the cell became a leaf.
     pub stop: StopReason,
-    /// Where on the ray the cell lies between, widened by rounding.
+    /// The interval of the ray within the cell, widened for rounding.
     pub t_enter: f64,
     pub t_exit: f64,
     /// In order; a shadow ray ends at its first hit.
@@ -92,7 +92,7 @@ pub struct LeafStep {
     pub outcome: LeafOutcome,
 }
 
-/// One step of a walk through the tree.
+/// One step of a traversal.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "step", rename_all = "lowercase")]
 pub enum Step {
@@ -101,7 +101,7 @@ pub enum Step {
 }
 
 impl Step {
-    /// Index of the node.
+    /// Returns the index of the node.
     pub fn node(&self) -> u32 {
         match self {
             Step::Inner(step) => step.node,
@@ -110,19 +110,19 @@ impl Step {
     }
 }
 
-/// What one ray did.
+/// The traversal of one ray.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayPath {
     pub kind: RayKind,
     pub ray: Ray,
-    /// In order; empty where the ray misses the root cell.
+    /// In order; empty if the ray misses the root cell.
     pub steps: Vec<Step>,
-    /// The nearest hit; for a shadow ray the one that blocks it.
+    /// The closest hit; for a shadow ray the one that blocks it.
     pub hit: Hit,
 }
 
 impl RayPath {
-    /// The leaves visited, in order.
+    /// Returns the visited leaves, in order.
     pub fn leaves(&self) -> impl Iterator<Item = &LeafStep> {
         self.steps.iter().filter_map(|step| match step {
             Step::Leaf(leaf) => Some(leaf),
@@ -130,7 +130,7 @@ impl RayPath {
         })
     }
 
-    /// The counts that the counting kernel has for this ray.
+    /// Returns the counts of this ray, equal to those of the counting kernel.
     pub fn counts(&self) -> RayCounts {
         let mut counts = RayCounts::default();
         for step in &self.steps {
@@ -146,8 +146,7 @@ impl RayPath {
         counts
     }
 
-    /// Where the ray ends in the picture of it: at its hit, at its own end, or where it leaves the
-    /// root cell.
+    /// Returns where the ray is drawn to: its hit, its own end, or where it leaves the root cell.
     pub fn end(&self) -> f64 {
         let left = self.leaves().last().map_or(0.0, |leaf| leaf.t_exit);
         if self.hit.is_hit() {
@@ -162,29 +161,29 @@ impl RayPath {
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordedRay {
     pub path: RayPath,
-    /// The ray from whose hit it started, by its place; `None` for the primary ray.
+    /// Index of the ray whose hit spawned this one; `None` for the primary ray.
     pub parent: Option<usize>,
-    /// Bounces since the eye: 0 for the primary ray; a shadow ray has its parent's.
+    /// Number of bounces: 0 for the primary ray. A shadow ray has that of its parent.
     pub depth: u32,
-    /// What its radiance, or the light it is sent to, counts for in the pixel.
+    /// Weight of its radiance in the pixel, or of the light for a shadow ray.
     pub weight: Vec3,
 }
 
-/// Whitted's whole tree of rays of one pixel.
+/// The ray tree of one pixel, after Whitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelRecord {
     /// Column and row, from the upper left.
     pub pixel: [u32; 2],
-    /// Linear colour of sample 0.
+    /// Linear color of sample 0.
     pub color: Vec3,
-    /// Depth first: a ray before the rays that start from its hit.
+    /// Depth first: a ray before those that its hit spawned.
     pub rays: Vec<RecordedRay>,
-    /// Whether rays are missing because the record would have become too large.
+    /// Whether rays are missing because of the limit on the size of the record.
     pub cut: bool,
 }
 
 impl PixelRecord {
-    /// The counts that the counting kernel has for this pixel.
+    /// Returns the counts of this pixel, equal to those of the counting kernel.
     pub fn tallies(&self) -> PixelTallies {
         let mut tallies = PixelTallies::default();
         for ray in &self.rays {
@@ -195,7 +194,7 @@ impl PixelRecord {
     }
 }
 
-/// Traces sample 0 of a pixel and keeps everything its rays did.
+/// Traces sample 0 of a pixel and records all steps of its rays.
 ///
 /// # Errors
 /// A camera without a view or a resolution out of range.
@@ -208,8 +207,8 @@ pub fn record_pixel(
     record_pixel_within(scene, tree, settings, pixel, usize::MAX)
 }
 
-/// As [`record_pixel`], but starts no further ray once the record holds `most` steps and tests: the
-/// tree of rays of a glass scene doubles with every level of `d_arec`.
+/// As [`record_pixel`], but starts no further ray once the record has `limit` steps and tests. The ray tree
+/// of a glass scene doubles with every level of `d_arec`.
 ///
 /// # Errors
 /// As [`record_pixel`].
@@ -218,7 +217,7 @@ pub fn record_pixel_within(
     tree: &Tree,
     settings: &RenderSettings,
     [x, y]: [u32; 2],
-    most: usize,
+    limit: usize,
 ) -> Result<PixelRecord, RenderError> {
     let shading = Shading::new(scene, settings)?;
     let mut recording = Recording {
@@ -230,14 +229,14 @@ pub fn record_pixel_within(
             rays: Vec::new(),
             cut: false,
         },
-        left: most,
+        left: limit,
     };
     let ray = shading.view.primary_ray(x, y, 0);
     recording.follow(RayKind::Primary, ray, Vec3::ONE, None, 0);
     Ok(recording.record)
 }
 
-/// Traces one ray through objects prepared for a precision, and keeps everything it did.
+/// Traces one ray and records all its steps.
 pub fn record_ray(tree: &Tree, shapes: &Shapes, kind: RayKind, ray: &Ray) -> RayPath {
     let mut recorder = Recorder {
         tree,
@@ -251,7 +250,7 @@ pub fn record_ray(tree: &Tree, shapes: &Shapes, kind: RayKind, ray: &Ray) -> Ray
         closest_hit(tree, shapes, ray, &mut scratch, &mut recorder)
     };
     let mut steps = recorder.steps;
-    explain(&mut steps, kind);
+    complete(&mut steps, kind);
     RayPath {
         kind,
         ray: *ray,
@@ -359,7 +358,7 @@ impl Probe for Recorder<'_> {
             t_plane: t.is_finite().then_some(t),
             t_far,
             children,
-            // Set by `explain`, once the next step is known.
+            // Corrected by `complete`, when the next step is known.
             near: below,
             far: above,
         }));
@@ -390,9 +389,9 @@ impl Probe for Recorder<'_> {
     }
 }
 
-/// Fills in what is known only from the steps that follow: near and far, and why a leaf was or was
-/// not the last.
-fn explain(steps: &mut [Step], kind: RayKind) {
+/// Completes the steps with what depends on the following ones: near and far child, and the outcome of
+/// leaves.
+fn complete(steps: &mut [Step], kind: RayKind) {
     let mut nearest = f64::INFINITY;
     for i in 0..steps.len() {
         let next = steps.get(i + 1).map(Step::node);
@@ -400,8 +399,8 @@ fn explain(steps: &mut [Step], kind: RayKind) {
         match &mut steps[i] {
             Step::Inner(step) => {
                 let entered_above = next == Some(step.far);
-                // `near` holds the child below, `far` the one above; the next step tells which the
-                // ray entered, and the way whether that is its near or its far child.
+                // `near` is the child below and `far` the one above so far. The next step shows which one
+                // the ray entered, and `children` whether that is its near or its far child.
                 if entered_above == (step.children != Children::Far) {
                     std::mem::swap(&mut step.near, &mut step.far);
                 }

@@ -1,12 +1,12 @@
-//! Whole passes over a picture: a coarse preview, the timed pass, the counted pass.
+//! Rendering of whole images: a coarse preview, timed rendering, counted rendering.
 
 use super::{
-    CountingKernel, PixelTallies, RayKind, RayMaxima, RenderSettings, ScalarKernel, Scratch,
-    Shading, Tally, Tile, TimedKernel, objects_on_ray, tiles, trace_samples,
+    CountingKernel, PixelTallies, RayKind, RayMaxima, RenderError, RenderSettings, ScalarKernel,
+    Scratch, Shading, Tally, Tile, TimedKernel, objects_on_ray, tiles, trace_samples,
 };
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
-use crate::scene::{CameraError, Scene, View};
+use crate::scene::Scene;
 use crate::structure::Tree;
 use cpu_time::ThreadTime;
 use rayon::prelude::*;
@@ -14,45 +14,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Why there is no picture.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RenderError {
-    #[error(transparent)]
-    Camera(#[from] CameraError),
-    #[error("a picture of {width} × {height} pixels: both must be from 1 to {limit}")]
-    Resolution { width: u32, height: u32, limit: u32 },
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-    #[error("the threads could not be started: {0}")]
-    Threads(String),
-}
-
-/// The most pixels a picture can have on a side.
-const RESOLUTION_LIMIT: u32 = 16_384;
-
-impl RenderSettings {
-    /// The view of a scene with these settings.
-    ///
-    /// # Errors
-    /// A camera without a view or a resolution out of range.
-    pub fn view(&self, scene: &Scene) -> Result<View, RenderError> {
-        let range = 1..=RESOLUTION_LIMIT;
-        if !range.contains(&self.width) || !range.contains(&self.height) {
-            return Err(RenderError::Resolution {
-                width: self.width,
-                height: self.height,
-                limit: RESOLUTION_LIMIT,
-            });
-        }
-        let camera = self.camera.resolve(scene.camera());
-        Ok(camera.view(self.width, self.height, self.sampling)?)
-    }
-}
-
-/// Threads to trace on; 0 takes as many as the machine has cores.
+/// Creates the threads for rendering; 0 means one per core.
 ///
 /// # Errors
-/// The system gives no threads.
+/// The system cannot start the threads.
 pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, RenderError> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
@@ -61,43 +26,43 @@ pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, RenderError> {
         .map_err(|error| RenderError::Threads(error.to_string()))
 }
 
-/// What one timed pass took.
+/// The times of one rendering.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TimedRender {
     /// CPU time of all threads together, `T_TR`.
     pub cpu: Duration,
-    /// Time on the clock on the wall.
+    /// Wall-clock time.
     pub wall: Duration,
     /// Threads that rendered.
     pub threads: usize,
 }
 
-/// What one counted pass counted.
+/// The counts of one rendering.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CountedRender {
     /// By [`RayKind`].
     pub tallies: [Tally; 4],
-    /// The most that a single ray did, by [`RayKind`].
+    /// Maxima over single rays, by [`RayKind`].
     pub maxima: [RayMaxima; 4],
-    /// CPU time of walking all rays to their known ends without tests and shading, `T_TT`.
+    /// CPU time of the traversal of all rays to their known ends, without tests and shading, `T_TT`.
     pub traversal: Duration,
-    /// Objects met by all primary rays together: `D_COMPX` times the number of primary rays.
+    /// Sum over the primary rays of the objects that each hits: `D_COMPX` times the number of primary rays.
     pub objects_met: u64,
 }
 
-/// What one tile of a counted pass counted.
+/// The counts of one tile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CountedTile {
     pub tile: Tile,
     pub sum: CountedRender,
     /// Row by row.
     pub pixels: Vec<PixelTallies>,
-    /// Objects that each pixel's primary ray meets, row by row.
+    /// Objects that the primary ray of each pixel hits, row by row.
     pub depth_complexity: Vec<u32>,
 }
 
 impl CountedRender {
-    /// Both together.
+    /// Returns the sum of both.
     pub fn merge(mut self, other: CountedRender) -> CountedRender {
         for kind in RayKind::ALL {
             let kind = kind as usize;
@@ -110,7 +75,7 @@ impl CountedRender {
     }
 }
 
-/// A pass's tiles in parallel; every tile is given to `work` once.
+/// Calls `work` for every tile of an image, in parallel, and merges the results.
 pub(super) fn over_tiles<R: Send>(
     settings: &RenderSettings,
     pool: &rayon::ThreadPool,
@@ -138,8 +103,8 @@ pub(super) fn over_tiles<R: Send>(
     })
 }
 
-/// Traces sample number `sample` of every pixel with the timed kernel. `on_tile` gets every
-/// finished tile's linear colours, from any thread and in any order; its time is not counted.
+/// Renders sample number `sample` of every pixel with the timed kernel. `on_tile` is called with the linear
+/// colors of every finished tile, from any thread and in any order. Its time is not counted.
 ///
 /// # Errors
 /// A camera without a view, a resolution out of range, or cancellation.
@@ -153,7 +118,7 @@ pub fn render_timed(
     on_tile: impl Fn(&Tile, &[Vec3]) + Sync,
 ) -> Result<TimedRender, RenderError> {
     let shading = Shading::new(scene, settings)?;
-    // Making the tree ready for the kernel, once a tree, is no part of tracing.
+    // Preparing the tree for the kernel, once per tree, does not count as rendering time.
     TimedKernel::new(settings.kernel, scene, tree, shading.shapes, progress);
     let start = Instant::now();
     let cpu = over_tiles(
@@ -182,8 +147,8 @@ pub fn render_timed(
     })
 }
 
-/// Traces sample 0 of every pixel with the counting kernel. `on_tile` gets the counts of every
-/// finished tile, from any thread and in any order; they sum to the result.
+/// Renders sample 0 of every pixel with the counting kernel. `on_tile` is called with the counts of every
+/// finished tile, from any thread and in any order. Their sum is the result.
 ///
 /// # Errors
 /// As [`render_timed`].
@@ -196,7 +161,7 @@ pub fn render_counted(
     on_tile: impl Fn(CountedTile) + Sync,
 ) -> Result<CountedRender, RenderError> {
     let shading = Shading::new(scene, settings)?;
-    let pass = over_tiles(
+    let counted = over_tiles(
         settings,
         pool,
         progress,
@@ -232,19 +197,18 @@ pub fn render_counted(
         CountedRender::merge,
         CountedRender::default,
     )?;
-    Ok(pass)
+    Ok(counted)
 }
 
-/// How often each pixel is timed.
+/// Number of times that each pixel is timed.
 const ROUNDS: u32 = 3;
 
-/// The time that each pixel takes, in seconds, row by row: its sample 0 traced and shaded alone by
-/// the timed kernel.
+/// Measures the time of each pixel, in seconds, row by row: its sample 0 traced and shaded alone by the
+/// scalar kernel.
 ///
-/// A pixel takes from about one microsecond up. Reading the wall clock adds 0.04 µs to that, reading
-/// a thread's CPU clock, a call of the system, 0.5 µs (measured), so the wall clock it is. What
-/// speaks against it, that it runs on while a thread is interrupted, is met by taking the least of
-/// a few rounds over the tile.
+/// A pixel takes about one microsecond or more. Reading the wall clock adds 0.04 µs, reading the CPU
+/// clock of a thread, a system call, adds 0.5 µs (measured). So this reads the wall clock, and takes the
+/// minimum over a few rounds because the wall clock includes interruptions of the thread.
 ///
 /// # Errors
 /// As [`render_timed`].
@@ -267,9 +231,9 @@ pub fn pixel_times(
         |_, pixels| {
             let mut tracer = ScalarKernel::new(tree, shading.shapes, progress);
             let mut colors = Vec::new();
-            let mut least = vec![f32::INFINITY; pixels.len()];
+            let mut minimum = vec![f32::INFINITY; pixels.len()];
             for _ in 0..ROUNDS {
-                for (least, pixel) in least.iter_mut().zip(pixels) {
+                for (minimum, pixel) in minimum.iter_mut().zip(pixels) {
                     let start = Instant::now();
                     trace_samples(
                         &shading,
@@ -278,15 +242,15 @@ pub fn pixel_times(
                         &mut tracer,
                         &mut colors,
                     );
-                    *least = least.min(start.elapsed().as_secs_f32());
+                    *minimum = minimum.min(start.elapsed().as_secs_f32());
                     if progress.is_cancelled() {
                         return;
                     }
                 }
             }
             let mut times = times.lock().unwrap_or_else(PoisonError::into_inner);
-            for (&(x, y), least) in pixels.iter().zip(least) {
-                times[y as usize * settings.width as usize + x as usize] = least;
+            for (&(x, y), minimum) in pixels.iter().zip(minimum) {
+                times[y as usize * settings.width as usize + x as usize] = minimum;
             }
         },
         |(), ()| (),
@@ -295,8 +259,8 @@ pub fn pixel_times(
     Ok(times.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// Traces one pixel of every square of `step` × `step` pixels and gives the whole square its
-/// colour: a coarse first picture. `on_tile` gets the squares, from any thread.
+/// Renders a coarse image: traces one pixel per square of `step` × `step` pixels and fills the square with
+/// its color. `on_tile` is called with every finished tile, from any thread.
 ///
 /// # Errors
 /// As [`render_timed`].

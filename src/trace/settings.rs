@@ -1,9 +1,9 @@
-//! How a picture is traced.
+//! Settings of rendering.
 
 use super::{KernelChoice, PrecisionChoice};
 use crate::scene::{Camera, CameraOverride, Sampling};
 
-/// Everything that, with a scene, decides the picture (class S of the paper's parameters).
+/// Everything that determines the image of a scene (class S of the paper's parameters).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RenderSettings {
     /// What differs from the scene's own camera.
@@ -12,20 +12,20 @@ pub struct RenderSettings {
     pub width: u32,
     /// Height in pixels, `N_Y`; at least 1.
     pub height: u32,
-    /// How deep secondary rays go, `D_AREC`; 0 traces none.
+    /// Maximum depth of secondary rays, `D_AREC`; 0 traces none.
     pub d_arec: u32,
-    /// A secondary ray is not traced if its radiance counts for less than this in every colour of the
-    /// pixel, 0 to 1; 0 traces all that count for anything.
+    /// Minimum contribution, 0 to 1: a secondary ray is not traced if its weight is below this in every
+    /// color channel of the pixel. 0 traces all rays that contribute.
     pub min_contribution: f64,
-    /// The numbers that rays are traced in.
+    /// Precision of ray tracing.
     pub precision: PrecisionChoice,
-    /// The kernel that the timed pass is traced with; every one gives the same picture.
+    /// Kernel of timed rendering. All kernels render the same image.
     pub kernel: KernelChoice,
-    /// Where in a pixel the first sample lies.
+    /// Position of the first sample in a pixel.
     pub sampling: Sampling,
-    /// Samples a pixel in the finished picture, at least 1. Measurements always take one.
+    /// Samples per pixel of the finished image, at least 1. Measurements always take one.
     pub samples: u32,
-    /// Threads; 0 takes as many as the machine has cores.
+    /// Number of threads; 0 means one per core.
     pub threads: usize,
 }
 

@@ -1,32 +1,33 @@
-//! The numbers a ray is traced in: those of the world, or those of an `f32` near the scene.
+//! The coordinates that rays are traced in: those of the world in `f64`, or those of the unit frame in
+//! `f32`.
 
-use super::line::{TraversalRay, TraversalRayF32, TraversalRayF64};
-use super::through_voxels::through_voxels;
+use super::traversal_ray::{TraversalRay, TraversalRayF32, TraversalRayF64};
 use super::traverse::traverse;
+use super::traverse_grid::traverse_grid;
 use super::{Children, LeafVisitor, Probe, Scratch};
 use crate::geometry::Ray;
 use crate::primitive::{PackedRay, UnitFrame};
 use crate::structure::Tree;
 
-/// Where rays are traced.
+/// Coordinates that rays are traced in.
 pub(super) trait Space {
-    type Inside: Inside;
+    type Ray: SpaceRay;
 
-    /// A ray of the world in here; `None` where it cannot hit anything.
-    fn enter(&self, ray: &Ray) -> Option<Self::Inside>;
+    /// Transforms a ray of the world; `None` where it cannot hit anything.
+    fn transform(&self, ray: &Ray) -> Option<Self::Ray>;
 }
 
-/// A ray of the world where it is traced; objects are tested with it.
-pub(super) trait Inside {
-    /// The interval of it that counts.
+/// A ray in the coordinates of a [`Space`]. Objects are tested with it.
+pub(super) trait SpaceRay {
+    /// Returns the ray's interval.
     fn interval(&self) -> [f64; 2];
 
-    /// A distance in here as one on the ray of the world.
+    /// Converts a distance along this ray to one along the ray in the world.
     fn to_world(&self, t: f64) -> f64;
 
-    /// [`traverse`] or [`through_voxels`] with this ray; the visitor's distances are those in here, the probe's those of
-    /// the world.
-    fn walk<V: LeafVisitor, P: Probe>(
+    /// Calls [`traverse`] or [`traverse_grid`] with this ray. Distances of the visitor are along this ray,
+    /// those of the probe are along the ray in the world.
+    fn traverse<V: LeafVisitor, P: Probe>(
         &self,
         tree: &Tree,
         scratch: &mut Scratch,
@@ -35,35 +36,53 @@ pub(super) trait Inside {
     );
 }
 
-/// Walks as the tree's structure has it.
+/// Calls the traversal for the kind of structure.
 #[inline(always)]
-fn walk_line<L: TraversalRay, V: LeafVisitor, P: Probe>(
+fn traverse_structure<R: TraversalRay, V: LeafVisitor, P: Probe>(
     tree: &Tree,
     interval: [f64; 2],
-    line: &L,
+    ray: &R,
     scratch: &mut Scratch,
     visitor: &mut V,
     probe: &mut P,
 ) {
     match tree.voxels() {
-        None => traverse(tree, interval, line, scratch, visitor, probe),
-        Some(voxels) => through_voxels(tree, voxels, interval, line, visitor, probe),
+        None => traverse(tree, interval, ray, scratch, visitor, probe),
+        Some(voxels) => traverse_grid(tree, voxels, interval, ray, visitor, probe),
     }
 }
 
-/// The world itself, in `f64`.
+/// Evaluates `$body` with `$objects` bound to the array of objects and `$space` to their coordinates,
+/// monomorphized for each kind and precision.
+macro_rules! with_shapes {
+    ($shapes:expr, $space:ident, $objects:ident => $body:expr) => {
+        match $shapes {
+            $crate::primitive::Shapes::F64(arrays) => {
+                let $space = &$crate::trace::space::World;
+                $crate::primitive::with_array!(arrays, $objects => $body)
+            }
+            $crate::primitive::Shapes::F32 { frame, arrays, .. } => {
+                let $space = frame;
+                $crate::primitive::with_array!(arrays, $objects => $body)
+            }
+        }
+    };
+}
+pub(super) use with_shapes;
+
+/// The coordinates of the world, in `f64`.
 pub(super) struct World;
 
 impl Space for World {
-    type Inside = Ray;
+    type Ray = Ray;
 
     #[inline(always)]
-    fn enter(&self, ray: &Ray) -> Option<Ray> {
+    fn transform(&self, ray: &Ray) -> Option<Ray> {
         Some(*ray)
     }
 }
 
-impl Inside for Ray {
+impl SpaceRay for Ray {
     #[inline(always)]
     fn interval(&self) -> [f64; 2] {
         [self.t_min, self.t_max]
@@ -75,31 +94,31 @@ impl Inside for Ray {
     }
 
     #[inline(always)]
-    fn walk<V: LeafVisitor, P: Probe>(
+    fn traverse<V: LeafVisitor, P: Probe>(
         &self,
         tree: &Tree,
         scratch: &mut Scratch,
         visitor: &mut V,
         probe: &mut P,
     ) {
-        let line = TraversalRayF64::new(tree, self);
-        walk_line(tree, self.interval(), &line, scratch, visitor, probe);
+        let ray = TraversalRayF64::new(tree, self);
+        traverse_structure(tree, self.interval(), &ray, scratch, visitor, probe);
     }
 }
 
 impl Space for UnitFrame {
-    type Inside = PackedRay;
+    type Ray = PackedRay;
 
     #[inline(always)]
-    fn enter(&self, ray: &Ray) -> Option<PackedRay> {
+    fn transform(&self, ray: &Ray) -> Option<PackedRay> {
         PackedRay::new(self, ray)
     }
 }
 
-impl Inside for PackedRay {
+impl SpaceRay for PackedRay {
     #[inline(always)]
     fn interval(&self) -> [f64; 2] {
-        [self.widened.t_min, self.widened.t_max]
+        [self.as_f64.t_min, self.as_f64.t_max]
     }
 
     #[inline(always)]
@@ -108,26 +127,26 @@ impl Inside for PackedRay {
     }
 
     #[inline(always)]
-    fn walk<V: LeafVisitor, P: Probe>(
+    fn traverse<V: LeafVisitor, P: Probe>(
         &self,
         tree: &Tree,
         scratch: &mut Scratch,
         visitor: &mut V,
         probe: &mut P,
     ) {
-        let line = TraversalRayF32::new(tree, &self.frame, &self.widened);
-        let mut probe = InWorld { ray: self, probe };
-        walk_line(tree, self.interval(), &line, scratch, visitor, &mut probe);
+        let ray = TraversalRayF32::new(tree, &self.frame, &self.as_f64);
+        let mut probe = WorldProbe { ray: self, probe };
+        traverse_structure(tree, self.interval(), &ray, scratch, visitor, &mut probe);
     }
 }
 
-/// Tells a probe of what is done in here, with the distances of the world.
-struct InWorld<'a, P> {
+/// Forwards events to a probe with distances converted to those in the world.
+struct WorldProbe<'a, P> {
     ray: &'a PackedRay,
     probe: &'a mut P,
 }
 
-impl<P: Probe> Probe for InWorld<'_, P> {
+impl<P: Probe> Probe for WorldProbe<'_, P> {
     #[inline(always)]
     fn inner(
         &mut self,

@@ -1,6 +1,6 @@
-//! How often the rays of a picture visit every node of the tree.
+//! Counts of how often the rays of an image visit each node of the tree.
 
-use super::kernel::{any_hit, closest_hit};
+use super::query::{any_hit, closest_hit};
 use super::render::over_tiles;
 use super::{
     Batch, Children, Hit, Probe, RayTracer, RenderError, RenderSettings, Scratch, Shading,
@@ -13,26 +13,26 @@ use crate::scene::Scene;
 use crate::structure::{NodeKind, Tree};
 use std::sync::{Mutex, PoisonError};
 
-/// How often the rays of a picture visited every node, and how many nodes each of them visited.
+/// The number of visits of each node, and the number of nodes that each ray visits.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Visits {
-    /// Rays that visited a node, by the node's index. No ray visits a node twice.
+    /// Number of rays that visit each node. No ray visits a node twice.
     pub by_node: Vec<u64>,
-    /// Rays that visited so many nodes, by that number; 0 for rays that miss the root cell. Empty
-    /// without rays.
+    /// Number of rays by the number of nodes that they visit, which is 0 for rays that miss the root cell.
+    /// Empty without rays.
     pub rays_by_nodes: Vec<u64>,
-    /// Pixels, counted row by row, with a number of nodes that a ray of theirs visited; ascending,
+    /// Pairs of a pixel, counted row by row, and the number of nodes that a ray of it visits. Ascending,
     /// each pair once.
     pub pixels_by_nodes: Vec<(u32, u32)>,
 }
 
 impl Visits {
-    /// Rays formed: primary, shadow, reflected and refracted ones.
+    /// Returns the number of rays of all kinds.
     pub fn rays(&self) -> u64 {
         self.rays_by_nodes.iter().sum()
     }
 
-    /// The pixels, counted row by row, with a ray that visited from `lo` to `hi` nodes; ascending.
+    /// Returns the pixels, counted row by row, with a ray that visits from `lo` to `hi` nodes. Ascending.
     pub fn pixels_within(&self, [lo, hi]: [u32; 2]) -> Vec<u32> {
         let within = self.pixels_by_nodes.iter();
         let mut pixels: Vec<u32> = within
@@ -43,7 +43,7 @@ impl Visits {
         pixels
     }
 
-    /// The leaves of the tree that was visited, most visited first; of equals the lower index.
+    /// Returns the leaves of the visited tree, most visited first; of equals the lower index first.
     pub fn leaves_by_visits(&self, tree: &Tree) -> Vec<u32> {
         let mut leaves: Vec<u32> = (0..tree.nodes().len() as u32)
             .filter(|&node| matches!(tree.kind(node), NodeKind::Leaf { .. }))
@@ -96,24 +96,24 @@ impl Probe for Visitor<'_> {
     fn test(&mut self, _: u32, _: Option<f64>) {}
 }
 
-/// The kernel that counts visits, over one tile.
+/// The kernel that counts visits, for one tile.
 struct Visiting<'a> {
     tree: &'a Tree,
     shapes: &'a Shapes,
     progress: &'a Progress,
     scratch: Scratch,
     visits: &'a mut Visits,
-    /// The tile's pixels as numbers in the picture.
+    /// Indices in the image of the tile's pixels.
     pixels: &'a [u32],
 }
 
 impl Visiting<'_> {
-    fn ask_all<A: Clone>(
+    fn run_all<A: Clone>(
         &mut self,
         batch: Batch<'_>,
         answers: &mut Vec<A>,
         miss: A,
-        ask: impl Fn(&Ray, &mut Scratch, &mut Visitor<'_>) -> A,
+        query: impl Fn(&Ray, &mut Scratch, &mut Visitor<'_>) -> A,
     ) {
         answers.clear();
         for (ray, &pixel) in batch.rays.iter().zip(batch.pixels) {
@@ -126,7 +126,7 @@ impl Visiting<'_> {
                 nodes: 0,
             };
             let scratch = &mut self.scratch;
-            answers.push(ask(ray, scratch, &mut visitor));
+            answers.push(query(ray, scratch, &mut visitor));
             let nodes = visitor.nodes;
             let bins = &mut visits.rays_by_nodes;
             bins.resize(bins.len().max(nodes as usize + 1), 0);
@@ -141,21 +141,21 @@ impl Visiting<'_> {
 impl RayTracer for Visiting<'_> {
     fn closest_hits(&mut self, batch: Batch<'_>, hits: &mut Vec<Hit>) {
         let (tree, shapes) = (self.tree, self.shapes);
-        self.ask_all(batch, hits, Hit::MISS, |ray, scratch, visitor| {
+        self.run_all(batch, hits, Hit::MISS, |ray, scratch, visitor| {
             closest_hit(tree, shapes, ray, scratch, visitor)
         });
     }
 
     fn any_hits(&mut self, batch: Batch<'_>, blocked: &mut Vec<bool>) {
         let (tree, shapes) = (self.tree, self.shapes);
-        self.ask_all(batch, blocked, false, |ray, scratch, visitor| {
+        self.run_all(batch, blocked, false, |ray, scratch, visitor| {
             any_hit(tree, shapes, ray, scratch, visitor)
         });
     }
 }
 
-/// Counts the visits of all rays of sample 0, those of [`super::render_counted`]: closest hits and any
-/// hits as they run. The same for any number of threads.
+/// Counts the visits of all rays of sample 0, the same rays as those of [`super::render_counted`]. The
+/// result does not depend on the number of threads.
 ///
 /// # Errors
 /// A camera without a view, a resolution out of range, or cancellation.
@@ -171,7 +171,7 @@ pub fn count_visits(
         by_node: vec![0; tree.nodes().len()],
         ..Visits::default()
     };
-    // An array a thread: nobody waits for its lock.
+    // One array per thread, so that no thread waits for a lock.
     let by_thread: Vec<_> = (0..pool.current_num_threads())
         .map(|_| Mutex::new(nothing()))
         .collect();
@@ -195,7 +195,7 @@ pub fn count_visits(
                 pixels: &numbers,
             };
             trace_samples(&shading, pixels, 0, &mut tracer, &mut Vec::new());
-            // Many rays of a pixel visit as many nodes: each number is kept once.
+            // Many rays of a pixel visit the same number of nodes: each number is kept once.
             let mut of_tile = visits.pixels_by_nodes.split_off(before);
             of_tile.sort_unstable();
             of_tile.dedup();

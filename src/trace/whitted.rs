@@ -1,18 +1,18 @@
-//! Whitted's tree of rays with NFF's shading, traced by wavefronts: all rays of one kind and depth
-//! of a set of pixels are one batch.
+//! Whitted ray tracing with the shading of NFF, in wavefronts: all rays of one kind and depth of a set
+//! of pixels are one batch.
 //!
-//! T. Whitted, An improved illumination model for shaded display, 1980. At a hit the surface is
-//! turned to the side the ray came from. Every light that this side faces gets a shadow ray. The
-//! reflected ray has the weight `Ks`; a transparent surface adds what Fresnel's law in Schlick's
-//! approximation (1994) reflects of `T`, and passes the rest on by Snell's law. On total internal
-//! reflection all of `T` is reflected.
+//! T. Whitted, An improved illumination model for shaded display, 1980. Shading takes place on the side
+//! of the surface that the ray comes from. Every light on this side gets a shadow ray. The reflected ray
+//! has the weight `Ks`. A transparent surface also reflects the part of `T` given by Schlick's
+//! approximation of Fresnel's law (1994), and refracts the rest by Snell's law. On total internal
+//! reflection it reflects all of `T`.
 
 use super::{Batch, Hit, RayKind, RayTracer, RenderError, RenderSettings};
 use crate::geometry::{Ray, Vec3};
 use crate::primitive::{Shape, Shapes, SurfacePoint};
 use crate::scene::{Material, Scene, View};
 
-/// Rays of one kind on their way, with what their radiance counts for in which pixel.
+/// Rays of one kind, with the pixel that each contributes to and its weight.
 #[derive(Default)]
 struct Wave {
     rays: Vec<Ray>,
@@ -42,13 +42,13 @@ impl Wave {
     }
 }
 
-/// Everything that decides the colour of a pixel's sample, made ready.
+/// Everything that determines the color of a sample.
 #[derive(Clone, Copy)]
 pub struct Shading<'a> {
     pub scene: &'a Scene,
     pub shapes: &'a Shapes,
     pub view: View,
-    /// How deep secondary rays go.
+    /// Maximum depth of secondary rays.
     secondary_depth: u32,
     min_contribution: f64,
 }
@@ -68,8 +68,7 @@ impl<'a> Shading<'a> {
     }
 }
 
-/// Traces sample number `sample` of pixels given by their place in the picture; `colors` is
-/// overwritten with their linear colours.
+/// Traces sample number `sample` of the given pixels. Overwrites `colors` with their linear colors.
 pub fn trace_samples<T: RayTracer>(
     shading: &Shading<'_>,
     pixels: &[(u32, u32)],
@@ -126,10 +125,9 @@ pub fn trace_samples<T: RayTracer>(
     }
 }
 
-/// Tells `child` of every ray that a hit `depth` bounces after the eye gives rise to: its kind, the
-/// ray, and what its radiance (for a shadow ray: the light, if it is not blocked) counts for in the
-/// pixel. Rays that count for nothing are not formed, nor are secondary ones that are too deep or
-/// count for too little.
+/// Calls `child` for every ray that a hit after `depth` bounces spawns, with its kind and its weight in the
+/// pixel (for a shadow ray: that of the light if it is not blocked). Spawns no ray of weight 0, and no
+/// secondary ray that is too deep or below the minimum contribution.
 pub(super) fn spawn(
     shading: &Shading<'_>,
     ray: &Ray,
@@ -139,14 +137,14 @@ pub(super) fn spawn(
     mut child: impl FnMut(RayKind, Ray, Vec3),
 ) {
     let scene = shading.scene;
-    let mut counts = |kind, ray, weight: Vec3| {
-        let least = if kind == RayKind::Shadow {
+    let mut emit = |kind, ray, weight: Vec3| {
+        let minimum = if kind == RayKind::Shadow {
             0.0
         } else {
             shading.min_contribution
         };
-        let most = weight.max_element();
-        if most > 0.0 && most >= least {
+        let largest = weight.max_element();
+        if largest > 0.0 && largest >= minimum {
             child(kind, ray, weight);
         }
     };
@@ -160,50 +158,50 @@ pub(super) fn spawn(
             let lit = surface.lit_by(light.position, material, ray.direction);
             if let Some((ray, reflected)) = lit {
                 let light = light.color.unwrap_or(white);
-                counts(RayKind::Shadow, ray, weight * light * reflected);
+                emit(RayKind::Shadow, ray, weight * light * reflected);
             }
         }
     }
     if depth < shading.secondary_depth {
-        let [mirrored, passed] = surface.secondary(material, ray.direction);
-        if let Some((ray, share)) = mirrored {
-            counts(RayKind::Reflected, ray, weight * share);
+        let [reflected, refracted] = surface.secondary(material, ray.direction);
+        if let Some((ray, share)) = reflected {
+            emit(RayKind::Reflected, ray, weight * share);
         }
-        if let Some((ray, share)) = passed {
-            counts(RayKind::Refracted, ray, weight * share);
+        if let Some((ray, share)) = refracted {
+            emit(RayKind::Refracted, ray, weight * share);
         }
     }
 }
 
-/// A point of a surface turned to the side a ray came from.
+/// A point of a surface, oriented to the side that a ray comes from.
 struct Facing {
     point: Vec3,
-    /// Geometric unit normal on the ray's side.
+    /// Geometric unit normal on the side of the ray.
     side: Vec3,
-    /// Unit normal for shading on the ray's side.
+    /// Unit normal for shading on the side of the ray.
     normal: Vec3,
-    /// The ray comes from where the primitive's own normal points.
+    /// Whether the ray comes from the side of the primitive's own normal.
     entering: bool,
-    /// How far from the point, a length, a ray must start to be clear of the surface.
+    /// Distance from the point at which a ray must start to be clear of the surface.
     clear: f64,
 }
 
 impl Facing {
-    /// `rounding` is what [`Shapes::rounding`] says of the object.
+    /// `rounding` is that of the object ([`Shapes::rounding`]).
     fn new(surface: SurfacePoint, rounding: f64, direction: Vec3) -> Self {
         let entering = surface.normal.dot(direction) < 0.0;
         let turn = if entering { 1.0 } else { -1.0 };
         let side = surface.normal * turn;
         let normal = surface.shading_normal * turn;
-        // Bounds on the values at hand, not on the scene: twice the error of the point, what adding
-        // the offset itself can lose, and twice what packing the object and the point rounds.
+        // Twice the error of the point, the rounding of adding the offset, and twice the rounding of the
+        // packed object. These depend on the point, not on the size of the scene.
         let clear = 2.0 * surface.error
             + 8.0 * f64::EPSILON * surface.point.abs().max_element()
             + 2.0 * rounding;
         Facing {
             point: surface.point,
             side,
-            // An interpolated normal may lean over the edge; then the surface's own is the better.
+            // An interpolated normal may face away from the ray; then the geometric one is used.
             normal: if normal.dot(direction) < 0.0 {
                 normal
             } else {
@@ -214,8 +212,8 @@ impl Facing {
         }
     }
 
-    /// The shadow ray to a light this side faces, and the share of its light that goes back along
-    /// `direction`.
+    /// Returns the shadow ray to a light on this side, and the share of its light that is reflected
+    /// towards the origin of the ray.
     fn lit_by(&self, light: Vec3, material: &Material, direction: Vec3) -> Option<(Ray, Vec3)> {
         let origin = self.point + self.side * self.clear;
         let to_light = light - origin;
@@ -235,7 +233,7 @@ impl Facing {
         Some((Ray::to(origin, to_light, end), reflected))
     }
 
-    /// The reflected and the refracted ray, each with the share of its radiance that counts.
+    /// Returns the reflected and the refracted ray, each with the weight of its radiance.
     fn secondary(&self, material: &Material, direction: Vec3) -> [Option<(Ray, f64)>; 2] {
         if !(material.specular > 0.0 || material.transmittance > 0.0) {
             return [None, None];
@@ -253,11 +251,11 @@ impl Facing {
             let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
             if squared > 0.0 {
                 let inner_cosine = squared.sqrt();
-                let passed = ratio * direction + (ratio * cosine - inner_cosine) * self.normal;
+                let transmitted = ratio * direction + (ratio * cosine - inner_cosine) * self.normal;
                 let mirrors = schlick(index, cosine.min(inner_cosine));
                 reflects += material.transmittance * mirrors;
                 refracted = Some((
-                    Ray::new(start(-1.0), passed.normalize()),
+                    Ray::new(start(-1.0), transmitted.normalize()),
                     material.transmittance * (1.0 - mirrors),
                 ));
             } else {
@@ -269,7 +267,8 @@ impl Facing {
     }
 }
 
-/// What a boundary between media reflects, by the cosine on the thinner medium's side.
+/// Returns the share of light that a boundary between media reflects, given the cosine on the side of the
+/// optically thinner medium.
 fn schlick(index: f64, cosine: f64) -> f64 {
     let normal = ((index - 1.0) / (index + 1.0)).powi(2);
     normal + (1.0 - normal) * (1.0 - cosine).max(0.0).powi(5)

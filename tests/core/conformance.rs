@@ -8,12 +8,14 @@ use bspscope::progress::Progress;
 use bspscope::scene::{Sampling, Scene};
 use bspscope::structure::{BuildSettings, Method, OverlapRule, Tree, build, validate};
 use bspscope::trace::{
-    CountedRender, Picture, RayKind, RenderSettings, render_counted, render_timed, thread_pool,
+    CountedRender, CountingKernel, KernelChoice, Picture, RayKind, RenderSettings, Shading, Tally,
+    render_counted, render_timed, thread_pool, tiles, trace_samples,
 };
 use std::sync::Mutex;
 use std::time::Duration;
 
-/// Rays of every kind: fewer in the reconstructions, whose many polygons take long to test one by one.
+/// Returns the number of rays per kind: fewer for the reconstructions, whose many polygons take long to
+/// test one by one.
 fn rays_per_kind(name: &str) -> usize {
     let reconstructed = ["fluid", "m-fluid", "room"];
     if reconstructed.contains(&name) {
@@ -40,10 +42,10 @@ fn small_picture(scene: &Scene, threads: usize) -> RenderSettings {
 
 fn count(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> CountedRender {
     let pool = thread_pool(settings.threads).unwrap();
-    let pass = render_counted(scene, tree, settings, &pool, &Progress::new(), |_| ()).unwrap();
+    let counted = render_counted(scene, tree, settings, &pool, &Progress::new(), |_| ()).unwrap();
     CountedRender {
         traversal: Duration::ZERO,
-        ..pass
+        ..counted
     }
 }
 
@@ -203,8 +205,26 @@ fn counts_and_picture_do_not_depend_on_the_number_of_threads() {
     }
 }
 
+/// Renders an image with the counting kernel; returns it with the counts.
+fn counted_picture(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> (Picture, [Tally; 4]) {
+    let shading = Shading::new(scene, settings).unwrap();
+    let progress = Progress::new();
+    let mut picture = Picture::new(settings.width, settings.height);
+    let (mut tallies, mut colors) = ([Tally::default(); 4], Vec::new());
+    for tile in tiles(settings.width, settings.height) {
+        let pixels: Vec<_> = (0..tile.len() as u32).map(|i| tile.pixel(i)).collect();
+        let mut kernel = CountingKernel::new(tree, shading.shapes, &progress, pixels.len());
+        trace_samples(&shading, &pixels, 0, &mut kernel, &mut colors);
+        picture.add_tile(&tile, 0, &colors);
+        for (sum, tally) in tallies.iter_mut().zip(kernel.tallies) {
+            *sum += tally;
+        }
+    }
+    (picture, tallies)
+}
+
 #[test]
-fn the_counting_kernel_sees_the_picture_that_the_timed_kernel_makes() {
+fn the_counting_kernel_sees_the_picture_that_every_timed_kernel_makes() {
     for name in scene_names() {
         let scene = scene_file(&name);
         let settings = small_picture(&scene, 0);
@@ -213,12 +233,21 @@ fn the_counting_kernel_sees_the_picture_that_the_timed_kernel_makes() {
             Method::named("midpoint").unwrap(),
             OverlapRule::Paper,
         );
-        let pass = count(&scene, &tree, &settings);
-        let [primary, shadow, reflected, refracted] = pass.tallies;
+        let (seen, tallies) = counted_picture(&scene, &tree, &settings);
+        let colors: std::collections::HashSet<_> = seen.to_srgb8().into_iter().collect();
+        assert!(colors.len() > 10, "nothing to see in {name}");
+        for kernel in KernelChoice::ALL {
+            let settings = RenderSettings { kernel, ..settings };
+            let timed = picture(&scene, &tree, &settings);
+            assert!(timed == seen, "{name} by {}", kernel.description());
+        }
+        let counted = count(&scene, &tree, &settings);
+        assert_eq!(counted.tallies, tallies, "{name}");
+        let [primary, shadow, reflected, refracted] = tallies;
         let pixels = u64::from(settings.width * settings.height);
         assert_eq!(primary.rays, pixels);
         assert!(primary.hits > 0 && primary.hits <= primary.rays);
-        assert!(pass.objects_met >= primary.hits);
+        assert!(counted.objects_met >= primary.hits);
         for tally in [primary, shadow, reflected, refracted] {
             assert!(tally.empty_leaves <= tally.leaves);
             assert!(tally.hits <= tally.tests);

@@ -80,8 +80,8 @@ impl SceneBuilder {
         self.slot = None;
     }
 
-    /// Notes that something was skipped or changed. Notes are counted by reason, with the position of
-    /// the first.
+    /// Notes that something was skipped or changed. Notes are counted by reason, with the position
+    /// of the first.
     pub fn note(&mut self, kind: NoteKind, text: &str, place: Place) {
         let is_full = self.reasons.len() >= MAX_REASONS;
         for text in [text, OTHER_REASONS] {
@@ -268,8 +268,8 @@ impl SceneBuilder {
         }
     }
 
-    /// Returns the scene of a format without background colors, with default camera and lights if it
-    /// has none. `up` is the format's up direction.
+    /// Returns the scene of a format without background colors, with default camera and lights if
+    /// it has none. `up` is the format's up direction.
     pub fn finish_mesh(mut self, up: Vec3) -> SceneParts {
         self.background = Some(complete::BACKGROUND);
         let text = "no background color in the file; using gray";

@@ -1,10 +1,10 @@
 //! PLY (G. Turk, "The PLY Polygon File Format", Stanford, 1994), as text or binary of either byte
 //! order.
 //!
-//! Reads the properties x, y, z and nx, ny, nz of the element `vertex`, and the list `vertex_indices`
-//! or `vertex_index` of `face`. Everything else is skipped and counted. The up direction is Y.
-//! `ply-rs-bw` parses the values one element at a time, so a header that declares too many elements
-//! costs no memory.
+//! Reads the properties x, y, z and nx, ny, nz of the element `vertex`, and the list
+//! `vertex_indices` or `vertex_index` of `face`. Everything else is skipped and counted. The up
+//! direction is Y. `ply-rs-bw` parses the values one element at a time, so a header that declares
+//! too many elements costs no memory.
 
 use super::builder::{MAX_VERTICES, SceneBuilder};
 use super::entry::Format;
@@ -199,7 +199,8 @@ impl Mesh {
         match of.name.as_str() {
             "vertex" => self.vertices(of, elements),
             "face" => self.faces(of, elements),
-            // Elements without properties take no bytes in a binary file, but a line in a text file.
+            // Elements without properties take no bytes in a binary file, but a line in a text
+            // file.
             _ if of.properties.is_empty() && elements.encoding != Encoding::Ascii => Ok(()),
             name => {
                 let text = format!("element {}", quoted(name.as_bytes()));

@@ -1,8 +1,8 @@
 //! STL (3D Systems, StereoLithography Interface Specification, 1989): triangles, as text or binary.
 //!
 //! Facet normals are ignored: they follow from the vertices, and many writers set them to 0. A text
-//! file can contain several solids, and facets with more than three vertices, which become polygons.
-//! The up direction is Z, as on the machines that STL was designed for.
+//! file can contain several solids, and facets with more than three vertices, which become
+//! polygons. The up direction is Z, as on the machines that STL was designed for.
 
 use super::builder::SceneBuilder;
 use super::entry::Format;
@@ -45,8 +45,8 @@ fn is_binary(bytes: &[u8]) -> bool {
         && bytes.len() >= HEADER
 }
 
-/// Returns whether the file begins like a text file. Binary files with `solid` in their free text do,
-/// too.
+/// Returns whether the file begins like a text file. Binary files with `solid` in their free text
+/// do, too.
 fn is_text(bytes: &[u8]) -> bool {
     let head = bytes[..bytes.len().min(1024)].to_ascii_lowercase();
     let holds = |word: &[u8]| head.windows(word.len()).any(|part| part == word);

@@ -21,8 +21,8 @@ pub(super) struct Elements<'a> {
 }
 
 impl<'a> Elements<'a> {
-    /// Returns the elements of an accessor of three-component vectors or of scalars; `None` if it is
-    /// sparse.
+    /// Returns the elements of an accessor of three-component vectors or of scalars; `None` if it
+    /// is sparse.
     ///
     /// # Errors
     /// The accessor does not exist, has another type, or extends beyond its buffer.

@@ -1,9 +1,9 @@
 //! glTF 2.0 and its binary form GLB (Khronos Group, glTF 2.0 Specification, 2021).
 //!
-//! Reads the meshes of the file's scene with the transformations of its nodes, the first perspective
-//! camera, base colors, and the lights of `KHR_lights_punctual`. Buffers can be in the file, in data
-//! URIs, or in files in its folder or below. Textures, lines, points, orthographic cameras,
-//! animations, skins and sparse accessors are skipped and counted.
+//! Reads the meshes of the file's scene with the transformations of its nodes, the first
+//! perspective camera, base colors, and the lights of `KHR_lights_punctual`. Buffers can be in the
+//! file, in data URIs, or in files in its folder or below. Textures, lines, points, orthographic
+//! cameras, animations, skins and sparse accessors are skipped and counted.
 //!
 //! `gltf-json` parses the JSON. Every index and range in it is checked here where it is used.
 
@@ -124,8 +124,8 @@ fn note_skipped(root: &Root, builder: &mut SceneBuilder) {
     }
 }
 
-/// Converts a camera; it looks at the point on its line of sight that is nearest to the center of the
-/// scene.
+/// Converts a camera; it looks at the point on its line of sight that is nearest to the center of
+/// the scene.
 fn camera(placed: &nodes::PlacedCamera, center: Vec3) -> Option<Camera> {
     let near = placed.near.max(f64::MIN_POSITIVE);
     let distance = (center - placed.from).dot(placed.forward).max(near);

@@ -14,9 +14,9 @@
 //! | `p` | polygon: number of vertices, then x y z of each |
 //! | `pp` | polygon: number of vertices, then x y z and the normal's x y z of each |
 //!
-//! The reader is stricter than the specification in one point: a negative radius ("visible only from
-//! inside") is an error because surfaces are visible from both sides here. It is more lenient in
-//! others: what can be repaired is repaired and noted (see [`read`]).
+//! The reader is stricter than the specification in one point: a negative radius ("visible only
+//! from inside") is an error because surfaces are visible from both sides here. It is more lenient
+//! in others: what can be repaired is repaired and noted (see [`read`]).
 
 mod read;
 mod words;

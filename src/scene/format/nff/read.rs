@@ -20,8 +20,8 @@ const MAX_RESOLUTION: u32 = 65_536;
 ///
 /// Comments that begin with `# Note: ` become remarks in the load report.
 ///
-/// A polygon with three vertices becomes a triangle. Equal materials are merged, and unused materials
-/// are dropped. These are repaired, with a note for each:
+/// A polygon with three vertices becomes a triangle. Equal materials are merged, and unused
+/// materials are dropped. These are repaired, with a note for each:
 /// - no `b`: the background is black; no `f` before an object: [`Material::default`];
 /// - more than one `v` or `b`: the last one is used;
 /// - a polygon with zero area, a cylinder or cone with zero length: skipped;
@@ -109,8 +109,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Creates the error that a word does not begin an entity. For a surplus number, the message names
-    /// the entity before it.
+    /// Creates the error that a word does not begin an entity. For a surplus number, the message
+    /// names the entity before it.
     fn no_entity(&self, word: &Word) -> ReadError {
         const ENTITIES: &str = "v, b, l, f, c, s, p or pp";
         match self.last_entity {

@@ -163,7 +163,8 @@ impl<'a> Words<'a> {
         Ok(radius)
     }
 
-    /// Returns the line of the last character; 1 for an empty file. Valid only at the end of the file.
+    /// Returns the line of the last character; 1 for an empty file. Valid only at the end of the
+    /// file.
     pub(super) fn last_line(&self) -> usize {
         match self.bytes.last() {
             Some(b'\n' | b'\r') => self.line - 1,

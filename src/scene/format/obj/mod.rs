@@ -196,7 +196,8 @@ impl Reader<'_> {
         self.builder.set_material(material.unwrap_or_default());
     }
 
-    /// Reads the material files named by a line: one whose name may contain spaces, or else several.
+    /// Reads the material files named by a line: one whose name may contain spaces, or else
+    /// several.
     fn material_files(&mut self, words: Words<'_>, line: Line<'_>) -> Result<(), ReadError> {
         let whole = words.rest();
         match self.input.read_sibling(&whole, self.progress) {

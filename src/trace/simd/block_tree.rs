@@ -1,0 +1,210 @@
+//! A tree prepared for SIMD traversal: siblings are adjacent, planes are in the coordinates of the unit
+//! frame, and leaves hold blocks of objects.
+
+use super::block::{BLOCK, Block};
+use super::pages::Pages;
+use crate::geometry::{Axis, Vec3};
+use crate::primitive::{Primitive, PrimitiveKind, Shape, UnitFrame};
+use crate::structure::{self, OverlapRule, Tree, is_inside};
+
+/// A node in 8 bytes.
+///
+/// | | inner node | leaf |
+/// |---|---|---|
+/// | `payload` | plane, as bits of an `f32` | index of the first block |
+/// | `word`, bits 0 and 1 | axis | 3 |
+/// | `word`, bits 2 and 3 | whether the lower and the upper child is an empty leaf | part of the next |
+/// | `word`, other bits | index of the lower child, which the upper one follows | number of blocks |
+#[derive(Clone, Copy, Default)]
+#[repr(C)]
+pub(super) struct Node {
+    pub(super) payload: u32,
+    pub(super) word: u32,
+}
+
+pub(super) const LEAF: u32 = 3;
+pub(super) const BELOW_EMPTY: u32 = 4;
+pub(super) const ABOVE_EMPTY: u32 = 8;
+/// Position of the child index in an inner node's word.
+pub(super) const CHILD_SHIFT: u32 = 4;
+
+impl Node {
+    fn leaf(first: usize, blocks: usize) -> Node {
+        Node {
+            payload: first as u32,
+            word: (blocks as u32) << 2 | LEAF,
+        }
+    }
+
+    fn is_empty_leaf(self) -> bool {
+        self.word == LEAF
+    }
+}
+
+/// Number of nodes that an index has bits for.
+const MAX_NODES: usize = 1 << (32 - CHILD_SHIFT);
+
+/// A tree prepared for SIMD traversal, with blocks of one kind.
+pub(super) struct BlockTree<B> {
+    pub(super) nodes: Pages<Node>,
+    pub(super) blocks: Pages<B>,
+    /// Maximum number of pending nodes on a ray's stack.
+    pub(super) max_pending: usize,
+    /// Half the thickness of every plane and face.
+    pub(super) half_thickness: f32,
+    /// Lower and upper corner of the scene's box, enlarged by `half_thickness`.
+    pub(super) corners: [[f32; 3]; 2],
+}
+
+/// Half the thickness of planes: bound on the distance between a computed hit and the object, in lengths
+/// of the unit frame.
+///
+/// The frame holds the scene from −½ to ½, and rays start at most 2 from its center. The parts are
+/// 4 ε · 3 between a hit and the exact object ([`crate::primitive::Form`]), 2½ ε for a direction and
+/// 1 ε for an origin in `f32`, 4 ε for the arithmetic of the traversal, and 1 ε for a plane.
+const HALF_THICKNESS: f32 = 40.0 * f32::EPSILON;
+
+impl<B: Block> BlockTree<B> {
+    /// # Panics
+    /// If the tree has more than [`MAX_NODES`] nodes.
+    pub(super) fn new(tree: &Tree, objects: &[Primitive], frame: &UnitFrame) -> Self {
+        assert!(tree.nodes().len() < MAX_NODES, "a tree of 2 GiB of nodes");
+        let bounds = objects
+            .iter()
+            .map(Shape::bounds)
+            .fold(crate::geometry::Aabb::EMPTY, |all, b| all.union(&b));
+        let (_, half) = tree.frame().center_and_half();
+        // A plane may be half a unit in the last place away from the end of an object that it separates
+        // from its neighbor.
+        let half_thickness =
+            HALF_THICKNESS + 0.5 * f32::EPSILON * (half.max_element() * frame.scale()) as f32;
+        let corner = |v: Vec3, away: f32| (frame.point(v).as_vec3() + away).to_array();
+        let corners = if bounds.is_empty() {
+            [[1.0; 3], [-1.0; 3]]
+        } else {
+            [
+                corner(bounds.lo, -half_thickness),
+                corner(bounds.hi, half_thickness),
+            ]
+        };
+        let blocks = |node: &structure::Node| match node.is_leaf() {
+            true => node.as_leaf().1.div_ceil(BLOCK),
+            false => 0,
+        };
+        let mut builder = Builder {
+            tree,
+            objects,
+            frame,
+            held: Vec::new(),
+            built: BlockTree {
+                nodes: Pages::with_capacity(tree.nodes().len() + 1),
+                blocks: Pages::with_capacity(tree.nodes().iter().map(blocks).sum()),
+                max_pending: 0,
+                half_thickness,
+                corners,
+            },
+        };
+        // The root has no sibling; its place stays empty.
+        builder.reserve_siblings();
+        builder.node(0, 0, [[-1.0, 1.0]; 3], 0);
+        builder.built
+    }
+
+    /// Returns the memory that nodes and blocks take.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&*self.nodes) + size_of_val(&*self.blocks)
+    }
+}
+
+struct Builder<'a, B> {
+    tree: &'a Tree,
+    objects: &'a [Primitive],
+    frame: &'a UnitFrame,
+    /// Objects of the current leaf.
+    held: Vec<u32>,
+    built: BlockTree<B>,
+}
+
+impl<B: Block> Builder<'_, B> {
+    /// Builds the node `from` of the tree, whose cell is `cell`, at index `to`. `depth` is the number of
+    /// inner nodes above it.
+    fn node(&mut self, from: usize, to: usize, cell: [[f32; 2]; 3], depth: usize) {
+        let node = self.tree.nodes()[from];
+        if node.is_leaf() {
+            self.built.nodes[to] = self.leaf(from, cell);
+            self.built.max_pending = self.built.max_pending.max(depth);
+            return;
+        }
+        let (axis, plane, above) = node.as_inner();
+        let first = self.reserve_siblings();
+        let (mut lower, mut upper) = (cell, cell);
+        lower[axis][1] = plane;
+        upper[axis][0] = plane;
+        self.node(from + 1, first, lower, depth + 1);
+        self.node(above as usize, first + 1, upper, depth + 1);
+        let mut word = (first as u32) << CHILD_SHIFT | axis as u32;
+        for (child, flag) in [(first, BELOW_EMPTY), (first + 1, ABOVE_EMPTY)] {
+            if self.built.nodes[child].is_empty_leaf() {
+                word |= flag;
+            }
+        }
+        self.built.nodes[to] = Node {
+            payload: self.plane(axis, plane).to_bits(),
+            word,
+        };
+    }
+
+    /// Appends two adjacent nodes and returns the index of the first.
+    fn reserve_siblings(&mut self) -> usize {
+        let nodes = &mut self.built.nodes;
+        nodes.push(Node::default());
+        nodes.push(Node::default());
+        nodes.len() - 2
+    }
+
+    /// Returns a plane in the coordinates of the unit frame. There the scene lies within ±½, so planes
+    /// outside ±1 may as well be at ±1.
+    fn plane(&self, axis: usize, plane: f32) -> f32 {
+        let world = self
+            .tree
+            .frame()
+            .to_world(Axis::from_index(axis), f64::from(plane));
+        (self.frame.point(Vec3::splat(world))[axis] as f32).clamp(-1.0, 1.0)
+    }
+
+    fn leaf(&mut self, from: usize, cell: [[f32; 2]; 3]) -> Node {
+        let (first, count) = self.tree.nodes()[from].as_leaf();
+        let references = &self.tree.references()[first..first + count];
+        let mut held = std::mem::take(&mut self.held);
+        held.clear();
+        held.extend(references.iter().filter(|&&o| self.is_held(o, &cell)));
+        let first = self.built.blocks.len();
+        for objects in held.chunks(BLOCK) {
+            let mut block = B::default();
+            for (place, &object) in objects.iter().enumerate() {
+                block.set(place, object, &self.objects[object as usize], self.frame);
+            }
+            self.built.blocks.push(block);
+        }
+        self.held = held;
+        Node::leaf(first, self.built.blocks.len() - first)
+    }
+
+    /// Returns whether a leaf must hold an object that it has a reference to.
+    ///
+    /// It need not hold an object that only touches the cell from outside: the neighbor holds it, and
+    /// planes are thick enough that rays near the object visit both. That the neighbor holds it is only
+    /// certain where objects are assigned to cells by their bounds.
+    fn is_held(&self, object: u32, cell: &[[f32; 2]; 3]) -> bool {
+        let primitive = &self.objects[object as usize];
+        let settings = self.tree.settings();
+        let by_bounds = match settings.overlap {
+            OverlapRule::Bounds => true,
+            OverlapRule::Exact => false,
+            OverlapRule::Paper => {
+                primitive.kind() != PrimitiveKind::Sphere || !settings.method.paper_spheres_exactly
+            }
+        };
+        !by_bounds || is_inside(&self.tree.frame().planes_around(&primitive.bounds()), cell)
+    }
+}

@@ -1,0 +1,30 @@
+//! The two ways in which SIMD kernels traverse a tree, and the choice between them.
+
+/// How the rays of a call traverse the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SimdMode {
+    /// Every ray traverses the tree on its own, in a lane that takes the next ray when it is done.
+    Stream,
+    /// Neighboring rays, one per lane, traverse the tree together.
+    Packets,
+    /// Packets as long as the rays of a call are coherent, then a stream.
+    Auto,
+}
+
+impl SimdMode {
+    pub const ALL: [SimdMode; 3] = [SimdMode::Stream, SimdMode::Packets, SimdMode::Auto];
+
+    /// Returns the name in reports.
+    pub const fn name(self) -> &'static str {
+        ["stream", "packets", "stream and packets"][self as usize]
+    }
+
+    /// Returns whether rays are traced in packets; `None` where the coherence of the rays decides.
+    pub(super) fn uses_packets(self) -> Option<bool> {
+        match self {
+            SimdMode::Stream => Some(false),
+            SimdMode::Packets => Some(true),
+            SimdMode::Auto => None,
+        }
+    }
+}

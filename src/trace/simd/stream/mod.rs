@@ -1,0 +1,8 @@
+//! Streams: every lane traverses the tree with a ray of its own.
+
+mod leaves;
+mod stacks;
+mod traversal;
+
+pub(super) use stacks::Stacks;
+pub(super) use traversal::traverse;
