@@ -282,7 +282,7 @@ fn what_each_kind_of_ray_did_is_listed_on_request() {
 #[test]
 fn a_comparison_that_ends_while_the_other_tree_is_rendered_leaves_nothing_running() {
     let mut start = small(SCENE);
-    start.render.samples = 200;
+    start.setup.render.samples = 200;
     let mut window = open(start);
     finish(&mut window);
     press(&mut window, Modifiers::COMMAND, Key::E);
