@@ -1,10 +1,10 @@
 //! What the text of an argument stands for: names of registries, lists of numbers, points.
 
 use crate::geometry::Vec3;
-use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, heatmap};
+use crate::measure::heat::{Heatmap, RayFilter, heatmap, heatmaps};
 use crate::measure::model::Equation;
 use crate::measure::paper::{self, PaperScene};
-use crate::measure::{PARAMETERS, Parameter, parameter};
+use crate::measure::{Parameter, parameter, parameters};
 use crate::present::export::LEAF_WRITERS;
 use crate::present::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::present::report::WRITERS;
@@ -78,7 +78,7 @@ pub fn equation_names() -> impl TypedValueParser<Value = Equation> {
 
 pub fn parameter_names() -> impl TypedValueParser<Value = ByParameter> {
     PossibleValuesParser::new(
-        PARAMETERS
+        parameters()
             .iter()
             .map(|p| PossibleValue::new(p.symbol).help(p.name)),
     )
@@ -133,7 +133,7 @@ pub fn paper_scenes() -> impl TypedValueParser<Value = &'static PaperScene> {
 
 pub fn heatmap_names() -> impl TypedValueParser<Value = ByHeatmap> {
     PossibleValuesParser::new(
-        HEATMAPS
+        heatmaps()
             .iter()
             .map(|h| PossibleValue::new(h.symbol).help(h.meaning)),
     )

@@ -3,7 +3,7 @@
 //! The paper's precondition (section 4): parameters of class S, and thus of class D, are equal, and
 //! so is the image. Everything else is the result.
 
-use super::{Class, Measurement, PARAMETERS, Unit};
+use super::{Class, Measurement, Unit, parameters};
 use crate::trace::Picture;
 
 /// What keeps two measurements from being compared.
@@ -31,11 +31,11 @@ const PIXELS_NAMED: usize = 5;
 
 /// What keeps `a` and `b` from being compared; nothing if they may.
 pub fn unequal(a: (&Measurement, &Picture), b: (&Measurement, &Picture)) -> Vec<Unequal> {
-    let mut found: Vec<Unequal> = PARAMETERS
+    let mut found: Vec<Unequal> = parameters()
         .iter()
         .filter(|p| matches!(p.class, Class::S | Class::D))
         .filter_map(|p| {
-            let (a, b) = ((p.value)(a.0), (p.value)(b.0));
+            let (a, b) = (p.value(a.0), p.value(b.0));
             // Where one of the two has no use for a setting of the tree, nothing of it can differ.
             let applies = !TREE_SETTINGS.contains(&p.symbol) || a.is_some() && b.is_some();
             (applies && a != b).then_some(Unequal::Parameter {

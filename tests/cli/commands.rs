@@ -1,7 +1,7 @@
 //! The command line as a user meets it: exit codes, outputs, files, and what goes to which stream.
 
 use crate::support::program::Program;
-use bspscope::measure::{DELTA, LAMBDA, PARAMETERS, Unit};
+use bspscope::measure::{DELTA, LAMBDA, Unit, parameters};
 use bspscope::structure::Method;
 use serde_json::Value;
 use std::io::Read;
@@ -87,11 +87,11 @@ fn json_has_every_symbol_and_sets_delta_and_lambda_apart() {
         let keys = |part: &str| -> Vec<String> {
             run[part].as_object().unwrap().keys().cloned().collect()
         };
-        let symbols: Vec<_> = PARAMETERS.iter().map(|p| p.symbol).collect();
+        let symbols: Vec<_> = parameters().iter().map(|p| p.symbol).collect();
         assert_eq!(keys("parameters"), symbols);
         assert_eq!(keys("delta"), DELTA);
         assert_eq!(keys("lambda"), LAMBDA);
-        for parameter in PARAMETERS {
+        for parameter in parameters() {
             let value = &run["parameters"][parameter.symbol];
             assert!(value.is_number(), "{}: {value}", parameter.symbol);
             let whole = matches!(parameter.unit, Unit::Count | Unit::Bytes);
@@ -269,8 +269,8 @@ fn every_form_has_every_symbol_for_every_method() {
     let csv = program.done(&format!("{measure} --format csv"));
     let mut csv = csv::Reader::from_reader(csv.as_bytes());
     let lines: Vec<csv::StringRecord> = csv.records().map(Result::unwrap).collect();
-    assert_eq!(lines.len(), 2 * PARAMETERS.len());
-    for parameter in PARAMETERS {
+    assert_eq!(lines.len(), 2 * parameters().len());
+    for parameter in parameters() {
         let symbol = parameter.symbol;
         assert!(
             text.lines().any(|l| l.starts_with(&format!(" {symbol} "))),
@@ -366,7 +366,7 @@ fn generated_files_measure_as_their_generator_does() {
                 .unwrap()
                 .iter()
                 .flat_map(|run| {
-                    PARAMETERS
+                    parameters()
                         .iter()
                         .filter(|p| p.unit == Unit::Count)
                         .map(|p| run["parameters"][p.symbol].clone())

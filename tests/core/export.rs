@@ -2,7 +2,7 @@
 
 use crate::support::program::Program;
 use crate::support::scenes::{scene, tree_by};
-use bspscope::measure::{Class, DELTA, LAMBDA, PARAMETERS, parameter};
+use bspscope::measure::{Class, DELTA, LAMBDA, parameter, parameters};
 use bspscope::present::export::{LEAF_WRITERS, LeafCells};
 use bspscope::present::overlay::Filter;
 use bspscope::scene::Scene;
@@ -210,7 +210,7 @@ fn the_page_has_the_numbers_of_the_json_report() {
         }
         *found.entry(symbol).or_default() += 1;
     }
-    for symbol in PARAMETERS.iter().map(|p| p.symbol) {
+    for symbol in parameters().iter().map(|p| p.symbol) {
         let again = DELTA.contains(&symbol) || LAMBDA.contains(&symbol);
         assert_eq!(found[symbol], 1 + usize::from(again), "{symbol}");
     }

@@ -3,7 +3,7 @@
 
 use crate::harness::{Window, click, finish, has, open, press, small, wait};
 use bspscope::measure::sweep::{Form, Plan, answers, read_rows, rule_depth};
-use bspscope::measure::{Class, PARAMETERS, parameter};
+use bspscope::measure::{Class, parameter, parameters};
 use bspscope::progress::Progress;
 use bspscope::scene::load;
 use bspscope::structure::{BuildSettings, MaxDepth, Method};
@@ -92,7 +92,7 @@ fn a_sweep_has_the_rows_of_the_command_line_as_curves_and_as_a_map() {
     for point in [0, 20, 75] {
         let expected = plan.row(&scene, point, &progress).unwrap();
         assert_eq!(rows[point].key, expected.key);
-        for (place, p) in PARAMETERS
+        for (place, p) in parameters()
             .iter()
             .enumerate()
             .filter(|(_, p)| p.class != Class::T)

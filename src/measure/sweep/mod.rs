@@ -8,7 +8,7 @@ mod rows;
 pub use plan::{Plan, Point};
 pub use rows::{Form, Key, MergeError, Row, RowError, header, line, merge, read_rows};
 
-use super::{Measurement, PARAMETERS, Parameter};
+use super::{Measurement, Parameter, parameters};
 use crate::structure::{BuildSettings, MaxDepth};
 
 /// A part of a sweep's points: those whose number leaves `index` when divided by `count`.
@@ -69,13 +69,13 @@ impl Row {
             point,
             points,
             key,
-            values: PARAMETERS.iter().map(|p| (p.value)(measurement)).collect(),
+            values: parameters().iter().map(|p| p.value(measurement)).collect(),
         }
     }
 
     /// The value of a parameter.
     pub fn value(&self, parameter: &Parameter) -> Option<f64> {
-        let place = PARAMETERS
+        let place = parameters()
             .iter()
             .position(|p| p.symbol == parameter.symbol)?;
         self.values[place]

@@ -1,6 +1,6 @@
 //! Rows of a sweep as lines of text: CSV or JSON lines, one line a point, in the order of points.
 
-use crate::measure::{Class, PARAMETERS, Unit};
+use crate::measure::{Class, Unit, parameters};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -27,7 +27,7 @@ pub struct Row {
     /// How many points the whole sweep has.
     pub points: usize,
     pub key: Key,
-    /// The values of all [`PARAMETERS`] in their order: fractions for shares, seconds for times.
+    /// The values of all [`parameters`] in their order: fractions for shares, seconds for times.
     pub values: Vec<Option<f64>>,
 }
 
@@ -79,7 +79,7 @@ impl Form {
 }
 
 fn titles() -> impl Iterator<Item = &'static str> {
-    let symbols = PARAMETERS.iter().map(|p| p.symbol);
+    let symbols = parameters().iter().map(|p| p.symbol);
     TITLES.into_iter().chain(symbols)
 }
 
@@ -119,7 +119,7 @@ fn cells(row: &Row) -> impl Iterator<Item = Value> {
         json!(key.settings),
         json!(key.picture),
     ];
-    let values = PARAMETERS
+    let values = parameters()
         .iter()
         .zip(&row.values)
         .map(|(p, value)| match (*value, p.unit) {
@@ -221,7 +221,7 @@ fn row(
             settings: cell(6)?,
             picture: cell(7)?,
         },
-        values: (0..PARAMETERS.len())
+        values: (0..parameters().len())
             .map(|place| number(TITLES.len() + place))
             .collect::<Option<_>>()?,
     })
@@ -257,7 +257,7 @@ pub fn merge(mut rows: Vec<Row>) -> Result<(Vec<Row>, Vec<usize>), MergeError> {
 /// Whether two rows are of one point and agree in all that no machine changes.
 fn same_but_times(a: &Row, b: &Row) -> bool {
     a.key == b.key
-        && PARAMETERS
+        && parameters()
             .iter()
             .zip(a.values.iter().zip(&b.values))
             .filter(|(p, _)| p.class != Class::T)
@@ -269,9 +269,9 @@ mod tests {
     use super::*;
 
     fn row(point: usize, first: f64) -> Row {
-        let mut values = vec![None; PARAMETERS.len()];
+        let mut values = vec![None; parameters().len()];
         values[0] = Some(first);
-        let time = PARAMETERS.iter().position(|p| p.unit == Unit::Seconds);
+        let time = parameters().iter().position(|p| p.unit == Unit::Seconds);
         values[time.unwrap()] = Some(0.1 + 0.2);
         Row {
             point,

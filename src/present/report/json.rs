@@ -4,7 +4,7 @@ use super::content::{Report, SceneSummary};
 use super::exact::exact_value;
 use super::per_kind;
 use super::writer::Writer;
-use crate::measure::{DELTA, LAMBDA, Measurement, PARAMETERS, parameter};
+use crate::measure::{DELTA, LAMBDA, Measurement, parameter, parameters};
 use crate::structure::MaxDepth;
 use serde_json::{Map, Value, json};
 use std::io::{Result, Write};
@@ -62,7 +62,7 @@ fn run(run: &Measurement) -> Result<Value> {
             .map(|&symbol| (symbol.into(), exact_value(parameter(symbol), run)))
             .collect()
     };
-    let all: Vec<_> = PARAMETERS.iter().map(|p| p.symbol).collect();
+    let all: Vec<_> = parameters().iter().map(|p| p.symbol).collect();
     Ok(json!({
         "method": run.build.method.name,
         "settings": settings(run)?,
