@@ -35,15 +35,18 @@ fn wrong_use_is_told_with_exit_code_2() {
         assert!(!output.stderr.is_empty(), "{arguments}");
     }
     for (arguments, part) in [
-        ("measure balls:1 --resolution 0x16", "0 × 16"),
-        ("measure balls:1 --root-margin -1", "root margin is -1"),
+        ("measure balls:1 --resolution 0x16", "at least 1 pixel"),
+        ("measure balls:1 --root-margin -1", "a number of at least 0"),
         ("measure balls:1 --set gap-fraction=2", "gap-fraction is 2"),
         (
             "measure balls:1 --method midpoint --set gap-fraction=0.5",
             "--set gap-fraction",
         ),
         ("measure balls:99", "the size of balls must be from 0 to"),
-        ("measure tetra:5 --memory-limit 0", "memory limit of 0 MiB"),
+        (
+            "measure tetra:5 --memory-limit 0",
+            "--memory-limit: expected a whole number from 1",
+        ),
         ("render teaching -o picture.jpg", ".png or .exr"),
         ("render teaching --resolution 16x16 -o no/a.png", "no/a.png"),
         ("measure balls:1 --resolution 16x16 -o no/a.txt", "no/a.txt"),
@@ -417,7 +420,7 @@ fn a_grid_shows_no_value_where_a_parameter_does_not_apply() {
         assert!(row.contains(&"–"), "{row:?}");
     }
     assert!(
-        text.contains("grid: D_MAX and N_OILF do not apply"),
+        text.contains("grid: D_MAX 20 (does not apply), N_OILF 1 (does not apply)"),
         "{text}"
     );
 }
