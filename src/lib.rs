@@ -20,7 +20,7 @@
 //! | [`structure`] | 8-byte nodes, the one build driver, voxels of grids, moments of the build, validation | |
 //! | [`structure::split`] | where a method splits a cell | a line in [`structure::split::SPLIT_RULES`] |
 //! | [`trace`] | traversal of trees and grids in two precisions, timed and counting kernels, plain or in lanes of vectors, shading, passes over a picture, visits of nodes | |
-//! | [`setup`] | the whole experiment: scene, structure, render settings, camera | |
+//! | [`setup`] | the whole experiment: scene, structure, render settings, camera; the command that measures it | |
 //! | [`measure`] | counters, which serve as the parameters of the paper's Tables 1 to 3, as heatmaps and as figures of each kind of ray; trees against testing every object | an entry of [`measure::COUNTERS`] |
 //! | [`measure::model`] | the time model of equation (1): by regression and in place; where the time of a picture goes | |
 //! | [`measure::sweep`] | the parameters over a grid of settings: points, rows, shards | |

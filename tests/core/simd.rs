@@ -6,8 +6,8 @@ use crate::support::scenes::{self, tree_with};
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::primitive::{Cone, Polygon, Precision, Primitive, Sphere, Triangle};
 use bspscope::progress::Progress;
-use bspscope::scene::{Camera, Material, Scene, SceneParts, SceneRequest, load};
-use bspscope::structure::{BuildSettings, MaxDepth, Method, OverlapRule, Tree, build};
+use bspscope::scene::{Camera, Material, Scene, SceneParts};
+use bspscope::structure::{BuildSettings, MaxDepth, Method, OverlapRule, Tree};
 use bspscope::trace::{
     Hit, InstructionSet, KernelChoice, Picture, RenderSettings, Scratch, SimdKernel, SimdMode,
     SimdTree, any_hit, closest_hit, render_timed, thread_pool,
