@@ -19,7 +19,7 @@
 //! | [`scene::builtin`] | generated scenes | a line in [`scene::builtin::BUILTINS`] |
 //! | [`structure`] | 8-byte nodes, the one build driver, voxels of grids, moments of the build, validation | |
 //! | [`structure::split`] | where a method splits a cell | a line in [`structure::split::SPLIT_RULES`] |
-//! | [`trace`] | traversal of trees and grids in two precisions, timed and counting kernels, plain or in lanes of vectors, shading, passes over a picture, visits of nodes | |
+//! | [`trace`] | traversal of trees and grids in two precisions; scalar, SIMD and counting kernels; shading, rendering, visits of nodes | |
 //! | [`setup`] | the whole experiment: scene, structure, render settings, camera | |
 //! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ, figures of each kind of ray; trees against testing every object | an entry of [`measure::PARAMETERS`] or [`measure::RAY_FIGURES`] |
 //! | [`measure::model`] | the time model of equation (1): by regression and in place; where the time of a picture goes | |
