@@ -1,8 +1,8 @@
-//! A build method in one file: the cell's longest side is halved.
+//! A build method in one file: it splits every cell in the middle of its longest side.
 //!
-//! A program that uses the library makes a method as below. To add one to bspscope itself, put the same
-//! into a file in `src/tree/split/` and its `METHOD` as a line into `SPLIT_RULES` there: the command line,
-//! the window and the tests over all methods then have it, too.
+//! A program that uses the library can define a method like this. To add one to bspscope itself,
+//! put the same code into a file in `src/structure/split/` and add its `METHOD` to `SPLIT_RULES`
+//! there. The command line, the window and the tests over all methods then include it.
 //!
 //! `cargo run --release --example build_method [SCENE]`
 
@@ -14,7 +14,7 @@ use bspscope::structure::split::{Cell, Decision, MethodInfo, SplitRule, Structur
 use bspscope::structure::{BuildSettings, Method, validate};
 use bspscope::trace::RenderSettings;
 
-/// What is known of the method before it is used.
+/// The description of the method.
 static METHOD: MethodInfo = MethodInfo {
     name: "longest-side",
     title: "Middle of the longest side",
@@ -30,8 +30,8 @@ static METHOD: MethodInfo = MethodInfo {
 struct LongestSide;
 
 impl SplitRule for LongestSide {
-    /// Asked for every cell that holds more than `N_OILF` objects and lies above `D_MAX`: the build
-    /// driver takes care of both, of the objects on either side, and of threads and memory.
+    /// Decides on a cell that contains more than `N_OILF` objects and is above depth `D_MAX`. The
+    /// build driver handles both limits, the objects on both sides, threads and memory.
     fn decide(&self, cell: &Cell<'_>) -> Decision {
         let size = cell.bounds.size();
         let longest = Axis::ALL

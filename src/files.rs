@@ -1,20 +1,20 @@
-//! Files that are written whole or not at all, and fingerprints of files.
+//! Atomic file writes, names for files, and checksums.
 
 use sha2::{Digest, Sha256};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a file beside its place and moves it there when it is complete: whatever was there stays
-/// until then. Devices and pipes are written to as they are.
+/// Writes a file completely or not at all: writes a temporary file in the same folder and renames
+/// it when it is complete. Devices and pipes are written to directly.
 ///
 /// # Errors
-/// Those of the file system, and those of `write`.
+/// I/O errors, and errors of `write`.
 pub fn write_whole(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
-    // A link stays a link: what it leads to is replaced.
+    // A symbolic link is kept; its target is replaced.
     let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let existing = fs::metadata(path).ok();
     if existing.as_ref().is_some_and(|m| !m.is_file()) {
@@ -34,13 +34,13 @@ pub fn write_whole(
         fs::rename(&beside, path)
     })();
     if result.is_err() {
-        // The error that matters is the first one.
+        // The first error is the one to report.
         let _ = fs::remove_file(&beside);
     }
     result
 }
 
-/// A name beside a file that nothing else uses.
+/// Returns the name of a temporary file in the same folder.
 fn beside(path: &Path) -> io::Result<PathBuf> {
     let name = path
         .file_name()
@@ -52,7 +52,8 @@ fn beside(path: &Path) -> io::Result<PathBuf> {
     )))
 }
 
-/// A scene's name as the name of a file: `balls:3` becomes `balls-3`; `scene` where nothing is left.
+/// Converts the name of a scene to a file name: `balls:3` becomes `balls-3`. Returns `scene` if
+/// nothing is left.
 pub fn stem(name: &str) -> String {
     let stem: String = name
         .chars()
@@ -70,10 +71,10 @@ pub fn stem(name: &str) -> String {
     }
 }
 
-/// The SHA-256 of a file's bytes in hexadecimal digits, as `sha256sum` prints it.
+/// Returns the SHA-256 of a file in hexadecimal digits, as `sha256sum` prints it.
 ///
 /// # Errors
-/// Those of the file system.
+/// I/O errors.
 pub fn sha256(path: &Path) -> io::Result<String> {
     const BLOCK: usize = 1 << 16;
     let mut file = BufReader::with_capacity(BLOCK, File::open(path)?);
@@ -94,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_that_could_not_be_written_leaves_the_one_before() {
+    fn a_failed_write_leaves_the_previous_file() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.txt");
         write_whole(&path, |out| out.write_all(b"first")).unwrap();

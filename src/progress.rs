@@ -1,13 +1,14 @@
-//! How a long task says how far it is, and how it is told to stop.
+//! Progress and cancellation of long tasks.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// Shared between the one that waits for a task and the threads that do it. Cloning shares it.
+/// The progress of a task, shared between the threads that do it and the one that waits for it.
+/// Clones share the same state.
 #[derive(Clone, Debug)]
 pub struct Progress {
     state: Arc<State>,
-    /// The stretch of the whole that [`Progress::set`] fills.
+    /// The interval of the whole task that [`Progress::set`] covers.
     span: [f64; 2],
 }
 
@@ -26,7 +27,7 @@ struct State {
     fraction_bits: AtomicU64,
 }
 
-/// The task was told to stop before it was done.
+/// The task was cancelled before it was complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("cancelled")]
 pub struct Cancelled;
@@ -36,7 +37,8 @@ impl Progress {
         Self::default()
     }
 
-    /// The same progress for a part of the task, which fills the fractions `from` to `to` of this one.
+    /// Returns the progress of a part of the task, which covers the fractions `from` to `to` of
+    /// this one.
     pub fn part(&self, from: f64, to: f64) -> Progress {
         let [start, end] = self.span;
         let place = |fraction: f64| start + fraction * (end - start);
@@ -46,7 +48,7 @@ impl Progress {
         }
     }
 
-    /// Asks the task to stop at its next look.
+    /// Requests that the task stops at its next check.
     pub fn cancel(&self) {
         self.state.cancelled.store(true, Ordering::Relaxed);
     }
@@ -55,7 +57,7 @@ impl Progress {
         self.state.cancelled.load(Ordering::Relaxed)
     }
 
-    /// `Err` once the task was asked to stop: for use with `?` inside loops.
+    /// Returns an error if the task was cancelled; for use with `?` in loops.
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.is_cancelled() {
             Err(Cancelled)
@@ -64,7 +66,7 @@ impl Progress {
         }
     }
 
-    /// Says how much is done of it, or of its part, 0 to 1.
+    /// Sets the completed fraction of the task, or of its part, from 0 to 1.
     pub fn set(&self, fraction: f64) {
         let [start, end] = self.span;
         let whole = start + fraction.clamp(0.0, 1.0) * (end - start);
@@ -73,7 +75,7 @@ impl Progress {
             .store(whole.to_bits(), Ordering::Relaxed);
     }
 
-    /// How much of the whole is done, 0 to 1.
+    /// Returns the completed fraction of the whole task, from 0 to 1.
     pub fn fraction(&self) -> f64 {
         f64::from_bits(self.state.fraction_bits.load(Ordering::Relaxed))
     }

@@ -1,4 +1,4 @@
-//! `bspscope generate`: a scene as a file.
+//! `bspscope generate`: writes a scene to a file.
 
 use super::args::GenerateArgs;
 use super::outcome::Outcome;
@@ -15,14 +15,14 @@ pub fn run(args: &GenerateArgs) -> Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-/// What writes the format of a file's extension; NFF where that says nothing.
+/// Returns the writer for the extension of a file; NFF if the extension is unknown.
 fn writer(file: Option<&Path>) -> Result<format::WriteScene> {
     match file.and_then(format::for_path) {
         None => Ok(format::nff::write),
         Some(format) => match format.write {
             Some(write) => Ok(write),
             None => bail!(
-                "{} files cannot hold all of a scene; nff can",
+                "{} files cannot represent every scene; write .nff instead",
                 format.name.to_uppercase()
             ),
         },

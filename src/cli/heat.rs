@@ -1,4 +1,4 @@
-//! `bspscope render --show`: a heatmap in a file.
+//! `bspscope render --show`: writes a heatmap to a file.
 
 use super::args::HeatArgs;
 use super::values::ByColormap;
@@ -13,7 +13,7 @@ use anyhow::{Result, bail};
 use image::ImageFormat;
 use std::sync::{Mutex, PoisonError};
 
-/// Refuses options that do not go together, before work is done for them.
+/// Rejects incompatible options before work is done for them.
 pub fn check(args: &HeatArgs, format: ImageFormat) -> Result<()> {
     let Some(shown) = args.show else {
         return Ok(());
@@ -21,7 +21,7 @@ pub fn check(args: &HeatArgs, format: ImageFormat) -> Result<()> {
     let (heatmap, rays) = (shown.0, args.rays);
     if !heatmap.filters().contains(&rays) {
         bail!(
-            "--rays {}: {} is not told apart by kinds of rays",
+            "--rays {}: {} is not counted per kind of ray",
             rays.name(),
             heatmap.symbol
         );
@@ -34,13 +34,13 @@ pub fn check(args: &HeatArgs, format: ImageFormat) -> Result<()> {
     ];
     match looks.into_iter().find(|(_, given)| *given) {
         Some((option, _)) if format == ImageFormat::OpenExr => {
-            bail!("{option}: an .exr file holds raw values, not colours; write a .png")
+            bail!("{option}: an .exr file contains raw values, not colors; write a .png instead")
         }
         _ => Ok(()),
     }
 }
 
-/// The bytes of a heatmap's file: colours with their legend, or raw values for OpenEXR.
+/// Returns the bytes of the file: colors with a legend, or raw values for OpenEXR.
 pub fn encoded(
     scene: &Scene,
     tree: &Tree,
@@ -75,7 +75,7 @@ pub fn encoded(
     })
 }
 
-/// Counts, or for a heatmap of times takes, what it shows.
+/// Counts the values of a heatmap, or measures them for a heatmap of times.
 fn counts(
     scene: &Scene,
     tree: &Tree,

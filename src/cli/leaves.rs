@@ -1,4 +1,4 @@
-//! `bspscope leaves`: the boxes of a tree's leaves for other programs.
+//! `bspscope leaves`: writes the leaf boxes of a tree for other programs.
 
 use super::args::{LeavesArgs, LeavesShown};
 use super::outcome::Outcome;

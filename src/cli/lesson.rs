@@ -46,7 +46,7 @@ fn check_all(names: &[String]) -> Result<Outcome> {
                 let steps = lesson.steps.len();
                 writeln!(
                     out,
-                    "{}: {steps} steps, {conditions} conditions, all hold",
+                    "{}: {steps} steps, {conditions} of {conditions} conditions hold",
                     lesson.name
                 )?;
             }
@@ -86,7 +86,7 @@ fn show(name: &str) -> Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-/// The question of a step with its answer; `None` where nothing is asked.
+/// Returns the question of a step with its answer; `None` if nothing is asked.
 fn answer(step: &Step, figures: &crate::lesson::Figures) -> Option<String> {
     let question = step.question.as_ref()?;
     let answer = match &question.answer {

@@ -1,4 +1,4 @@
-//! `bspscope merge`: the parts of a sweep as one.
+//! `bspscope merge`: merges the parts of a sweep.
 
 use super::args::MergeArgs;
 use super::outcome::Outcome;
@@ -30,7 +30,11 @@ pub fn run(args: &MergeArgs) -> Result<Outcome> {
     }
     output::write_to(None, |out| {
         let numbers: Vec<_> = missing.iter().map(|point| point.to_string()).collect();
-        writeln!(out, "missing points, from 0: {}", numbers.join(" "))
+        writeln!(
+            out,
+            "missing points (counted from 0): {}",
+            numbers.join(" ")
+        )
     })?;
     Ok(Outcome::CheckFailed)
 }

@@ -52,7 +52,7 @@ fn text(out: &mut dyn Write) -> io::Result<()> {
 
 fn range(constant: &Constant) -> String {
     let numbers = if constant.step == 1.0 {
-        "whole numbers"
+        "integers"
     } else {
         "numbers"
     };

@@ -1,6 +1,7 @@
-//! The command line: raw arguments ([`args`]), what they come to ([`resolve`]), one file a command.
+//! The command line: raw arguments ([`args`]), what they resolve to ([`resolve`]), one file per
+//! command.
 //!
-//! Exit codes: 0 done, 1 a check failed, 2 bad use or bad input.
+//! Exit codes: 0 done, 1 a check failed, 2 invalid use or input.
 
 mod accuracy;
 mod args;
@@ -34,7 +35,7 @@ use outcome::Outcome;
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
-/// Runs the program with the process's arguments.
+/// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = match &arguments.command {
@@ -60,10 +61,10 @@ pub fn main() -> ExitCode {
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::CheckFailed) => ExitCode::from(1),
-        // Whoever reads the output has seen enough: `bspscope … | head`.
+        // The reader closed the pipe, as in `bspscope … | head`.
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            // Without a standard error stream only the exit code is left to tell.
+            // If standard error is closed, only the exit code remains.
             let _ = writeln!(std::io::stderr(), "bspscope: {error:#}");
             ExitCode::from(2)
         }

@@ -1,6 +1,6 @@
 //! How a command ends.
 
-/// How a command that did its work ended.
+/// The result of a command that completed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     Done,

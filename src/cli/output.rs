@@ -1,4 +1,4 @@
-//! Where output goes: standard output, or a file that is complete or not touched at all.
+//! Output to standard output, or to a file that is written completely or not at all.
 
 use super::args::ReportArgs;
 use super::resolve;
@@ -9,18 +9,18 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Refuses a place where no file can be written, before work is done for it.
+/// Rejects a path that cannot be written to, before work is done for it.
 pub fn check_place(file: Option<&Path>) -> Result<()> {
     let Some(path) = file.filter(|path| path.as_os_str() != "-") else {
         return Ok(());
     };
     if path.is_dir() {
-        bail!("{}: is a folder", path.display());
+        bail!("{}: this is a folder; expected a file", path.display());
     }
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
             bail!(
-                "{}: there is no folder {}",
+                "{}: the folder {} does not exist",
                 path.display(),
                 folder.display()
             )
@@ -29,7 +29,7 @@ pub fn check_place(file: Option<&Path>) -> Result<()> {
     }
 }
 
-/// Writes to a file, or to standard output for `-` and for nothing.
+/// Writes to a file, or to standard output for `-` or `None`.
 pub fn write_to(
     file: Option<&Path>,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -44,12 +44,12 @@ pub fn write_to(
     }
 }
 
-/// Writes a report in the form and to the place asked for.
+/// Writes a report in the requested format to the requested file.
 pub fn write_report(report: &Report, args: &ReportArgs) -> Result<()> {
     write_with(WRITERS, report, args)
 }
 
-/// Writes with the one of these writers that is asked for, to the place asked for.
+/// Writes a report with the requested writer to the requested file.
 pub fn write_with<R: ?Sized>(
     writers: &'static [Writer<R>],
     report: &R,
@@ -60,12 +60,12 @@ pub fn write_with<R: ?Sized>(
     write_to(file, |out| (writer.write)(report, out))
 }
 
-/// Writes a file whole, or leaves what is there.
+/// Writes a file completely, or leaves an existing file unchanged.
 pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     files::write_whole(path, write).with_context(|| path.display().to_string())
 }
 
-/// Creates a file under the first free name: `stem.extension`, `stem-1.extension`, …
+/// Creates a file with the first free name: `stem.extension`, `stem-1.extension`, …
 pub fn create_free(stem: &str, extension: &str) -> Result<(PathBuf, File)> {
     let mut number = 0;
     loop {

@@ -1,4 +1,4 @@
-//! `bspscope paper`: the paper's tables, printed beside computed.
+//! `bspscope paper`: the paper's tables next to measured values.
 
 use super::args::PaperArgs;
 use super::outcome::Outcome;

@@ -1,4 +1,4 @@
-//! `bspscope probe`: everything that the rays of one pixel did.
+//! `bspscope probe`: prints everything that the rays of one pixel did.
 
 use super::args::{ListFormat, ProbeArgs};
 use super::outcome::Outcome;
@@ -35,7 +35,7 @@ pub fn run(args: &ProbeArgs) -> Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-/// The pixel asked for, if the picture has it.
+/// Returns the pixel, if it is inside the picture.
 fn pixel_of([x, y]: [i64; 2], [width, height]: [u32; 2]) -> Result<[u32; 2]> {
     let within = |v: i64, limit: u32| u32::try_from(v).ok().filter(|&v| v < limit);
     match (within(x, width), within(y, height)) {

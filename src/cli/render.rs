@@ -1,4 +1,4 @@
-//! `bspscope render`: the picture in a file.
+//! `bspscope render`: writes the picture to a file.
 
 use super::args::RenderArgs;
 use super::outcome::Outcome;
@@ -35,7 +35,7 @@ pub fn run(args: &RenderArgs) -> Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-/// The format for a picture's file, by its extension.
+/// Returns the format of a picture file, by its extension.
 fn format_of(path: &Path) -> Result<ImageFormat> {
     match path
         .extension()
@@ -45,6 +45,6 @@ fn format_of(path: &Path) -> Result<ImageFormat> {
     {
         Some("png") => Ok(ImageFormat::Png),
         Some("exr") => Ok(ImageFormat::OpenExr),
-        _ => bail!("{}: pictures are written as .png or .exr", path.display()),
+        _ => bail!("{}: expected the extension .png or .exr", path.display()),
     }
 }

@@ -1,4 +1,4 @@
-//! `bspscope report`: pictures, tables, settings and machine on one page.
+//! `bspscope report`: pictures, tables, settings and machine as one HTML file.
 
 use super::args::PageArgs;
 use super::outcome::Outcome;

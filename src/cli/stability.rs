@@ -1,4 +1,4 @@
-//! `bspscope stability`: trees at the extremes.
+//! `bspscope stability`: tests trees with extreme inputs.
 
 use super::args::{ListFormat, StabilityArgs};
 use super::outcome::Outcome;
@@ -22,7 +22,7 @@ pub fn run(args: &StabilityArgs) -> Result<Outcome> {
         args.method.clone()
     };
     let pool = thread_pool(args.threads)?;
-    let cells = bar::with_bar("trying the extremes", |progress| {
+    let cells = bar::with_bar("running extreme cases", |progress| {
         stability::run(scene.as_ref(), &methods, args.quick, &pool, progress)
     })?;
     output::write_to(args.output.as_deref(), |out| match args.format {
@@ -44,7 +44,7 @@ fn failures(cells: &[Cell]) -> usize {
     cells.iter().filter(failed).count()
 }
 
-/// A row a case, a column a method and precision; below, why cells did not pass.
+/// Writes one row per case and one column per method and precision, then the reasons for failures.
 fn text(cells: &[Cell], out: &mut dyn Write) -> io::Result<()> {
     let column = |cell: &Cell| format!("{} {}", cell.method, cell.precision.name());
     let mut columns: Vec<String> = Vec::new();
@@ -74,10 +74,10 @@ fn text(cells: &[Cell], out: &mut dyn Write) -> io::Result<()> {
             continue;
         };
         writeln!(out, "{}, {}: {reason}", cell.case, column(cell))?;
-        writeln!(out, "    the rule: {}", cell.rule)?;
+        writeln!(out, "    rule: {}", cell.rule)?;
     }
     match failures(cells) {
-        0 => writeln!(out, "All {} cells are right.", cells.len()),
-        n => writeln!(out, "{n} of {} cells fail.", cells.len()),
+        0 => writeln!(out, "All {} cases passed.", cells.len()),
+        n => writeln!(out, "{n} of {} cases failed.", cells.len()),
     }
 }

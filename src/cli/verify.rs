@@ -1,4 +1,4 @@
-//! `bspscope verify`: trees are valid, and give the same hits as testing every object.
+//! `bspscope verify`: checks that trees are valid and give the same hits as testing every object.
 
 use super::args::{PictureArgs, VerifyArgs};
 use super::outcome::Outcome;
@@ -15,7 +15,7 @@ use anyhow::{Context, Result};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// What was found of one scene and method.
+/// The result for one scene and method.
 struct Finding {
     scene: String,
     method: Method,
@@ -63,10 +63,10 @@ fn outcome(findings: &[Finding]) -> Outcome {
     }
 }
 
-/// Holds every method's tree of a scene against testing every object.
+/// Compares the tree of every method with testing every object.
 fn findings_of(text: &str, builds: &[BuildSettings], args: &VerifyArgs) -> Result<Vec<Finding>> {
     let (_, scene) = resolve::scene(text, &args.cylinders)?;
-    // The sample's own size takes the place of a resolution.
+    // The number of rays replaces the resolution.
     let any_size = PictureArgs { resolution: [1, 1] };
     let render = resolve::render(&args.trace, &any_size);
     let pool = thread_pool(render.threads)?;
@@ -82,14 +82,14 @@ fn findings_of(text: &str, builds: &[BuildSettings], args: &VerifyArgs) -> Resul
         let (sample, answers) = match &mut expected {
             Some(expected) => expected,
             none => {
-                let sample = bar::with_bar(&stage("taking rays"), |progress| {
+                let sample = bar::with_bar(&stage("sampling rays"), |progress| {
                     sample_rays(&scene, &tree, &render, args.rays as usize, &pool, progress)
                 })?;
-                let answers = judged(&scene, precision, &sample, &pool)?;
+                let answers = reference_answers(&scene, precision, &sample, &pool)?;
                 none.insert((sample, answers))
             }
         };
-        let found = bar::with_bar(&stage("asking the tree"), |progress| {
+        let found = bar::with_bar(&stage("tracing rays"), |progress| {
             answer(&scene, &tree, precision, sample, &pool, progress)
         })?;
         findings.push(Finding {
@@ -107,7 +107,7 @@ fn findings_of(text: &str, builds: &[BuildSettings], args: &VerifyArgs) -> Resul
     Ok(findings)
 }
 
-/// Writes each fault to a file of its own.
+/// Writes each fault to its own file.
 fn write_faults(
     scene: &Scene,
     settings: &BuildSettings,
@@ -126,7 +126,7 @@ fn write_faults(
     Ok(files)
 }
 
-/// Asks the question of a file again.
+/// Repeats the case of a file.
 fn replay(file: &Path) -> Result<Outcome> {
     let name = file.display();
     let text = std::fs::read_to_string(file).with_context(|| name.to_string())?;
@@ -141,11 +141,11 @@ fn replay(file: &Path) -> Result<Outcome> {
             ray.origin,
             ray.direction
         ),
-        format!("  the file has: {}", both(case.expected, case.found)),
+        format!("  in the file: {}", both(case.expected, case.found)),
     ];
     let outcome = match &again {
         None => {
-            lines.push("  now: both say the same.".to_owned());
+            lines.push("  now: both agree.".to_owned());
             Outcome::Done
         }
         Some(again) => {
@@ -180,7 +180,7 @@ fn both(expected: Answer, found: Answer) -> String {
         Answer::Blocked(false) => "not blocked".to_owned(),
     };
     format!(
-        "testing every object says {}, the tree {}",
+        "testing every object finds {}, the tree finds {}",
         said(expected),
         said(found)
     )
@@ -189,7 +189,7 @@ fn both(expected: Answer, found: Answer) -> String {
 fn in_words(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Tie => "A tie: both are exactly right.",
-        Verdict::Rounding => "Rounding: both are right but for it.",
+        Verdict::Rounding => "Rounding: both are right up to rounding.",
         Verdict::Fault {
             a_is_wrong: false, ..
         } => "A fault: the tree is wrong.",
@@ -200,8 +200,8 @@ fn in_words(verdict: Verdict) -> &'static str {
     }
 }
 
-/// What testing every object says.
-fn judged(
+/// Returns the answers of testing every object.
+fn reference_answers(
     scene: &Scene,
     precision: Precision,
     sample: &RaySample,
@@ -245,7 +245,7 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
                 if finding.tree.is_ok() {
                     "valid".into()
                 } else {
-                    "wrong".into()
+                    "invalid".into()
                 },
                 kind.name().to_owned(),
                 finding.rays.rays[k].to_string(),
@@ -263,7 +263,7 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
         for (kind, ray) in &finding.rays.faults {
             writeln!(
                 out,
-                "{name}: a wrong answer for the {} ray from {} along {}",
+                "{name}: wrong hit for the {} ray from {} along {}",
                 kind.name(),
                 ray.origin,
                 ray.direction
@@ -271,14 +271,17 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
         }
         for file in &finding.files {
             let file = file.display();
-            writeln!(out, "{name}: bspscope verify --replay {file} asks again")?;
+            writeln!(
+                out,
+                "{name}: to repeat it, run bspscope verify --replay {file}"
+            )?;
         }
     }
     let wrong = findings.iter().filter(|f| !f.passed()).count();
     if wrong == 0 {
         writeln!(
             out,
-            "All {} trees are valid and every hit is right.",
+            "All {} trees are valid and all hits are right.",
             findings.len()
         )
     } else {

@@ -1,4 +1,4 @@
-//! Measures what the steps of a lesson look at, and holds it against what they expect.
+//! Measures the steps of a lesson and checks their conditions.
 
 use super::content::{Lesson, LessonError, Step};
 use super::figures::{Difference, Figures, SideFigures};
@@ -9,18 +9,17 @@ use crate::scene::{Scene, SceneRequest, load};
 use crate::setup::Setup;
 use crate::trace::{Picture, record_pixel};
 
-/// Measures steps; keeps the scene of the last one.
+/// Measures steps; caches the scene of the previous one.
 #[derive(Default)]
 pub struct Measurer {
     scene: Option<(SceneRequest, Scene)>,
 }
 
 impl Measurer {
-    /// Everything that a step of a lesson tells of.
+    /// Measures all figures of a step.
     ///
     /// # Errors
-    /// The file and line of what cannot be had, such as a scene that does not load; cancellation
-    /// likewise.
+    /// What failed, such as loading the scene, with file and line; or cancellation.
     pub fn measure(
         &mut self,
         lesson: &Lesson,
@@ -71,7 +70,7 @@ impl Measurer {
     }
 }
 
-/// Measures every step and gives what does not hold; nothing if all does.
+/// Measures every step and returns the conditions that do not hold.
 ///
 /// # Errors
 /// Cancellation.
@@ -89,7 +88,7 @@ pub fn check(lesson: &Lesson, progress: &Progress) -> Result<Vec<LessonError>, C
     Ok(wrong)
 }
 
-/// What of a step does not hold with these figures.
+/// Returns the conditions of a step that do not hold with these figures.
 pub fn check_step(lesson: &Lesson, step: &Step, figures: &Figures) -> Vec<LessonError> {
     let mut wrong = Vec::new();
     for expected in &step.expectations {
@@ -108,7 +107,7 @@ pub fn check_step(lesson: &Lesson, step: &Step, figures: &Figures) -> Vec<Lesson
     }
     for value in step.before.placeholders().chain(step.after.placeholders()) {
         if value.formula.value(figures).is_none() {
-            let reason = format!("{{{}}} has no value here", value.text);
+            let reason = format!("{{{}}} has no value in this step", value.text);
             wrong.push(lesson.error(value.line, reason));
         }
     }
@@ -116,11 +115,11 @@ pub fn check_step(lesson: &Lesson, step: &Step, figures: &Figures) -> Vec<Lesson
         let reason = match &question.answer {
             Answer::Number { formula, .. } => match formula.value(figures) {
                 Some(_) => None,
-                None => Some("the number asked for has no value here".to_owned()),
+                None => Some("the answer has no value in this step".to_owned()),
             },
             Answer::Choice(_) => match question.answer.right_choices(figures).len() {
                 1 => None,
-                right => Some(format!("{right} of the choices are right; it must be one")),
+                right => Some(format!("{right} choices are right; exactly one must be")),
             },
         };
         wrong.extend(reason.map(|reason| lesson.error(question.line, reason)));

@@ -8,31 +8,31 @@ use super::subject::Subject;
 /// A lesson.
 #[derive(Clone, Debug)]
 pub struct Lesson {
-    /// The name of its file, as it is told in errors.
+    /// The name of its file, for error messages.
     pub name: String,
     pub title: String,
-    /// What it is about, in a sentence.
+    /// What it is about, in one sentence.
     pub about: String,
-    /// At least one.
+    /// The steps; at least one.
     pub steps: Vec<Step>,
 }
 
 /// A step of a lesson.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// Line of its heading, from 1.
+    /// Line of its heading, counted from 1.
     pub line: usize,
     pub title: String,
-    /// Line that names its scene.
+    /// Line of the key `scene`.
     pub(super) scene_line: usize,
     pub subject: Subject,
-    /// What to look at.
+    /// Text before the question.
     pub before: Prose,
-    /// `None` where nothing is asked; then nothing is told after it either.
+    /// `None` if nothing is asked; then `after` is empty.
     pub question: Option<Question>,
-    /// What is told once there is a prediction.
+    /// Text that is shown after the prediction.
     pub after: Prose,
-    /// What must hold for the text to be true.
+    /// Conditions that must hold for the text to be true.
     pub expectations: Vec<Expectation>,
 }
 
@@ -44,18 +44,18 @@ pub struct Expectation {
     pub condition: Condition,
 }
 
-/// What is wrong with a lesson, and where.
+/// An error in a lesson, with its position.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{file}:{line}: {reason}")]
 pub struct LessonError {
     pub file: String,
-    /// From 1.
+    /// Counted from 1.
     pub line: usize,
     pub reason: String,
 }
 
 impl Lesson {
-    /// What is wrong in a line of it.
+    /// Creates an error in a line of this lesson.
     pub(super) fn error(&self, line: usize, reason: String) -> LessonError {
         LessonError {
             file: self.name.clone(),

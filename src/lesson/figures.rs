@@ -1,4 +1,4 @@
-//! What was measured for a step of a lesson, and the names that lessons have for it.
+//! The figures that were measured for a step of a lesson, and their names in lessons.
 
 use crate::measure::accuracy::pixel_errors;
 use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, Source, Whole};
@@ -6,35 +6,35 @@ use crate::measure::{Class, Measurement, PARAMETERS, Parameter, differing_pixels
 use crate::present::number::{grouped, significant};
 use crate::trace::{Picture, PixelTallies, Tally};
 
-/// Everything measured for a step.
+/// All figures of a step.
 #[derive(Clone, Debug)]
 pub struct Figures {
     pub a: SideFigures,
-    /// The second tree, where the step compares two.
+    /// The figures of the second tree, if the step compares two.
     pub b: Option<SideFigures>,
-    /// How B's picture differs from A's; `None` without B, or where they have another size.
+    /// How the picture of B differs from that of A; `None` without B, or if their sizes differ.
     pub difference: Option<Difference>,
 }
 
-/// What was measured of one tree.
+/// The figures of one tree.
 #[derive(Clone, Debug)]
 pub struct SideFigures {
     pub measurement: Measurement,
-    /// What the rays of the step's pixel did; `None` if it has none.
+    /// The counts of the rays of the step's pixel; `None` if the step has no pixel.
     pub pixel: Option<PixelTallies>,
 }
 
-/// How a picture differs from another.
+/// The difference between two pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// Pixels whose colours are not the same.
+    /// Number of pixels with different colors.
     pub pixels: usize,
-    /// Square root of the mean squared error, 0 to 1.
+    /// Root-mean-square error, 0 to 1.
     pub rmse: f64,
 }
 
 impl Difference {
-    /// Of two pictures; `None` if their sizes differ.
+    /// Compares two pictures; `None` if their sizes differ.
     pub fn between(a: &Picture, b: &Picture) -> Option<Difference> {
         if (a.width, a.height) != (b.width, b.height) {
             return None;
@@ -58,15 +58,16 @@ pub enum Side {
 /// The name of a figure.
 #[derive(Clone, Copy)]
 pub enum Name {
-    /// `a.N_LS`: a parameter of the paper, or the like.
+    /// `a.N_LS`: a parameter.
     Parameter(Side, &'static Parameter),
-    /// `a.N_IT`: a heatmap's value of the whole picture, where parameters sum to it.
+    /// `a.N_IT`: the value of a heatmap for the whole picture, if it is a sum of parameters.
     Total(Side, &'static Heatmap),
-    /// `a.pixel.N_IT` or `a.ray.N_IT`: of all rays of the step's pixel, or of its primary ray.
+    /// `a.pixel.N_IT` or `a.ray.N_IT`: the value for all rays of the step's pixel, or for its
+    /// primary ray.
     Pixel(Side, &'static Heatmap, RayFilter),
-    /// `differing`: pixels in which the pictures of A and B differ.
+    /// `differing`: number of pixels in which the pictures of A and B differ.
     Differing,
-    /// `rmse`: the error of B's picture against A's.
+    /// `rmse`: the error of B's picture relative to A's.
     Rmse,
 }
 
@@ -93,10 +94,10 @@ impl std::fmt::Debug for Name {
 }
 
 impl Name {
-    /// Reads a name.
+    /// Parses a name.
     ///
     /// # Errors
-    /// A sentence that says what names there are.
+    /// One sentence on which names exist.
     pub fn parse(text: &str) -> Result<Name, String> {
         match text {
             "differing" => return Ok(Name::Differing),
@@ -109,7 +110,7 @@ impl Name {
             .find_map(|(prefix, side)| Some((side, text.strip_prefix(prefix)?)));
         let Some((side, symbol)) = found else {
             return Err(format!(
-                "'{text}' is no figure: expected a. or b. and a symbol, such as a.N_LS, or differing \
+                "'{text}' is not a figure: expected a. or b. and a symbol, such as a.N_LS, or differing \
                  or rmse"
             ));
         };
@@ -122,7 +123,7 @@ impl Name {
                 let heatmap = heatmap.ok_or_else(|| {
                     let known: Vec<_> = HEATMAPS.iter().filter(counted).map(|h| h.symbol).collect();
                     format!(
-                        "no {symbol} of a pixel's rays; there are {}",
+                        "'{symbol}' is not counted per pixel; available: {}",
                         known.join(", ")
                     )
                 })?;
@@ -137,12 +138,12 @@ impl Name {
             .filter(|h| !h.parameters(RayFilter::All).is_empty());
         let heatmap = sums.find(|h| h.symbol == symbol);
         let heatmap = heatmap.ok_or_else(|| {
-            format!("no parameter {symbol}; 'bspscope measure' prints them all, and there is N_IT")
+            format!("no parameter '{symbol}'; use N_IT or a symbol that 'bspscope measure' prints")
         })?;
         Ok(Name::Total(side, heatmap))
     }
 
-    /// Which tree it is of; `None` for what is of both.
+    /// Returns the tree that the figure belongs to; `None` if it depends on both.
     pub fn side(&self) -> Option<Side> {
         match self {
             Name::Parameter(side, _) | Name::Total(side, _) | Name::Pixel(side, ..) => Some(*side),
@@ -150,22 +151,22 @@ impl Name {
         }
     }
 
-    /// Whether it is of the step's pixel.
+    /// Returns whether the figure is of the step's pixel.
     pub fn is_of_pixel(&self) -> bool {
         matches!(self, Name::Pixel(..))
     }
 
-    /// Whether it was specified before anything was measured.
+    /// Returns whether the figure was specified, rather than measured.
     pub fn is_given(&self) -> bool {
         matches!(self, Name::Parameter(_, p) if p.class == Class::S)
     }
 
-    /// Whether it is a time, which is another on every machine.
+    /// Returns whether the figure is a time, which differs between machines.
     pub fn is_timed(&self) -> bool {
         matches!(self, Name::Parameter(_, p) if p.class == Class::T)
     }
 
-    /// Its value; `None` where it has none.
+    /// Returns the value; `None` if it has none.
     pub fn value(&self, figures: &Figures) -> Option<f64> {
         let of = |side: Side| match side {
             Side::A => Some(&figures.a),
@@ -185,7 +186,7 @@ impl Name {
         }
     }
 
-    /// A value of it for people.
+    /// Formats a value of this figure.
     pub fn write(&self, value: f64) -> String {
         match self {
             Name::Parameter(_, parameter) => parameter.format(Some(value)),
@@ -198,7 +199,7 @@ impl Name {
     }
 }
 
-/// What some of a pixel's rays did, as a heatmap counts it; `None` for a ratio to nothing.
+/// Returns the value of a heatmap for some rays of a pixel; `None` for a ratio with denominator 0.
 fn of_rays(tallies: &PixelTallies, heatmap: &Heatmap, rays: RayFilter) -> Option<f64> {
     let Source::Rays(count) = heatmap.source else {
         return None;

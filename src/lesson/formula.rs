@@ -1,5 +1,5 @@
-//! Numbers and conditions that are computed from what was measured, such as `b.N_IT / a.N_IT` and
-//! `b.N_LS < 2 * a.N_LS`.
+//! Formulas and conditions on measured figures, such as `b.N_IT / a.N_IT` and `b.N_LS < 2 *
+//! a.N_LS`.
 
 use super::figures::{Figures, Name, Side};
 use crate::present::number::{grouped, significant};
@@ -12,7 +12,7 @@ pub enum Formula {
     Of(Box<Formula>, Operator, Box<Formula>),
 }
 
-/// What two numbers are taken together by.
+/// An arithmetic operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operator {
     Plus,
@@ -21,7 +21,7 @@ pub enum Operator {
     Over,
 }
 
-/// Two numbers and how the first must relate to the second.
+/// A comparison of two formulas.
 #[derive(Clone, Debug)]
 pub struct Condition {
     pub left: Formula,
@@ -29,7 +29,7 @@ pub struct Condition {
     pub right: Formula,
 }
 
-/// How a number relates to another.
+/// A comparison operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
     Less,
@@ -39,10 +39,10 @@ pub enum Relation {
     More,
 }
 
-/// How a number is written.
+/// The format of a number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
-    /// A figure of the registry with its unit, anything else with four significant digits.
+    /// A single figure with its unit, anything else with four significant digits.
     #[default]
     Plain,
     Percent,
@@ -51,10 +51,10 @@ pub enum Style {
 }
 
 impl Formula {
-    /// Reads a formula.
+    /// Parses a formula.
     ///
     /// # Errors
-    /// What was expected, in a sentence.
+    /// One sentence on what was expected.
     pub fn parse(text: &str) -> Result<Formula, String> {
         let mut reader = Reader { rest: text };
         let formula = reader.sum()?;
@@ -62,12 +62,12 @@ impl Formula {
         Ok(formula)
     }
 
-    /// Its value; `None` where a figure has none, or by zero is divided.
+    /// Returns the value; `None` if a figure has no value or on division by zero.
     pub fn value(&self, figures: &Figures) -> Option<f64> {
         self.value_by(&|name| name.value(figures))
     }
 
-    /// As [`Formula::value`], with what is known of figures.
+    /// Like [`Formula::value`], with a function that returns the values of figures.
     fn value_by(&self, known: &dyn Fn(&Name) -> Option<f64>) -> Option<f64> {
         match self {
             Formula::Number(number) => Some(*number),
@@ -84,7 +84,7 @@ impl Formula {
         }
     }
 
-    /// A value of it for people; `–` where there is none.
+    /// Formats a value of this formula; `–` if there is none.
     pub fn write(&self, value: Option<f64>, style: Style) -> String {
         match (value, style, self) {
             (None, ..) => "–".into(),
@@ -95,7 +95,7 @@ impl Formula {
         }
     }
 
-    /// All figures in it.
+    /// Returns all figures in the formula.
     pub fn names(&self) -> Vec<&Name> {
         match self {
             Formula::Number(_) => Vec::new(),
@@ -104,22 +104,22 @@ impl Formula {
         }
     }
 
-    /// Whether it hangs on a time, which is another on every machine.
+    /// Returns whether the formula depends on a time, which differs between machines.
     pub fn is_timed(&self) -> bool {
         self.names().iter().any(|name| name.is_timed())
     }
 
-    /// Whether it is of this tree at all.
+    /// Returns whether the formula depends on this tree.
     pub fn is_about(&self, side: Side) -> bool {
         self.names().iter().any(|name| name.side() == Some(side))
     }
 }
 
 impl Condition {
-    /// Reads two formulas with one of `<`, `<=`, `=`, `>=` and `>` between them.
+    /// Parses two formulas with one of `<`, `<=`, `=`, `>=` and `>` between them.
     ///
     /// # Errors
-    /// What was expected, in a sentence.
+    /// One sentence on what was expected.
     pub fn parse(text: &str) -> Result<Condition, String> {
         let mut reader = Reader { rest: text };
         let left = reader.sum()?;
@@ -141,7 +141,7 @@ impl Condition {
         })
     }
 
-    /// Whether it holds; `None` where a side has no value.
+    /// Returns whether the condition holds; `None` if a side has no value.
     pub fn holds(&self, figures: &Figures) -> Option<bool> {
         let (left, right) = (self.left.value(figures)?, self.right.value(figures)?);
         Some(match self.relation {
@@ -153,13 +153,13 @@ impl Condition {
         })
     }
 
-    /// Both sides.
+    /// Returns both sides.
     pub fn sides(&self) -> [&Formula; 2] {
         [&self.left, &self.right]
     }
 }
 
-/// What is left to be read.
+/// A recursive-descent parser; `rest` is the remaining text.
 struct Reader<'a> {
     rest: &'a str,
 }
@@ -209,7 +209,7 @@ impl Reader<'_> {
         }
         let formula = if word.starts_with(|c: char| c.is_ascii_digit()) {
             let number = word.parse();
-            Formula::Number(number.map_err(|_| format!("'{word}' is no number"))?)
+            Formula::Number(number.map_err(|_| format!("'{word}' is not a number"))?)
         } else {
             Formula::Figure(Name::parse(word)?)
         };
@@ -218,7 +218,7 @@ impl Reader<'_> {
         Ok(formula)
     }
 
-    /// Takes a sign if it comes next.
+    /// Consumes a token if it comes next.
     fn take(&mut self, sign: &str) -> bool {
         self.skip_space();
         let rest = self.rest.strip_prefix(sign);
@@ -250,13 +250,13 @@ impl Reader<'_> {
 mod tests {
     use super::*;
 
-    /// Without figures: numbers alone.
+    /// Evaluates a formula without figures.
     fn value(text: &str) -> Option<f64> {
         Formula::parse(text).unwrap().value_by(&|_| None)
     }
 
     #[test]
-    fn products_bind_closer_and_all_goes_from_left_to_right() {
+    fn products_bind_tighter_and_operators_are_left_associative() {
         assert_eq!(value("1 + 2 * 3"), Some(7.0));
         assert_eq!(value("(1+2)*3"), Some(9.0));
         assert_eq!(value("8 / 4 / 2 - 3 - 1"), Some(-3.0));
@@ -266,13 +266,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_said() {
+    fn errors_say_what_was_expected() {
         for (text, reason) in [
             ("", "found the end"),
             ("1 +", "found the end"),
             ("(1", "expected ')'"),
             ("1 2", "expected an operator or the end, found '2'"),
-            ("1.2.3", "'1.2.3' is no number"),
+            ("1.2.3", "'1.2.3' is not a number"),
             ("a.N_XYZ", "N_XYZ"),
             ("c.N_LS", "c.N_LS"),
             ("N_LS", "N_LS"),
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn times_are_known_for_what_they_are() {
+    fn formulas_with_times_are_recognized() {
         assert!(Formula::parse("b.T_TR / a.T_TR").unwrap().is_timed());
         assert!(!Formula::parse("b.N_LS / a.N_LS").unwrap().is_timed());
         assert!(Formula::parse("1 + b.N_LS").unwrap().is_about(Side::B));

@@ -1,11 +1,11 @@
-//! Lessons: short guided tours in plain text. A lesson is one file in `assets/lessons/` and one line
-//! in [`LESSONS`].
+//! Lessons: short guided tours in plain text. A lesson is one file in `assets/lessons/` and one
+//! line in [`LESSONS`].
 //!
-//! Every step says what is built and shown, what to look at, and asks for a prediction before it
-//! tells the figures. No figure is ever written into a lesson: [`Prose`] has formulas in braces, and
-//! the right answer of a [`Question`] follows from what was measured. What a step takes for granted
-//! it expects in so many words, and [`check`] tells where that does not hold.
-//! `assets/lessons/README.md` tells how to write one.
+//! Each step defines what is built and shown, explains what to look at, and asks for a prediction
+//! before it shows the figures. A lesson never contains figures: [`Prose`] has formulas in braces,
+//! and the right answer to a [`Question`] follows from what was measured. The conditions under
+//! which the text of a step is true are listed in the step, and [`check`] verifies them.
+//! `assets/lessons/README.md` explains how to write a lesson.
 
 mod check;
 mod content;
@@ -28,14 +28,14 @@ use std::path::Path;
 
 /// A lesson that comes with the program.
 pub struct Embedded {
-    /// Its name on the command line, and that of its file without the ending.
+    /// Name on the command line; its file name without the extension.
     pub name: &'static str,
     pub text: &'static str,
 }
 
 macro_rules! lessons {
     ($($name:literal)*) => {
-        /// All lessons that come with the program, in the order in which they are best taken.
+        /// All lessons that come with the program, in the recommended order.
         pub static LESSONS: &[Embedded] = &[$( Embedded {
             name: $name,
             text: include_str!(concat!("../../assets/lessons/", $name, ".md")),
@@ -52,7 +52,7 @@ lessons! {
     "speed-and-accuracy"
 }
 
-/// Why a lesson cannot be had.
+/// Why a lesson could not be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
     #[error("{file}: {reason}")]
@@ -65,19 +65,20 @@ pub enum OpenError {
 }
 
 impl Lesson {
-    /// Reads a lesson that `name` names in errors; paths of scenes are relative to the working
-    /// folder.
+    /// Parses a lesson. `name` is its file name for error messages. Paths of scenes are relative to
+    /// the working directory.
     ///
     /// # Errors
-    /// Line and reason of the first thing that is wrong.
+    /// The first error, with its line.
     pub fn parse(text: &str, name: &str) -> Result<Lesson, LessonError> {
         read::read(text, name, None)
     }
 
-    /// The lesson of this name, or else that in this file, whose scenes may lie beside it.
+    /// Returns the embedded lesson of this name, or else reads a file. Paths of scenes in a file
+    /// are relative to its folder.
     ///
     /// # Errors
-    /// A file that cannot be read, or line and reason of the first thing that is wrong in it.
+    /// The file cannot be read, or the first error in it, with its line.
     pub fn open(name_or_path: &str) -> Result<Lesson, OpenError> {
         if let Some(known) = LESSONS.iter().find(|known| known.name == name_or_path) {
             return Ok(known.read());
@@ -92,10 +93,10 @@ impl Lesson {
 }
 
 impl Embedded {
-    /// The lesson.
+    /// Parses the lesson.
     ///
     /// # Panics
-    /// Never: a test reads them all.
+    /// If it is not valid, which tests exclude.
     pub fn read(&self) -> Lesson {
         let name = format!("{}.md", self.name);
         Lesson::parse(self.text, &name).unwrap_or_else(|error| panic!("{error}"))

@@ -3,7 +3,7 @@
 use super::figures::{Figures, Name};
 use super::formula::{Formula, Style};
 
-/// Markdown, parts of which are computed.
+/// Markdown with placeholders for figures.
 #[derive(Clone, Debug, Default)]
 pub struct Prose {
     pieces: Vec<Piece>,
@@ -15,22 +15,22 @@ enum Piece {
     Value(Placeholder),
 }
 
-/// A figure in a text.
+/// A placeholder for a figure.
 #[derive(Clone, Debug)]
 pub struct Placeholder {
-    /// Line of the file, from 1.
+    /// Line in the file, counted from 1.
     pub line: usize,
-    /// As it stands between the braces.
+    /// The text between the braces.
     pub text: String,
     pub formula: Formula,
     style: Style,
 }
 
 impl Prose {
-    /// Reads Markdown whose first line is line number `line` of its file.
+    /// Parses Markdown whose first line is line number `line` of its file.
     ///
     /// # Errors
-    /// Line and reason: braces that do not match, or a formula that cannot be read.
+    /// Line and reason: unbalanced braces or an invalid formula.
     pub fn parse(text: &str, line: usize) -> Result<Prose, (usize, String)> {
         let mut pieces = Vec::new();
         for (i, row) in text.trim_end().split_inclusive('\n').enumerate() {
@@ -52,7 +52,8 @@ impl Prose {
         Ok(Prose { pieces })
     }
 
-    /// The Markdown with all figures filled in; `…` for each as long as there are none.
+    /// Returns the Markdown with all figures filled in, or with `…` in place of each if there are
+    /// no figures yet.
     pub fn fill(&self, figures: Option<&Figures>) -> String {
         let pieces = self.pieces.iter().map(|piece| match (piece, figures) {
             (Piece::Text(text), _) => text.clone(),
@@ -62,7 +63,7 @@ impl Prose {
         pieces.collect()
     }
 
-    /// All figures in it.
+    /// Returns all placeholders.
     pub fn placeholders(&self) -> impl Iterator<Item = &Placeholder> {
         self.pieces.iter().filter_map(|piece| match piece {
             Piece::Value(value) => Some(value),
@@ -70,7 +71,7 @@ impl Prose {
         })
     }
 
-    /// All names in it.
+    /// Returns the names of all figures, with their lines.
     pub fn names(&self) -> impl Iterator<Item = (usize, &Name)> {
         self.placeholders().flat_map(|value| {
             let names = value.formula.names().into_iter();
@@ -127,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_braces_are_told_with_their_line() {
+    fn unbalanced_braces_are_reported_with_their_line() {
         for (text, line) in [
             ("a\nb {a.N_LS", 2),
             ("a }", 1),

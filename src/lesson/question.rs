@@ -1,5 +1,5 @@
-//! What a step asks before it tells: a number, or one of some answers. What is right is never
-//! written down; it follows from what was measured.
+//! Questions: a number, or a choice of answers. The right answer is never written down; it follows
+//! from what was measured.
 
 use super::figures::Figures;
 use super::formula::{Condition, Formula, Operator, Relation, Style};
@@ -7,27 +7,27 @@ use super::formula::{Condition, Formula, Operator, Relation, Style};
 /// A question of a step.
 #[derive(Clone, Debug)]
 pub struct Question {
-    /// Line of the file, from 1.
+    /// Line in the file, counted from 1.
     pub line: usize,
-    /// In a sentence, plain text.
+    /// The question in plain text.
     pub ask: String,
     pub answer: Answer,
 }
 
-/// What answers a question.
+/// The kind of answer that a question expects.
 #[derive(Clone, Debug)]
 pub enum Answer {
-    /// A number, right within a tolerance.
+    /// A number, within a tolerance.
     Number { formula: Formula, within: Tolerance },
-    /// One of these; exactly one of them is right.
+    /// One of several choices, of which exactly one is right.
     Choice(Vec<Choice>),
 }
 
-/// An answer to choose.
+/// One of several answers to choose from.
 #[derive(Clone, Debug)]
 pub struct Choice {
     pub text: String,
-    /// When it is the right one: all of these hold.
+    /// It is right if all of these conditions hold.
     pub when: Vec<Condition>,
 }
 
@@ -35,29 +35,29 @@ pub struct Choice {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tolerance {
     Absolute(f64),
-    /// A share of the true value.
+    /// A fraction of the true value.
     Relative(f64),
 }
 
-/// What somebody expects.
+/// A prediction by the reader.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Prediction {
     Number(f64),
-    /// The place of a choice.
+    /// The index of a choice.
     Choice(usize),
 }
 
-/// What became of a prediction.
+/// A prediction compared with the truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     pub right: bool,
-    /// What was predicted, and what is.
+    /// The prediction and the truth, as text.
     pub predicted: String,
     pub truth: String,
 }
 
 impl Tolerance {
-    /// Reads `20 %` or a number.
+    /// Parses `20 %` or a number.
     ///
     /// # Errors
     /// What was expected.
@@ -94,8 +94,8 @@ impl std::fmt::Display for Tolerance {
 }
 
 impl Answer {
-    /// More, the same or less: what the first formula is beside the second, where differences of
-    /// less than a share of the second count as none.
+    /// Creates the choice "more", "the same" or "less" for the first formula compared with the
+    /// second. Differences smaller than the fraction `same_within` of the second count as the same.
     pub fn comparison(first: &Formula, second: &Formula, same_within: f64) -> Answer {
         let scaled = |factor: f64| {
             let factor = Box::new(Formula::Number(factor));
@@ -127,7 +127,7 @@ impl Answer {
         ])
     }
 
-    /// All formulas that decide what is right.
+    /// Returns all formulas that determine the right answer.
     pub fn formulas(&self) -> Vec<&Formula> {
         match self {
             Answer::Number { formula, .. } => vec![formula],
@@ -138,7 +138,7 @@ impl Answer {
         }
     }
 
-    /// The places of the choices that are right; none for a number.
+    /// Returns the indices of the choices that are right; empty for a number.
     pub fn right_choices(&self, figures: &Figures) -> Vec<usize> {
         let Answer::Choice(choices) = self else {
             return Vec::new();
@@ -149,8 +149,8 @@ impl Answer {
             .collect()
     }
 
-    /// Holds a prediction against what was measured; `None` where the answer has no value or the
-    /// prediction is of another sort.
+    /// Compares a prediction with what was measured. Returns `None` if the answer has no value or
+    /// the prediction is of another kind.
     pub fn judge(&self, prediction: Prediction, figures: &Figures) -> Option<Verdict> {
         match (self, prediction) {
             (Answer::Number { formula, within }, Prediction::Number(predicted)) => {

@@ -1,5 +1,5 @@
-//! Reads a lesson: TOML between lines `+++`, then a step for every heading `# `, with a block of TOML
-//! that says what it looks at, text, and below a line `---` the text that tells the answer.
+//! Parses a lesson: TOML between lines `+++`, then one step per heading `# `, with a block of TOML
+//! settings, text, and after a line `---` the text with the answer.
 
 use super::content::{Expectation, Lesson, LessonError, Step};
 use super::figures::Side;
@@ -18,16 +18,16 @@ use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
-/// The lines around the head of the file.
+/// The line before and after the file's header.
 const HEAD: &str = "+++";
 
-/// The line between what is told before the answer and after it.
+/// The line between the text before and after the prediction.
 const REVEAL: &str = "---";
 
-/// What is wrong in which line, from 1.
+/// The line of an error, counted from 1, and the reason.
 type Wrong = (usize, String);
 
-/// Reads a lesson. Paths of scenes are relative to `folder`, if there is one.
+/// Parses a lesson. Paths of scenes are relative to `folder`, if there is one.
 pub fn read(text: &str, name: &str, folder: Option<&Path>) -> Result<Lesson, LessonError> {
     lesson(text, name, folder).map_err(|(line, reason)| LessonError {
         file: name.to_owned(),
@@ -96,24 +96,24 @@ fn usual_angle() -> f64 {
 fn lesson(text: &str, name: &str, folder: Option<&Path>) -> Result<Lesson, Wrong> {
     let lines: Vec<&str> = text.lines().collect();
     if lines.first().map(|line| line.trim_end()) != Some(HEAD) {
-        return Err((1, format!("expected the line {HEAD}")));
+        return Err((1, format!("expected a line {HEAD}")));
     }
     let end = lines
         .iter()
         .skip(1)
         .position(|line| line.trim_end() == HEAD);
-    let end = end.ok_or_else(|| (1, format!("there is no second line {HEAD}")))? + 1;
+    let end = end.ok_or_else(|| (1, format!("the second line {HEAD} is missing")))? + 1;
     let head: RawHead = Block::new(&lines, 1, end).read()?;
     let mut starts = headings(&lines, end + 1);
     let first = starts.first().copied().unwrap_or(lines.len());
     if let Some(stray) = (end + 1..first).find(|&i| !lines[i].trim().is_empty()) {
         return Err((
             stray + 1,
-            "expected a heading, '# ' and a step's title".into(),
+            "expected a heading: '# ' and the title of a step".into(),
         ));
     }
     if starts.is_empty() {
-        return Err((end + 1, "there is no step: no line begins with '# '".into()));
+        return Err((end + 1, "the lesson has no step (a heading '# ')".into()));
     }
     starts.push(lines.len());
     let steps = starts
@@ -128,7 +128,7 @@ fn lesson(text: &str, name: &str, folder: Option<&Path>) -> Result<Lesson, Wrong
     })
 }
 
-/// The places of the lines that begin with `# `, those within fenced blocks left out.
+/// Returns the indices of the lines that begin with `# `, except within fenced blocks.
 fn headings(lines: &[&str], from: usize) -> Vec<usize> {
     let mut fenced = false;
     let mut found = Vec::new();
@@ -141,15 +141,15 @@ fn headings(lines: &[&str], from: usize) -> Vec<usize> {
     found
 }
 
-/// A part of the file that is TOML.
+/// A block of TOML in the file.
 struct Block {
-    /// Place of its first line.
+    /// Index of its first line.
     start: usize,
     text: String,
 }
 
 impl Block {
-    /// The lines from `start` to before `end`.
+    /// Creates a block of the lines from `start` to before `end`.
     fn new(lines: &[&str], start: usize, end: usize) -> Self {
         Block {
             start,
@@ -164,7 +164,7 @@ impl Block {
         })
     }
 
-    /// The number of the line with the byte at this place of the block.
+    /// Returns the line number of a byte offset in the block.
     fn line(&self, at: usize) -> usize {
         let before = &self.text.as_bytes()[..at.min(self.text.len())];
         self.start + 1 + before.iter().filter(|&&byte| byte == b'\n').count()
@@ -174,7 +174,7 @@ impl Block {
         self.line(value.span().start)
     }
 
-    /// Does something with a value; what goes wrong is told with its line.
+    /// Applies a function to a value and adds the value's line to an error.
     fn with<T, R>(
         &self,
         value: &Spanned<T>,
@@ -192,16 +192,17 @@ impl Block {
     }
 }
 
-/// Reads the step whose heading stands at `start`, up to before `end`.
+/// Parses the step whose heading is line index `start` and which ends before `end`.
 fn step(lines: &[&str], start: usize, end: usize, folder: Option<&Path>) -> Result<Step, Wrong> {
     let opening = (start + 1..end).find(|&i| !lines[i].trim().is_empty());
     let opening = opening.filter(|&i| lines[i].trim_end() == "```toml");
     let opening = opening.ok_or_else(|| {
-        let reason = "expected a block that begins with ```toml below the heading";
+        let reason = "expected a block ```toml after the heading";
         (start + 1, reason.to_owned())
     })?;
     let closing = (opening + 1..end).find(|&i| lines[i].trim_end() == "```");
-    let closing = closing.ok_or_else(|| (opening + 1, "the block has no end".to_owned()))?;
+    let closing =
+        closing.ok_or_else(|| (opening + 1, "the block is not closed by ```".to_owned()))?;
     let block = Block::new(lines, opening + 1, closing);
     let raw: RawStep = block.read()?;
 
@@ -261,7 +262,7 @@ fn subject(block: &Block, raw: &RawStep, folder: Option<&Path>) -> Result<Subjec
     let pixel = raw.pixel.as_ref().map(|pixel| {
         block.with(pixel, |&[x, y]| match x < raw.size[0] && y < raw.size[1] {
             true => Ok([x, y]),
-            false => Err(format!("pixel [{x}, {y}] lies outside the picture")),
+            false => Err(format!("pixel [{x}, {y}] is outside the picture")),
         })
     });
     let symbol = raw.heatmap.as_ref().map(|name| {
@@ -291,14 +292,14 @@ fn question(block: &Block, raw: &RawStep) -> Result<Option<Question>, Wrong> {
             .chain(raw.compare.iter().map(|v| block.line_of(v)))
             .chain(raw.choices.iter().map(|v| block.line_of(v)));
         return match stray.min() {
-            Some(line) => Err((line, "an answer without 'question'".into())),
+            Some(line) => Err((line, "this key needs 'question'".into())),
             None => Ok(None),
         };
     };
     let answer = match (&raw.number, &raw.compare, &raw.choices) {
         (Some(number), None, None) => {
             let within = raw.within.as_ref().ok_or_else(|| {
-                let reason = "'number' needs 'within', how far off a prediction may be";
+                let reason = "'number' needs 'within': how far off a prediction may be";
                 (block.line_of(number), reason.to_owned())
             })?;
             Answer::Number {
@@ -329,12 +330,12 @@ fn question(block: &Block, raw: &RawStep) -> Result<Option<Question>, Wrong> {
             };
             let choices: Vec<_> = choices.iter().map(choice).collect::<Result<_, String>>()?;
             match choices.len() {
-                0 | 1 => Err("a question needs two choices or more".to_owned()),
+                0 | 1 => Err("a question needs at least two choices".to_owned()),
                 _ => Ok(Answer::Choice(choices)),
             }
         })?,
         _ => {
-            let reason = "a question needs one of 'number', 'compare' and 'choices'";
+            let reason = "a question needs exactly one of 'number', 'compare' and 'choices'";
             return Err((block.line_of(ask), reason.into()));
         }
     };
@@ -356,36 +357,37 @@ fn expectations(block: &Block, raw: &RawStep) -> Result<Vec<Expectation>, Wrong>
     raw.expect.iter().map(read).collect()
 }
 
-/// Refuses what hangs on a time: it would not hold on every machine.
+/// Rejects a condition on a time, because it would not hold on every machine.
 fn untimed(condition: Condition) -> Result<Condition, String> {
     let [left, right] = condition.sides();
     if left.is_timed() || right.is_timed() {
-        return Err("times differ from run to run; only counts can be expected".into());
+        return Err("conditions cannot use times, because these differ between runs".into());
     }
     Ok(condition)
 }
 
 impl Step {
-    /// What only the parts together can get wrong; `divider` is the line with [`REVEAL`].
+    /// Checks the consistency of a step; `divider` is the line with [`REVEAL`].
     fn check(&self, divider: Option<usize>) -> Result<(), Wrong> {
         let Some(question) = &self.question else {
             return match divider {
-                Some(line) => Err((line, format!("'{REVEAL}' in a step without 'question'"))),
+                Some(line) => Err((line, format!("'{REVEAL}' needs 'question' in the step"))),
                 None => self.check_names(),
             };
         };
         if divider.is_none() || self.after.is_empty() {
-            let reason = format!("a question needs text below a line '{REVEAL}' that tells");
+            let reason = format!("a question needs text with the answer after a line '{REVEAL}'");
             return Err((question.line, reason));
         }
         if self.before.is_empty() {
-            return Err((self.line, "a step needs text above its question".into()));
+            return Err((self.line, "a step needs text before its question".into()));
         }
         self.check_names()
     }
 
-    /// Every figure can be had, and none is told before the prediction that would give it away:
-    /// only what was specified and, where B is asked about, what is known of A.
+    /// Checks that every figure is available and that the text before the prediction does not give
+    /// the answer away. It may contain only specified figures and, in a step with two trees,
+    /// figures of A.
     fn check_names(&self) -> Result<(), Wrong> {
         let answer = self.question.iter().flat_map(|question| {
             let formulas = question.answer.formulas().into_iter();
@@ -399,8 +401,8 @@ impl Step {
                 .flat_map(|side| side.names())
                 .map(|name| (expectation.line, name))
         });
-        let told = self.before.names().chain(self.after.names());
-        for (line, name) in told.chain(answer).chain(expected) {
+        let shown = self.before.names().chain(self.after.names());
+        for (line, name) in shown.chain(answer).chain(expected) {
             if name.is_of_pixel() && self.subject.pixel.is_none() {
                 return Err((line, format!("{name:?}: the step has no 'pixel'")));
             }
@@ -409,14 +411,16 @@ impl Step {
             }
         }
         let known = |side| self.subject.b.is_some() && side == Some(Side::A);
-        let told = self.before.names();
-        match told
+        let shown_before = self.before.names();
+        match shown_before
             .into_iter()
             .find(|(_, name)| !name.is_given() && !known(name.side()))
         {
             Some((line, name)) => Err((
                 line,
-                format!("{name:?} would be told before the prediction; move it below '{REVEAL}'"),
+                format!(
+                    "{name:?} gives the answer away before the prediction; move it below '{REVEAL}'"
+                ),
             )),
             None => Ok(()),
         }

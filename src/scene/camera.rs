@@ -133,9 +133,9 @@ impl View {
 }
 
 impl View {
-    /// Projects a line segment into the picture, in pixels from the upper left corner; the center of
-    /// pixel (0, 0) is (0.5, 0.5). The part behind the eye is clipped. Returns `None` if all of the
-    /// segment is behind the eye.
+    /// Projects a line segment into the picture, in pixels from the upper left corner; the center
+    /// of pixel (0, 0) is (0.5, 0.5). The part behind the eye is clipped. Returns `None` if all of
+    /// the segment is behind the eye.
     pub fn project_line(&self, ends: [Vec3; 2]) -> Option<[[f64; 2]; 2]> {
         let [a, b] = ends.map(|end| end - self.eye);
         let [depth_a, depth_b] = [a, b].map(|end| end.dot(self.forward));

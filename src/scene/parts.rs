@@ -6,7 +6,8 @@ use super::note::Note;
 use crate::geometry::Vec3;
 use crate::primitive::Primitive;
 
-/// The parts that a reader or a generator produces; [`Scene::new`](super::Scene::new) turns them into a scene.
+/// The parts that a reader or a generator produces; [`Scene::new`](super::Scene::new) turns them
+/// into a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneParts {
     /// Short name for titles and reports, such as `balls:4` or the stem of a file name.

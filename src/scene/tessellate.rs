@@ -16,9 +16,9 @@ pub enum Cylinders {
 }
 
 impl Cylinders {
-    /// For [`Cylinders::Polygons`], replaces each cylinder and cone by polygons, at its place in the
-    /// list and with its material. Otherwise, and if there are none, returns the parts unchanged
-    /// without copying.
+    /// For [`Cylinders::Polygons`], replaces each cylinder and cone by polygons, at its place in
+    /// the list and with its material. Otherwise, and if there are none, returns the parts
+    /// unchanged without copying.
     pub fn apply(self, mut parts: SceneParts) -> SceneParts {
         let Cylinders::Polygons(sides) = self else {
             return parts;

@@ -1,10 +1,10 @@
-//! The surface-area cost of splitting a node's cell, for every plane along every axis.
+//! The cost of splitting a node by the surface-area heuristic (SAH), for any plane along any axis.
 //!
-//! The cost is the number of intersection tests that a ray through the cell is expected to make if
-//! both parts become leaves: objects in a part times its area by the cell's area, summed over both
-//! parts (J. D. MacDonald and K. S. Booth, Heuristics for ray tracing using space subdivision,
-//! 1990). Walking the tree costs nothing here, as in the paper's method 2. Objects count by their
-//! bounds, clipped to the cell, whatever rule the tree was built by.
+//! The cost is the expected number of intersection tests of a ray through the cell if both parts
+//! become leaves: the number of objects in a part times the ratio of its area to the cell's area,
+//! summed over both parts (J. D. MacDonald and K. S. Booth, Heuristics for ray tracing using space
+//! subdivision, 1990). Traversal costs nothing here, as in the paper's method 2. Objects are
+//! counted by their bounds, clipped to the cell, whatever rule the tree was built with.
 
 use super::index::TreeIndex;
 use super::tree::Tree;
@@ -12,14 +12,14 @@ use crate::geometry::{Aabb, Axis};
 use crate::primitive::Shape;
 use crate::scene::Scene;
 
-/// A plane with what it would do.
+/// A candidate plane with its cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitCost {
     /// World coordinate of the plane.
     pub plane: f64,
-    /// Objects below and above; those that meet the plane are on both sides.
+    /// Number of objects below and above the plane; objects that meet it count on both sides.
     pub objects: [usize; 2],
-    /// Expected intersection tests of a ray through the cell.
+    /// Expected number of intersection tests of a ray through the cell.
     pub cost: f64,
 }
 
@@ -27,22 +27,22 @@ pub struct SplitCost {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CostCurve {
     pub axis: Axis,
-    /// Ends of the cell.
+    /// Lower and upper end of the cell.
     pub range: [f64; 2],
     /// The middle of the cell.
     pub spatial_median: f64,
-    /// The upper median of all bounds of objects inside the cell; `None` without objects.
+    /// The upper median of all bounds of objects in the cell; `None` without objects.
     pub object_median: Option<f64>,
     /// Lower and upper ends of the objects, each sorted.
     lows: Vec<f64>,
     highs: Vec<f64>,
     slack: f64,
-    /// Share of the cell's area in the two faces parallel to the plane, and in the other four.
+    /// Fraction of the cell's area in the two faces parallel to the plane, and in the other four.
     faces: f64,
     rim: f64,
 }
 
-/// All that can be said about splitting one node.
+/// The costs of splitting one node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NodeCost {
     pub node: u32,
@@ -51,15 +51,15 @@ pub struct NodeCost {
     pub objects: usize,
     /// Cost along x, y and z.
     pub curves: [CostCurve; 3],
-    /// The plane that the tree has here; `None` for a leaf.
+    /// The plane of the tree; `None` for a leaf.
     pub chosen: Option<(Axis, SplitCost)>,
 }
 
 impl NodeCost {
-    /// Works out the curves of a node.
+    /// Computes the curves of a node.
     ///
     /// # Panics
-    /// If there is no such node.
+    /// If the node does not exist.
     pub fn new(scene: &Scene, tree: &Tree, index: &TreeIndex, node: u32) -> Self {
         let mut objects =
             tree.references()[tree.references_below(node, index.of(node).end)].to_vec();
@@ -84,12 +84,13 @@ impl NodeCost {
         }
     }
 
-    /// Cost of making the cell a leaf: a test for each of its objects.
+    /// Returns the cost of making the cell a leaf: one test per object.
     pub fn leaf_cost(&self) -> f64 {
         self.objects as f64
     }
 
-    /// The cheapest plane of all axes; the first of equals, `None` if no object ends inside the cell.
+    /// Returns the cheapest plane of all axes, the first if several are equal; `None` if no object
+    /// ends inside the cell.
     pub fn cheapest(&self) -> Option<(Axis, SplitCost)> {
         self.curves
             .iter()
@@ -130,8 +131,8 @@ impl CostCurve {
         }
     }
 
-    /// The cost of a plane, which is clamped into the cell. As the build driver counts, an object
-    /// within rounding of the plane is on both sides.
+    /// Returns the cost of a plane, which is clamped to the cell. As in the build driver, an object
+    /// within rounding of the plane counts on both sides.
     pub fn at(&self, plane: f64) -> SplitCost {
         let plane = plane.clamp(self.range[0], self.range[1]);
         let below = self.lows.partition_point(|&lo| lo <= plane + self.slack);
@@ -156,8 +157,8 @@ impl CostCurve {
         }
     }
 
-    /// The whole curve: the limits on either side of every end of an object, where the cost jumps.
-    /// Between them it is straight.
+    /// Returns the whole curve: the limits on both sides of every end of an object, where the cost
+    /// jumps. The curve is linear in between.
     pub fn samples(&self) -> Vec<SplitCost> {
         let n = self.lows.len();
         let mut samples = vec![self.at(self.range[0])];
@@ -165,7 +166,7 @@ impl CostCurve {
         while started < n || ended < n {
             let next = |ends: &[f64], done: usize| ends.get(done).copied().unwrap_or(f64::INFINITY);
             let plane = next(&self.lows, started).min(next(&self.highs, ended));
-            // Just below: nothing that starts or ends here has done so yet.
+            // The limit from below, before the objects that start or end here are counted.
             if plane > self.range[0] {
                 samples.push(self.with(plane, [started, n - ended]));
             }
@@ -179,14 +180,14 @@ impl CostCurve {
         samples
     }
 
-    /// The curve in at most about `most` points, for drawing: of many samples in a row, the
-    /// cheapest and the dearest stay.
-    pub fn drawn(&self, most: usize) -> Vec<SplitCost> {
+    /// Returns the curve in about `max_points` points at most, for drawing. Of a run of samples,
+    /// only the lowest and the highest are kept.
+    pub fn simplified(&self, max_points: usize) -> Vec<SplitCost> {
         let samples = self.samples();
-        if samples.len() <= most {
+        if samples.len() <= max_points {
             return samples;
         }
-        let chunk = samples.len().div_ceil((most / 2).max(1));
+        let chunk = samples.len().div_ceil((max_points / 2).max(1));
         samples
             .chunks(chunk)
             .flat_map(|part| {
@@ -225,7 +226,7 @@ mod tests {
             let (Some((_, chosen)), Some((_, cheapest))) = (cost.chosen, cost.cheapest()) else {
                 continue;
             };
-            // Its planes lie a little outside the objects.
+            // The method places planes slightly outside the objects.
             assert!(chosen.cost <= cheapest.cost * 1.001 + 1e-4, "node {node}");
             assert!(chosen.cost < cost.leaf_cost());
             compared += 1;
@@ -266,8 +267,8 @@ mod tests {
                 assert!((middle.cost - (pair[0].cost + pair[1].cost) * 0.5).abs() < 1e-9);
             }
             let least = |s: &[SplitCost]| s.iter().map(|s| s.cost).fold(f64::INFINITY, f64::min);
-            assert_eq!(least(&samples), least(&curve.drawn(8)));
-            assert!(curve.drawn(8).len() <= 8);
+            assert_eq!(least(&samples), least(&curve.simplified(8)));
+            assert!(curve.simplified(8).len() <= 8);
         }
     }
 }

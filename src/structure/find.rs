@@ -1,42 +1,42 @@
-//! Finds nodes by what they are: `depth 12`, `objects > 8`, `object 138`, `stop depth`.
+//! Search for nodes: `depth 12`, `objects > 8`, `object 138`, `stop depth`.
 
 use super::index::TreeIndex;
 use super::node::{NodeKind, StopReason};
 use super::tree::Tree;
 
-/// What is looked for; read from a line by [`Query::parse`].
+/// A search query; parsed by [`Query::parse`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Query {
-    /// The node of this index.
+    /// The node with this index.
     Node(u32),
     /// The leaves that refer to this object.
     Object(u32),
-    /// The leaves that became leaves for one of these reasons.
+    /// The leaves with one of these stop reasons.
     Stop(Vec<StopReason>),
-    /// The nodes of which a number compares so.
+    /// The nodes whose number satisfies a comparison.
     Number(Field, Order, f64),
 }
 
-/// A number that nodes have.
+/// A number that is known of every node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Field {
     /// Levels below the root.
     Depth,
-    /// Objects in a leaf; inner nodes have none to find.
+    /// Objects in a leaf; never matches inner nodes.
     Objects,
     /// References in the subtree.
     References,
     /// Leaves in the subtree.
     Leaves,
-    /// Surface area in percent of the root's.
+    /// Surface area, in percent of that of the root.
     Area,
-    /// Expected intersection tests of a ray through the cell.
+    /// Expected number of intersection tests of a ray through the cell.
     Tests,
-    /// Rays of the picture that visited the node.
+    /// Number of rays of the picture that visited the node.
     Visits,
 }
 
-/// How a number compares.
+/// A comparison operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
     Equal,
@@ -56,7 +56,7 @@ const FIELDS: &[(&str, Field)] = &[
     ("visits", Field::Visits),
 ];
 
-/// Longer signs first, or `>=` would be read as `>`.
+/// Longer operators come first, or `>=` would be parsed as `>`.
 const ORDERS: &[(&str, Order)] = &[
     ("<=", Order::AtMost),
     (">=", Order::AtLeast),
@@ -68,10 +68,10 @@ const ORDERS: &[(&str, Order)] = &[
 ];
 
 impl Query {
-    /// Reads a query.
+    /// Parses a query.
     ///
     /// # Errors
-    /// What was expected instead, in one sentence.
+    /// One sentence on what was expected.
     pub fn parse(text: &str) -> Result<Query, String> {
         let text = text.trim();
         let word_end = text
@@ -109,13 +109,13 @@ impl Query {
         }
     }
 
-    /// Whether visits must be counted for it.
+    /// Returns whether the query needs visit counts.
     pub fn needs_visits(&self) -> bool {
         matches!(self, Query::Number(Field::Visits, ..))
     }
 
-    /// All nodes that match, in the order of the array. `visits` are those of every node, where they
-    /// were counted; without, no node matches by them.
+    /// Returns all matching nodes in array order. `visits` has the visit count of every node;
+    /// without it, no node matches a query on visits.
     pub fn find(&self, tree: &Tree, index: &TreeIndex, visits: Option<&[u64]>) -> Vec<u32> {
         let nodes = 0..index.len() as u32;
         match self {
@@ -166,7 +166,7 @@ impl Order {
     }
 }
 
-/// The reasons whose text contains the words, such as `depth` in "depth D_MAX reached".
+/// Returns the reasons whose text contains the words, such as `depth` in "depth D_MAX reached".
 fn reasons(words: &str) -> Result<Vec<StopReason>, String> {
     let words = words.to_lowercase();
     let found: Vec<_> = StopReason::ALL
@@ -176,7 +176,7 @@ fn reasons(words: &str) -> Result<Vec<StopReason>, String> {
     if words.is_empty() || found.is_empty() {
         let all: Vec<_> = StopReason::ALL.iter().map(|reason| reason.text()).collect();
         return Err(format!(
-            "expected words of a reason after 'stop': {}",
+            "expected part of a reason after 'stop': {}",
             all.join("; ")
         ));
     }

@@ -1,16 +1,17 @@
-//! The coordinates of the root cell, in which split planes are stored.
+//! Local coordinates, in which split planes are stored.
 //!
-//! In them the root cell is the cube from −1 to 1. Halving it twenty times needs 20 bits, so
-//! midpoints are exact in `f32`; a scene that is moved or scaled as a whole keeps its tree; and a
-//! node needs only 8 bytes while scenes and rays stay `f64`. Rays are taken into these coordinates
-//! once; their parameter `t` stays the same.
+//! In local coordinates the root cell is the cube from −1 to 1. This has three advantages.
+//! Midpoints are exact in `f32`, because halving the cube twenty times needs only 20 bits. A scene
+//! that is moved or scaled as a whole keeps its tree. And a node needs only 8 bytes, while scenes
+//! and rays stay in `f64`. Rays are transformed to local coordinates once; their parameter `t` does
+//! not change.
 
 use crate::geometry::{Aabb, Axis, Vec3};
 
-/// The lower and upper end of an object by axis, each as the nearest storable plane.
+/// The lower and upper end of an object along each axis, as the nearest representable planes.
 pub type ObjectPlanes = [[f32; 2]; 3];
 
-/// Maps between the world and the coordinates of a root cell.
+/// Converts between world coordinates and the local coordinates of a root cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     center: Vec3,
@@ -19,9 +20,9 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The frame of a root cell around `bounds`, enlarged by the length `margin` on every side.
-    ///
-    /// Flat and empty bounds are given the least extent that arithmetic can tell from none.
+    /// Returns the frame of the root cell around `bounds`, enlarged by the length `margin` on every
+    /// side. Flat and empty bounds get the smallest extent that arithmetic can distinguish from
+    /// zero.
     pub fn around(bounds: &Aabb, margin: f64) -> Self {
         let bounds = if bounds.is_empty() {
             Aabb::new(Vec3::ZERO, Vec3::ZERO)
@@ -37,47 +38,48 @@ impl Frame {
         }
     }
 
-    /// The root cell in the world.
+    /// Returns the root cell in world coordinates.
     pub fn cell(&self) -> Aabb {
         Aabb::new(self.center - self.half, self.center + self.half)
     }
 
-    /// The centre of the root cell and half its edges, in the world.
+    /// Returns the center of the root cell and half its size, in world coordinates.
     #[inline]
     pub fn center_and_half(&self) -> (Vec3, Vec3) {
         (self.center, self.half)
     }
 
-    /// How far apart (a length) rounding can put equal coordinates inside the root cell. An object
-    /// this near to a plane belongs to both sides.
+    /// Returns the largest distance that rounding can put between equal coordinates inside the root
+    /// cell. An object this close to a plane belongs to both sides.
     pub fn slack(&self) -> f64 {
         self.slack
     }
 
-    /// World coordinate of a plane.
+    /// Returns the world coordinate of a plane.
     #[inline]
     pub fn to_world(&self, axis: Axis, plane: f64) -> f64 {
         self.center[axis.index()] + self.half[axis.index()] * plane
     }
 
-    /// A point in the coordinates of the root cell.
+    /// Converts a point to local coordinates.
     #[inline]
     pub fn point_to_local(&self, point: Vec3) -> Vec3 {
         (point - self.center) / self.half
     }
 
-    /// A direction in the coordinates of the root cell; its length changes, `t` does not.
+    /// Converts a direction to local coordinates. Its length changes, but `t` does not.
     #[inline]
     pub fn direction_to_local(&self, direction: Vec3) -> Vec3 {
         direction / self.half
     }
 
-    /// The storable plane nearest to a world coordinate.
+    /// Returns the representable plane nearest to a world coordinate.
     pub fn nearest_plane(&self, axis: Axis, world: f64) -> f32 {
         ((world - self.center[axis.index()]) / self.half[axis.index()]) as f32
     }
 
-    /// The storable planes nearest to the lower and upper ends of a box, by axis.
+    /// Returns the representable planes nearest to the lower and upper ends of a box along each
+    /// axis.
     #[inline]
     pub fn planes_around(&self, bounds: &Aabb) -> ObjectPlanes {
         let lo = self.point_to_local(bounds.lo).as_vec3();
@@ -85,9 +87,10 @@ impl Frame {
         std::array::from_fn(|k| [lo[k], hi[k]])
     }
 
-    /// The highest storable plane strictly below a world coordinate, by more than [`Frame::slack`].
+    /// Returns the highest representable plane that is below a world coordinate by more than
+    /// [`Frame::slack`].
     pub fn plane_below(&self, axis: Axis, world: f64) -> f32 {
-        // Starting two slacks away takes few steps even where `f32` is finest, around zero.
+        // Starting two slacks away needs few steps even around zero, where `f32` is densest.
         let mut plane = self.nearest_plane(axis, world - 2.0 * self.slack);
         while self.to_world(axis, f64::from(plane)) >= world - self.slack && plane.is_finite() {
             plane = plane.next_down();
@@ -95,7 +98,8 @@ impl Frame {
         plane
     }
 
-    /// The lowest storable plane strictly above a world coordinate, by more than [`Frame::slack`].
+    /// Returns the lowest representable plane that is above a world coordinate by more than
+    /// [`Frame::slack`].
     pub fn plane_above(&self, axis: Axis, world: f64) -> f32 {
         let mut plane = self.nearest_plane(axis, world + 2.0 * self.slack);
         while self.to_world(axis, f64::from(plane)) <= world + self.slack && plane.is_finite() {
@@ -105,11 +109,11 @@ impl Frame {
     }
 }
 
-/// Whether a box does more than touch a cell from outside; both are given by their planes. A flat box
-/// in the plane between two cells is inside both.
+/// Returns whether a box overlaps a cell, as opposed to only touching it from outside. Both are
+/// given by their planes. A flat box in the plane between two cells overlaps both.
 #[inline]
 pub fn is_inside(planes: &ObjectPlanes, cell: &[[f32; 2]; 3]) -> bool {
-    // Without branches: which objects only touch is hard to foresee.
+    // Branchless: whether an object only touches the cell is hard to predict.
     let mut only_touches = false;
     for k in 0..3 {
         let ([lo, hi], [cell_lo, cell_hi]) = (planes[k], cell[k]);

@@ -1,51 +1,51 @@
-//! What every node of a tree amounts to, worked out once a tree: sums over subtrees, expected
-//! work of rays, and where each object went.
+//! Facts on every node, computed once per tree: sums over subtrees, expected work of rays, and the
+//! leaves of each object.
 
 use super::node::NodeKind;
 use super::tree::Tree;
 use std::ops::Range;
 
-/// What is known of one node beside what [`Tree`] says.
+/// Facts on a node in addition to those in [`Tree`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NodeFacts {
     /// Levels below the root.
     pub depth: u32,
-    /// The node above; the root is its own.
+    /// The parent; the root is its own parent.
     pub parent: u32,
     /// One past the last node of the subtree.
     pub end: u32,
-    /// Leaves of the subtree.
+    /// Number of leaves in the subtree.
     pub leaves: u32,
-    /// References of all leaves of the subtree.
+    /// Number of references in all leaves of the subtree.
     pub references: u32,
-    /// Objects that the subtree refers to, each counted once.
+    /// Number of distinct objects in the subtree.
     pub objects: u32,
     /// Surface area of the cell, in squared units of length.
     pub area: f64,
     /// Volume of the cell, in cubed units of length.
     pub volume: f64,
-    /// Nodes of the subtree, itself included, that a ray through the cell is expected to visit if
-    /// nothing stops it; at least 1.
+    /// Expected number of nodes of the subtree, including this one, that a ray through the cell
+    /// visits if nothing stops it; at least 1.
     pub expected_visits: f64,
-    /// Intersection tests that such a ray is expected to make.
+    /// Expected number of intersection tests of such a ray.
     pub tests: f64,
 }
 
-/// All nodes' facts, and the leaves of every object.
+/// The facts on all nodes, and the leaves of every object.
 ///
-/// A ray that meets a convex cell meets a convex part of it with probability area of the part by
-/// area of the cell (J. D. MacDonald and K. S. Booth, Heuristics for ray tracing using space
-/// subdivision, 1990); expectations follow from the leaves upwards.
+/// A ray that hits a convex cell hits a convex part of it with a probability equal to the ratio of
+/// their surface areas (J. D. MacDonald and K. S. Booth, Heuristics for ray tracing using space
+/// subdivision, 1990). The expected values are computed from the leaves upward.
 #[derive(Clone, Debug, Default)]
 pub struct TreeIndex {
     nodes: Vec<NodeFacts>,
-    /// For every object the place of its first leaf in `leaves`, and one more for the end.
+    /// For every object, the index of its first leaf in `leaves`; one more entry marks the end.
     starts: Vec<u32>,
     leaves: Vec<u32>,
 }
 
 impl TreeIndex {
-    /// Works out all facts; the tree refers to objects below the number `objects`.
+    /// Computes all facts; `objects` is the number of objects in the scene.
     pub fn new(tree: &Tree, objects: usize) -> Self {
         let mut nodes = vec![NodeFacts::default(); tree.nodes().len()];
         for cell in tree.cells() {
@@ -68,25 +68,25 @@ impl TreeIndex {
         }
     }
 
-    /// The facts of a node.
+    /// Returns the facts on a node.
     ///
     /// # Panics
-    /// If there is no such node.
+    /// If the node does not exist.
     pub fn of(&self, node: u32) -> &NodeFacts {
         &self.nodes[node as usize]
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Whether there is no node; the index of a tree always has one.
+    /// Returns whether there are no nodes, which is never the case for a tree.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// The leaves that refer to an object, ascending; none for an object that no leaf refers to.
+    /// Returns the leaves that refer to an object, in ascending order.
     pub fn leaves_of(&self, object: u32) -> &[u32] {
         match self.starts.get(object as usize..object as usize + 2) {
             Some(&[from, to]) => &self.leaves[from as usize..to as usize],
@@ -94,7 +94,7 @@ impl TreeIndex {
         }
     }
 
-    /// The nodes from the root to this one, both included.
+    /// Returns the nodes from the root to this one, both included.
     pub fn path_to(&self, node: u32) -> Vec<u32> {
         let mut path = vec![node];
         let mut at = node;
@@ -108,8 +108,8 @@ impl TreeIndex {
 }
 
 impl Tree {
-    /// Where the references of a subtree lie, whose last node comes just before `end`: leaves lie in
-    /// the order of their references.
+    /// Returns the range of references of the subtree of `node`, which ends before node `end`. The
+    /// references of consecutive leaves are consecutive.
     pub fn references_below(&self, node: u32, end: u32) -> Range<usize> {
         let first = (node..end).find_map(|n| match self.kind(n) {
             NodeKind::Leaf { first, .. } => Some(first as usize),
@@ -142,7 +142,8 @@ fn leaves_by_object(tree: &Tree, objects: usize) -> (Vec<u32>, Vec<u32>) {
     (starts, leaves)
 }
 
-/// Sums over subtrees. Children come after their parents, so backwards every child is ready.
+/// Sums over subtrees. Children come after their parents, so in reverse order every child is
+/// complete.
 fn sum_up(tree: &Tree, nodes: &mut [NodeFacts]) {
     for node in (0..nodes.len()).rev() {
         let (first, rest) = nodes[node..].split_at_mut(1);
@@ -172,8 +173,9 @@ fn sum_up(tree: &Tree, nodes: &mut [NodeFacts]) {
     }
 }
 
-/// Counts objects once a subtree: an object with leaves on both sides of a node is one too many
-/// there, and neighbours in its list of leaves part at the lowest node that holds both.
+/// Counts the distinct objects of each subtree. An object with leaves on both sides of a node would
+/// be counted twice there; two consecutive leaves of its list separate at their lowest common
+/// ancestor.
 fn count_objects(nodes: &mut [NodeFacts], tree: &Tree, starts: &[u32], leaves: &[u32]) {
     let mut duplicates = vec![0_u32; nodes.len()];
     for range in starts.windows(2) {

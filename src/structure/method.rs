@@ -1,20 +1,21 @@
 //! What describes a build method: the structure that its cells form, and its constants.
 
-/// What the cells of a method form, and so where they may end and how rays walk through them.
+/// The structure that the cells of a method form. It determines where cells may become leaves and
+/// how rays traverse them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Structure {
     /// A cell with at most `N_OILF` objects or at depth `D_MAX` is a leaf.
     Bintree,
-    /// The same, but only at every third level: the three levels of planes between are one node of an
-    /// octree with its eight children.
+    /// Like [`Structure::Bintree`], but cells become leaves only at every third level: three levels
+    /// of planes are one octree node with eight children.
     Octree,
-    /// The leaves are the voxels of a uniform grid. `D_MAX` and `N_OILF` do not apply, and rays go from
-    /// voxel to voxel: the planes are passed by none, and only say where the voxels are.
+    /// The leaves are the voxels of a uniform grid. `D_MAX` and `N_OILF` do not apply. Rays step
+    /// from voxel to voxel; the planes only define where the voxels are.
     Grid,
 }
 
 impl Structure {
-    /// Whether a cell at this depth may become a leaf for holding few objects or for its depth.
+    /// Returns whether a cell at this depth may become a leaf because of `N_OILF` or `D_MAX`.
     pub(super) fn ends_at(self, depth: u32) -> bool {
         match self {
             Structure::Bintree => true,
@@ -23,7 +24,7 @@ impl Structure {
         }
     }
 
-    /// Levels that a cell is split by at once.
+    /// Returns the number of levels by which a cell is split at once.
     pub(super) fn levels(self) -> u32 {
         match self {
             Structure::Octree => 3,
@@ -31,7 +32,7 @@ impl Structure {
         }
     }
 
-    /// What to do for a smaller tree.
+    /// Returns advice on how to get a smaller tree.
     pub(super) fn how_to_shrink(self) -> &'static str {
         match self {
             Structure::Bintree | Structure::Octree => "lower D_MAX, raise N_OILF",
@@ -40,16 +41,16 @@ impl Structure {
     }
 }
 
-/// A constant of a build method that can be set.
+/// A setting of a build method.
 pub struct Constant {
     /// Name on the command line and in files.
     pub name: &'static str,
     pub default: f64,
     pub lowest: f64,
     pub highest: f64,
-    /// 0 for any number, 1 for whole numbers (switches go from 0 to 1).
+    /// 0 for any number, 1 for integers (0 and 1 for switches).
     pub step: f64,
-    /// Unit, or an empty string for a plain number.
+    /// Unit; empty for a number without a unit.
     pub unit: &'static str,
     /// What it does.
     pub about: &'static str,

@@ -1,7 +1,7 @@
-//! BSP trees (axis-aligned bintrees): nodes, the build driver, validation.
+//! Trees with axis-aligned planes (kd-trees, octrees, grids): nodes, the build driver, validation.
 //!
-//! One driver ([`build`]) owns termination, the distribution of objects and the arrays; a build
-//! method ([`split`]) only says where, if anywhere, a cell is split.
+//! One driver ([`build`]) handles termination, the distribution of objects, and the arrays. A build
+//! method ([`split`]) only decides whether and where a cell is split.
 
 mod build;
 mod cost;

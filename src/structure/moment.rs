@@ -1,5 +1,5 @@
-//! The finished tree as it stood at a moment of its build. Nothing is built again: nodes were decided
-//! in the order of the array, depth first.
+//! The state of a tree at a moment of its build. It is derived from the finished tree, because
+//! nodes were decided in array order, depth first.
 
 use super::node::NodeKind;
 use super::tree::{CellOfNode, Tree};
@@ -9,16 +9,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Moment {
-    /// Every cell above this depth is decided, as if the tree had been built level by level; so are
-    /// the leaves at this depth.
+    /// All cells above this depth are decided, as if the tree had been built level by level, and so
+    /// are the leaves at this depth.
     Depth(u32),
-    /// Every node before this one is decided: this one is next.
+    /// All nodes before this one are decided; this one is next.
     Node(u32),
 }
 
 impl Tree {
-    /// Whether a node of this depth was a leaf or split by then; one that was not is an undecided
-    /// cell, if all nodes above it were split.
+    /// Returns whether a node of this depth was already a leaf or split at this moment. If it was
+    /// not, but all its ancestors were split, it was an undecided cell.
     pub fn is_decided(&self, node: u32, depth: u32, moment: Moment) -> bool {
         match moment {
             Moment::Depth(limit) => {
@@ -28,8 +28,8 @@ impl Tree {
         }
     }
 
-    /// The cells that the root cell was divided into by then, each with whether it was decided to be
-    /// a leaf; in the order of the array.
+    /// Returns the cells into which the root cell was divided at this moment, in array order, and
+    /// whether each was already decided to be a leaf.
     pub fn cells_at(&self, moment: Moment) -> impl Iterator<Item = (CellOfNode, bool)> + '_ {
         let mut stack = vec![self.root()];
         std::iter::from_fn(move || {
@@ -76,7 +76,7 @@ mod tests {
         };
         assert_eq!(open(0), [0]);
         for next in 0..nodes {
-            // The build goes on with the first cell that is open.
+            // The build continues with the first undecided cell.
             assert_eq!(open(next)[0], next);
             let mut expected = open(next);
             expected.remove(0);

@@ -4,10 +4,11 @@ use crate::geometry::Axis;
 
 /// A node in 8 bytes. Read it through [`Node::kind`].
 ///
-/// Word 0, lowest two bits: the axis of an inner node, or 3 for a leaf. Above them, for an inner
-/// node: the index of its upper child (the lower child follows the node); for a leaf: four bits
-/// of [`StopReason`], then the number of its references. Word 1: the plane in the coordinates of
-/// the root cell ([`super::Frame`]) as `f32`, or the place of the leaf's first reference.
+/// | | inner node | leaf |
+/// |---|---|---|
+/// | word 0, bits 0–1 | axis | 3 |
+/// | word 0, upper bits | index of the upper child (the lower child follows the node) | 4 bits [`StopReason`], then the number of references |
+/// | word 1 | plane in local coordinates ([`super::Frame`]), `f32` | index of the first reference |
 #[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Node {
@@ -15,12 +16,12 @@ pub struct Node {
     payload: u32,
 }
 
-/// What a node is, unpacked.
+/// An unpacked node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NodeKind {
     Inner {
         axis: Axis,
-        /// In the coordinates of the root cell, −1 to 1.
+        /// In local coordinates, −1 to 1.
         plane: f32,
         /// Index of the child below the plane.
         below: u32,
@@ -28,9 +29,9 @@ pub enum NodeKind {
         above: u32,
     },
     Leaf {
-        /// Place of the first reference.
+        /// Index of the first reference.
         first: u32,
-        /// Number of references; 0 is an empty leaf.
+        /// Number of references; 0 for an empty leaf.
         count: u32,
         stop: StopReason,
     },
@@ -40,23 +41,23 @@ pub enum NodeKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StopReason {
-    /// It holds no object.
+    /// It contains no object.
     Empty,
     /// It is an empty slab that was cut out between objects.
     CutOut,
-    /// It holds at most `N_OILF` objects.
+    /// It contains at most `N_OILF` objects.
     FewObjects,
-    /// It lies at depth `D_MAX`.
+    /// It is at depth `D_MAX`.
     MaxDepth,
     /// Every split has a higher expected cost than the leaf.
     LeafIsCheaper,
-    /// The method has no plane to offer.
+    /// The method found no candidate plane.
     NoCandidate,
-    /// The plane would not divide the cell: it is as thin as planes can be told apart.
+    /// The plane would not divide the cell: the cell is as thin as the resolution of planes.
     TooThin,
     /// The method never splits.
     NotSplit,
-    /// It is a voxel of a grid and holds an object.
+    /// It is a voxel of a grid and contains an object.
     Voxel,
 }
 
@@ -73,7 +74,7 @@ impl StopReason {
         StopReason::Voxel,
     ];
 
-    /// One short phrase for people.
+    /// Returns a short phrase for users.
     pub const fn text(self) -> &'static str {
         match self {
             StopReason::Empty => "empty",
@@ -92,7 +93,7 @@ impl StopReason {
 const LEAF: u32 = 3;
 
 impl Node {
-    /// The most nodes and the most references a leaf can have.
+    /// Maximum number of nodes, and of references per leaf.
     pub(super) const MAX_NODES: usize = 1 << 30;
     pub(super) const MAX_LEAF: usize = 1 << 26;
 
@@ -112,7 +113,8 @@ impl Node {
         }
     }
 
-    /// The node of a part of the tree that is put behind so many nodes and references.
+    /// Returns the node with its indices moved by the given numbers of nodes and references, to
+    /// append its subtree to another.
     pub(super) fn moved(self, nodes: u32, references: u32) -> Self {
         if self.is_leaf() {
             Node {
@@ -133,7 +135,7 @@ impl Node {
         self.word & 3 == LEAF
     }
 
-    /// Axis (0 to 2), plane and upper child of an inner node; nonsense for a leaf.
+    /// Returns axis (0 to 2), plane and upper child of an inner node; meaningless for a leaf.
     #[inline]
     pub(crate) fn as_inner(self) -> (usize, f32, u32) {
         (
@@ -143,13 +145,14 @@ impl Node {
         )
     }
 
-    /// First reference and number of references of a leaf; nonsense for an inner node.
+    /// Returns the first reference and the number of references of a leaf; meaningless for an inner
+    /// node.
     #[inline]
     pub(crate) fn as_leaf(self) -> (usize, usize) {
         (self.payload as usize, (self.word >> 6) as usize)
     }
 
-    /// The node unpacked; `index` is its own place in the array.
+    /// Unpacks the node; `index` is its own index.
     pub fn kind(self, index: u32) -> NodeKind {
         if self.is_leaf() {
             NodeKind::Leaf {
@@ -174,7 +177,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_node_takes_eight_bytes_and_gives_back_what_went_in() {
+    fn a_node_takes_eight_bytes_and_unpacks_to_what_was_packed() {
         assert_eq!(size_of::<Node>(), 8);
         for axis in Axis::ALL {
             let node = Node::inner(axis, -0.3, (1 << 30) - 1);

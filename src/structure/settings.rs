@@ -44,30 +44,30 @@ impl Serialize for Method {
     }
 }
 
-/// What is known of a build method before it is used.
+/// The description of a build method.
 pub struct MethodInfo {
     /// Name on the command line and in files.
     pub name: &'static str,
-    /// Name in lists for people.
+    /// Name in lists for users.
     pub title: &'static str,
-    /// One sentence: how it splits.
+    /// A short description of how it splits.
     pub about: &'static str,
-    /// Who described it.
+    /// Publications that describe it.
     pub source: &'static str,
     /// Its number in the paper, if it is one of the paper's methods.
     pub paper: Option<u32>,
-    /// What [`OverlapRule::Paper`] means for it: whether spheres are held against cells exactly.
+    /// What [`OverlapRule::Paper`] means for it: whether spheres are tested against cells exactly.
     pub paper_spheres_exactly: bool,
-    /// What its cells form.
+    /// The structure that its cells form.
     pub structure: Structure,
-    /// Its own constants.
+    /// The settings of this method.
     pub constants: &'static [Constant],
-    /// Makes the rule for checked settings.
+    /// Creates the rule for valid settings.
     pub rule: fn(&BuildSettings) -> Box<dyn SplitRule>,
 }
 
 impl MethodInfo {
-    /// The overlap rule in words, for reports.
+    /// Describes the overlap rule, for reports.
     pub fn overlap_text(&self, rule: OverlapRule) -> &'static str {
         match rule {
             OverlapRule::Paper if self.paper_spheres_exactly => {

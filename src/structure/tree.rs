@@ -7,10 +7,10 @@ use super::settings::BuildSettings;
 use super::voxels::Voxels;
 use crate::geometry::{Aabb, Axis};
 
-/// A finished tree; immutable. Node 0 is the root, at depth 0.
+/// A finished, immutable tree. Node 0 is the root, at depth 0.
 ///
-/// Nodes lie in depth-first order: the lower child of an inner node follows it at once, so the
-/// subtree of a node is one contiguous stretch of the array.
+/// Nodes are stored in depth-first order: the lower child of an inner node directly follows it, so
+/// the subtree of a node is one contiguous range of the array.
 #[derive(Debug)]
 pub struct Tree {
     pub(super) nodes: Vec<Node>,
@@ -23,28 +23,28 @@ pub struct Tree {
     pub(super) derived: Derived,
 }
 
-/// A cell of the tree, as [`Tree::cells`] meets it.
+/// A node with its cell, as returned by [`Tree::cells`].
 #[derive(Clone, Copy, Debug)]
 pub struct CellOfNode {
     /// Index of the node.
     pub node: u32,
-    /// Levels below the root; a cut that takes an empty slab out is one level, with two planes.
+    /// Levels below the root. Cutting out an empty slab is one level, although it takes two planes.
     pub depth: u32,
     pub bounds: Aabb,
 }
 
 impl Tree {
-    /// All nodes, 8 bytes each; there is at least one.
+    /// Returns all nodes, 8 bytes each; there is at least one.
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
     }
 
-    /// What a node is.
+    /// Unpacks a node.
     pub fn kind(&self, node: u32) -> NodeKind {
         self.nodes[node as usize].kind(node)
     }
 
-    /// The objects a leaf refers to, ascending; none for inner nodes.
+    /// Returns the objects that a leaf refers to, in ascending order; empty for inner nodes.
     pub fn leaf_objects(&self, node: u32) -> &[u32] {
         match self.kind(node) {
             NodeKind::Leaf { first, count, .. } => {
@@ -54,38 +54,38 @@ impl Tree {
         }
     }
 
-    /// The object numbers of all leaves, one leaf after the other.
+    /// Returns the object numbers of all leaves, one leaf after the other.
     pub fn references(&self) -> &[u32] {
         &self.references
     }
 
-    /// The grid that the leaves form, if they do: rays then go from voxel to voxel.
+    /// Returns the voxels if the leaves form a grid; rays then step from voxel to voxel.
     #[inline]
     pub fn voxels(&self) -> Option<&Voxels> {
         self.voxels.as_ref()
     }
 
-    /// The root cell and the coordinates in which split planes are stored.
+    /// Returns the root cell and its local coordinates, in which split planes are stored.
     pub fn frame(&self) -> &Frame {
         &self.frame
     }
 
-    /// The root cell: the scene's bounds and the root margin.
+    /// Returns the root cell: the bounds of the scene, enlarged by the root margin.
     pub fn root_cell(&self) -> Aabb {
         self.frame.cell()
     }
 
-    /// What the tree was built with.
+    /// Returns the settings that the tree was built with.
     pub fn settings(&self) -> &BuildSettings {
         &self.settings
     }
 
-    /// The greatest depth that was allowed, `D_MAX`, automatic or not; a grid may be deeper.
+    /// Returns the depth limit `D_MAX`, whether it was automatic or not; a grid can be deeper.
     pub fn depth_limit(&self) -> u32 {
         self.depth_limit
     }
 
-    /// The greatest depth of any leaf, `D_REACH`.
+    /// Returns the maximum depth of all leaves, `D_REACH`.
     pub fn depth_reached(&self) -> u32 {
         self.depth_reached
     }
@@ -98,14 +98,14 @@ impl Tree {
         self.derived.get(make)
     }
 
-    /// Bytes held by nodes, references and the places of voxels.
+    /// Returns the bytes of nodes, references and voxels.
     pub fn bytes(&self) -> usize {
         size_of_val(self.nodes.as_slice())
             + size_of_val(self.references.as_slice())
             + self.voxels.as_ref().map_or(0, Voxels::bytes)
     }
 
-    /// The root with its cell.
+    /// Returns the root with its cell.
     pub fn root(&self) -> CellOfNode {
         CellOfNode {
             node: 0,
@@ -114,7 +114,7 @@ impl Tree {
         }
     }
 
-    /// Every node with its depth and cell, in the order of the array.
+    /// Returns every node with its depth and cell, in array order.
     pub fn cells(&self) -> impl Iterator<Item = CellOfNode> + '_ {
         let mut stack = vec![self.root()];
         std::iter::from_fn(move || {
@@ -127,21 +127,22 @@ impl Tree {
         })
     }
 
-    /// The cell of a node, found from the root down.
+    /// Returns the cell of a node, by descending from the root.
     ///
     /// # Panics
-    /// If there is no such node.
+    /// If the node does not exist.
     pub fn cell_of(&self, node: u32) -> CellOfNode {
         let mut cell = self.root();
         while cell.node != node {
             let [below, above] = self.children(&cell).expect("the node is in the tree");
-            // Subtrees are contiguous in the array.
+            // Subtrees are contiguous ranges of the array.
             cell = if node < above.node { below } else { above };
         }
         cell
     }
 
-    /// The cells of the two children of an inner node, below and above its plane; `None` for a leaf.
+    /// Returns the cells of the two children of an inner node, below and above its plane; `None`
+    /// for a leaf.
     pub fn children(&self, cell: &CellOfNode) -> Option<[CellOfNode; 2]> {
         let NodeKind::Inner {
             axis,
@@ -164,8 +165,8 @@ impl Tree {
         )
     }
 
-    /// Whether a node is the second plane of a cut, which counts no level of depth of its own: the
-    /// slab that was cut out lies below it.
+    /// Returns whether a node is the second plane of a cut, below which is the slab that was cut
+    /// out. It does not count as a level of its own.
     fn is_second_plane(&self, node: u32) -> bool {
         let cut_out = |below| {
             matches!(
@@ -179,7 +180,7 @@ impl Tree {
         matches!(self.kind(node), NodeKind::Inner { below, .. } if cut_out(below))
     }
 
-    /// The world coordinate of an inner node's plane with its axis; `None` for a leaf.
+    /// Returns the axis and the world coordinate of the plane of an inner node; `None` for a leaf.
     pub fn plane(&self, node: u32) -> Option<(Axis, f64)> {
         match self.kind(node) {
             NodeKind::Inner { axis, plane, .. } => {

@@ -1,4 +1,4 @@
-//! Whether a tree is what it says: checked on the finished arrays, independent of the driver.
+//! Validation of a finished tree, independent of the build driver.
 
 use super::node::NodeKind;
 use super::tree::Tree;
@@ -6,39 +6,42 @@ use crate::geometry::Aabb;
 use crate::primitive::Shape;
 use crate::scene::Scene;
 
-/// What is wrong with a tree.
+/// An invariant that a tree violates.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Invalid {
     #[error("node {0} has a child outside the array or before itself")]
     Child(u32),
-    #[error("node {0}: the plane does not lie inside the cell")]
+    #[error("node {0}: the plane is not inside the cell")]
     Plane(u32),
-    #[error("{reached} of {nodes} nodes can be reached from the root")]
+    #[error("only {reached} of {nodes} nodes are reachable from the root")]
     Reach { reached: usize, nodes: usize },
-    #[error("leaf {0} refers outside the array, to no object, or to one object twice")]
+    #[error(
+        "leaf {0} has a reference outside the array, to a missing object, or twice to the same object"
+    )]
     Reference(u32),
-    #[error("leaf {node} lies at depth {depth}, beyond D_MAX")]
+    #[error("leaf {node} is at depth {depth}, beyond D_MAX")]
     Depth { node: u32, depth: u32 },
-    #[error("the leaves fill {leaves} of the root's volume {root}")]
+    #[error("the volume of all leaves is {leaves}, but that of the root is {root}")]
     Volume { leaves: f64, root: f64 },
     #[error("{leaves} leaves for {inner} inner nodes")]
     Count { leaves: usize, inner: usize },
-    #[error("object {object} meets leaf {node}, which does not refer to it")]
+    #[error("object {object} overlaps leaf {node}, which does not refer to it")]
     Missing { node: u32, object: u32 },
 }
 
-/// Checks structure, depth, volumes and counts; for every leaf and a sample of objects also that
-/// no object is missing where it overlaps the inside of the leaf's cell.
+/// Checks structure, depth, volumes and counts. For every leaf and a sample of the objects, also
+/// checks that the leaf refers to every object that overlaps the interior of its cell.
 ///
 /// # Errors
-/// The first thing found wrong.
+/// The first violation found.
 pub fn validate(scene: &Scene, tree: &Tree) -> Result<(), Invalid> {
     let nodes = tree.nodes().len();
     let (mut reached, mut leaves, mut inner, mut volume) = (0, 0, 0, 0.0);
-    // Overlap tests may say yes where rounding leaves it open. What touches a cell only by a sliver
-    // of the cell, or by less than their tolerance, is nobody's fault.
+    // Overlap tests are conservative within rounding. An object that overlaps a cell only by a
+    // sliver, or by less than the tolerance, does not count as missing.
     let uncertain = tree.root_cell().size().max_element() * 1e-10;
-    // Every leaf against a stride of objects: exhaustive for small trees, about 10⁷ pairs for large.
+    // Every leaf against a stride of objects: exhaustive for small trees, about 10⁷ pairs for
+    // large.
     let stride = (scene.objects().len() * nodes / 10_000_000).max(1);
     for cell in tree.cells() {
         reached += 1;
@@ -102,7 +105,7 @@ pub fn validate(scene: &Scene, tree: &Tree) -> Result<(), Invalid> {
         return Err(Invalid::Count { leaves, inner });
     }
     let root = tree.root_cell().volume();
-    // Each volume is rounded a few times, and their sum once a leaf.
+    // Each volume is rounded a few times, and the sum once per leaf.
     if (volume - root).abs() > root * f64::EPSILON * (16 + leaves) as f64 {
         return Err(Invalid::Volume {
             leaves: volume,

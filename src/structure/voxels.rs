@@ -1,17 +1,17 @@
-//! The voxels of a uniform grid, found by their place, so that rays step from one to the next.
+//! The voxels of a uniform grid by position, so that rays can step from one to the next.
 
 use super::node::{Node, NodeKind};
 
-/// Every voxel of a grid with its leaf, and the planes between them.
+/// All voxels of a grid with their leaves, and the planes between them.
 #[derive(Debug)]
 pub struct Voxels {
-    /// By axis, ascending, in the coordinates of the root cell.
+    /// Per axis, ascending, in local coordinates.
     planes: [Vec<f32>; 3],
-    /// x runs fastest, then y.
+    /// x varies fastest, then y.
     voxels: Vec<Voxel>,
 }
 
-/// A voxel's leaf, and the number of that node.
+/// The leaf of a voxel, and the index of that node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Voxel {
     pub(crate) leaf: Node,
@@ -19,7 +19,7 @@ pub(crate) struct Voxel {
 }
 
 impl Voxels {
-    /// Those of a tree whose planes all go through the whole root cell.
+    /// Collects the voxels of a tree in which every plane extends through the whole root cell.
     pub(super) fn of(nodes: &[Node]) -> Self {
         let mut planes = [const { Vec::new() }; 3];
         for node in nodes.iter().filter(|node| !node.is_leaf()) {
@@ -78,20 +78,19 @@ impl Voxels {
         x + nx * (y + ny * z)
     }
 
-    /// Voxels along each axis.
+    /// Returns the number of voxels along each axis.
     #[inline]
     pub fn counts(&self) -> [usize; 3] {
         self.planes.each_ref().map(|planes| planes.len() + 1)
     }
 
-    /// The planes between voxels along an axis (0 to 2), ascending, in the coordinates of the root
-    /// cell.
+    /// Returns the planes between voxels along an axis (0 to 2), ascending, in local coordinates.
     #[inline]
     pub(crate) fn planes(&self, axis: usize) -> &[f32] {
         &self.planes[axis]
     }
 
-    /// The voxel at a place along each axis.
+    /// Returns the voxel with the given indices along each axis.
     #[inline]
     pub(crate) fn at(&self, place: [usize; 3]) -> Voxel {
         self.voxels[self.index(place)]

@@ -42,12 +42,12 @@ fn wrong_use_is_told_with_exit_code_2() {
             "measure balls:1 --method midpoint --set gap-fraction=0.5",
             "--set gap-fraction",
         ),
-        ("measure balls:99", "balls takes sizes 0 to"),
+        ("measure balls:99", "the size of balls must be from 0 to"),
         ("measure tetra:5 --memory-limit 0", "memory limit of 0 MiB"),
         ("render teaching -o picture.jpg", ".png or .exr"),
         ("render teaching --resolution 16x16 -o no/a.png", "no/a.png"),
         ("measure balls:1 --resolution 16x16 -o no/a.txt", "no/a.txt"),
-        ("generate balls:1 -o .", ".: is a folder"),
+        ("generate balls:1 -o .", ".: this is a folder"),
     ] {
         let errors = program.refused_in_a_line(arguments);
         assert!(errors.contains(part), "{arguments}: {errors}");
@@ -211,7 +211,7 @@ fn the_load_report_is_told_on_standard_error_and_in_the_report() {
     assert!(text.contains("polygons: 1"), "{text}");
     let refused = program.refused_in_a_line("generate balls:1 -o balls.obj");
     assert!(
-        refused.contains("OBJ files cannot hold all of a scene"),
+        refused.contains("OBJ files cannot represent every scene"),
         "{refused}"
     );
 }

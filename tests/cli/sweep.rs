@@ -65,7 +65,7 @@ fn shards_merge_to_the_whole_and_missing_points_are_told() {
     );
     let text = program.ends(1, "merge part-1.jsonl part-3.jsonl -o two.csv");
     assert!(
-        text.contains("missing points, from 0: 1 4 7 10 13"),
+        text.contains("missing points (counted from 0): 1 4 7 10 13"),
         "{text}"
     );
     program.ends(

@@ -172,10 +172,7 @@ fn what_does_not_hold_is_told_with_its_line() {
     let wrong = faults(&lesson_with(&format!("{TREES}\n{choices}"), reveal));
     assert_eq!(wrong.len(), 1, "{wrong:?}");
     assert_eq!(wrong[0].0, SETTINGS + 4);
-    assert!(
-        wrong[0].1.starts_with("2 of the choices are right"),
-        "{wrong:?}"
-    );
+    assert!(wrong[0].1.starts_with("2 choices are right"), "{wrong:?}");
 
     let wrong = faults(&lesson_with(
         &format!("scene = \"not-there.nff\"\na = \"method=none\"\n{question}"),
@@ -192,8 +189,12 @@ fn broken_files_are_refused_with_line_and_reason() {
     let asked = "question = \"?\"\nnumber = \"b.N_LS\"\nwithin = \"1\"";
     let reveal = "x\n\n---\n\ny";
     let cases: Vec<(String, usize, &str)> = vec![
-        (String::new(), 1, "expected the line +++"),
-        ("+++\ntitle = \"T\"\n".into(), 1, "no second line +++"),
+        (String::new(), 1, "expected a line +++"),
+        (
+            "+++\ntitle = \"T\"\n".into(),
+            1,
+            "second line +++ is missing",
+        ),
         ("+++\ntitle = \"T\"\n+++\n# S\n".into(), 2, "about"),
         (
             "+++\ntitle = \"T\"\nabout = \"A\"\nx = 1\n+++\n".into(),
@@ -218,7 +219,7 @@ fn broken_files_are_refused_with_line_and_reason() {
         (
             "+++\ntitle = \"T\"\nabout = \"A\"\n+++\n\n# S\n```toml\na = 1\n".into(),
             7,
-            "no end",
+            "not closed",
         ),
         (
             lesson_with("a = \"method=none\"", reveal),
@@ -255,7 +256,7 @@ fn broken_files_are_refused_with_line_and_reason() {
         (
             step("number = \"a.N_LS\"", reveal),
             SETTINGS + 4,
-            "without 'question'",
+            "needs 'question'",
         ),
         (
             step("question = \"?\"", reveal),
@@ -299,7 +300,7 @@ fn broken_files_are_refused_with_line_and_reason() {
         (
             step("expect = [\"a.T_TR > 0\"]", reveal),
             SETTINGS + 4,
-            "times differ",
+            "cannot use times",
         ),
         (
             step("expect = [\"a.ray.N_IT > 0\"]", "x"),
@@ -307,8 +308,8 @@ fn broken_files_are_refused_with_line_and_reason() {
             "no 'pixel'",
         ),
         (step(asked, "x"), SETTINGS + 4, "'---'"),
-        (step(asked, "\n---\n\ny"), 6, "text above"),
-        (step("", reveal), SETTINGS + 9, "without 'question'"),
+        (step(asked, "\n---\n\ny"), 6, "text before"),
+        (step("", reveal), SETTINGS + 9, "needs 'question'"),
         (
             step(asked, "x {b.N_LS}\n\n---\n\ny"),
             SETTINGS + 9,
@@ -366,7 +367,7 @@ fn the_command_line_lists_checks_and_shows() {
     };
     write("a.N_LS = 1");
     let out = program.done("lesson check mine.md");
-    assert!(out.contains("1 conditions, all hold"), "{out}");
+    assert!(out.contains("1 of 1 conditions hold"), "{out}");
     let out = program.done("lesson show mine.md");
     assert!(
         out.contains("**How many?** 1") && out.contains("1 leaf"),

@@ -29,5 +29,6 @@ mod record;
 mod scheduler;
 mod simd;
 mod stability;
+mod tolerant;
 mod visits;
 mod workspace;

@@ -145,7 +145,7 @@ fn plane_text(axis: Axis, s: &SplitCost) -> String {
 impl Drawn {
     fn new(of: (TreeKey, u32), cost: &NodeCost) -> Self {
         let curves = Axis::ALL.map(|axis| {
-            let samples = cost.curves[axis.index()].drawn(MOST_POINTS);
+            let samples = cost.curves[axis.index()].simplified(MOST_POINTS);
             samples
                 .into_iter()
                 .map(|s| [s.plane, s.cost])

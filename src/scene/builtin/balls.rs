@@ -12,7 +12,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 pub(super) const BUILTIN: Builtin = Builtin {
     name: "balls",
-    about: "Spheres on spheres: nine on each, a third as large, over a floor",
+    about: "A sphere with nine spheres on it, each a third as large, and so on, above a floor",
     default_size: 4,
     sizes: 0..=6,
     generate,
@@ -21,7 +21,7 @@ pub(super) const BUILTIN: Builtin = Builtin {
 const ROOT_RADIUS: f64 = 0.5;
 const FLOOR_HALF: f64 = 12.0;
 
-/// The floor and Σ 9^i spheres, i from 0 to `size`.
+/// Generates the floor and Σ 9^i spheres, i from 0 to `size`.
 fn generate(size: u32) -> SceneParts {
     let floor = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
         .map(|(x, y)| Vec3::new(x * FLOOR_HALF, y * FLOOR_HALF, -ROOT_RADIUS))
@@ -81,15 +81,15 @@ fn generate(size: u32) -> SceneParts {
     }
 }
 
-/// A sphere before rounding, and where it sits on its parent.
+/// A sphere before rounding, and its position on its parent.
 struct Ball {
     center: Vec3,
     radius: f64,
-    /// Unit direction away from the parent's centre.
+    /// Unit direction away from the center of the parent.
     direction: Vec3,
 }
 
-/// Adds the ball and `levels` generations of its children, each followed by its own.
+/// Adds the ball and `levels` generations of its children, in depth-first order.
 fn add_sphere(ball: Ball, levels: u32, directions: &[Vec3; 9], objects: &mut Vec<Primitive>) {
     let sphere = Sphere::new(round_point(ball.center), round_g(ball.radius));
     objects.push(Primitive::Sphere(sphere.expect("the radius is positive")));
@@ -108,7 +108,8 @@ fn add_sphere(ball: Ball, levels: u32, directions: &[Vec3; 9], objects: &mut Vec
     }
 }
 
-/// Directions of the children of a ball that points along +z: three trios about the z axis.
+/// Returns the directions of the children of a ball that points along +z: three trios around the z
+/// axis.
 fn child_directions() -> [Vec3; 9] {
     let d = FRAC_1_SQRT_2;
     let trio = [
@@ -123,8 +124,8 @@ fn child_directions() -> [Vec3; 9] {
     })
 }
 
-/// The smallest rotation that takes +z to a unit direction. Within 0.9999 of ±z it is the identity
-/// or the half turn about y: a test for ±1 itself would hang on rounding.
+/// Returns the smallest rotation from +z to a unit direction. If z is beyond ±0.9999 it is the
+/// identity or the half turn around y, because a test for exactly ±1 would depend on rounding.
 fn rotation_from_z(direction: Vec3) -> DMat3 {
     if direction.z >= 0.9999 {
         DMat3::IDENTITY
@@ -136,7 +137,8 @@ fn rotation_from_z(direction: Vec3) -> DMat3 {
     }
 }
 
-/// The right-handed rotation about a unit axis; by libm, so that it is the same on every platform.
+/// Returns the right-handed rotation around a unit axis. Uses libm to be the same on every
+/// platform.
 fn rotation(axis: Vec3, angle: f64) -> DMat3 {
     let (sin, cos) = libm::sincos(angle);
     let turned = |v: Vec3| v * cos + axis.cross(v) * sin + axis * (axis.dot(v) * (1.0 - cos));
@@ -148,7 +150,7 @@ mod tests {
     use super::*;
     use crate::geometry::Aabb;
 
-    /// The box of an object from its numbers alone.
+    /// The bounding box of an object, computed directly.
     fn bounds(object: &Primitive) -> Aabb {
         match object {
             Primitive::Sphere(s) => Aabb::new(s.center - s.radius, s.center + s.radius),

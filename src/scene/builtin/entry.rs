@@ -8,24 +8,24 @@ use crate::scene::parts::SceneParts;
 pub struct Builtin {
     /// Name on the command line and in lists.
     pub name: &'static str,
-    /// One sentence: what it shows.
+    /// A short description.
     pub about: &'static str,
-    /// The size that the paper used; 1 where there is no other.
+    /// The size that the paper used; 1 if there is only one.
     pub default_size: u32,
-    /// The sizes allowed.
+    /// The allowed sizes.
     pub sizes: std::ops::RangeInclusive<u32>,
-    /// Makes the scene of this size.
+    /// Generates the scene of a size.
     pub generate: fn(u32) -> SceneParts,
 }
 
-/// Linear background colour of the Standard Procedural Databases.
+/// Linear background color of the Standard Procedural Databases.
 pub(super) const SPD_BACKGROUND: Vec3 = Vec3::new(0.078, 0.361, 0.753);
 
-/// What a scene says that stands in for one that was never published.
+/// Returns the note of a scene that replaces one that was never published.
 pub(super) fn reconstruction_note(name: &str) -> Note {
     let text = format!(
-        "A reconstruction: the scene '{name}' of the paper was never published. This one was made \
-         anew to meet its figures in Table 4 and the directions in Table 6."
+        "A reconstruction: the scene '{name}' of the paper was never published. This one was designed \
+         to match its figures in Table 4 and the directions in Table 6."
     );
     Note::new(NoteKind::Remark, text)
 }

@@ -1,10 +1,10 @@
-//! `fluid`: a flow around a ball, made visible by spheres along its streamlines. A reconstruction:
-//! the paper's own data were never published.
+//! `fluid`: a flow around a ball, visualized by spheres along its streamlines. A reconstruction:
+//! the data of the paper were never published.
 //!
-//! Known of it are 2514 spheres, a box of about 4.07 : 1 : 2.29 and the figures of the paper's
-//! Tables 4 and 6. Here an ideal fluid flows along x around a ball (potential flow, as in
-//! L. M. Milne-Thomson, Theoretical Hydrodynamics, chapter 15), and every streamline carries a bead
-//! at equal steps of time.
+//! The original has 2514 spheres, a bounding box of about 4.07 : 1 : 2.29, and the figures of the
+//! paper's Tables 4 and 6. Here an ideal fluid flows along x around a ball (potential flow, as in
+//! L. M. Milne-Thomson, Theoretical Hydrodynamics, chapter 15), with beads on every streamline at
+//! equal time steps.
 
 use super::entry::{Builtin, SPD_BACKGROUND, reconstruction_note};
 use super::percent_g::round_point;
@@ -16,26 +16,26 @@ use crate::scene::parts::SceneParts;
 
 pub(super) const BUILTIN: Builtin = Builtin {
     name: "fluid",
-    about: "A flow around a ball as beads on streamlines: a reconstruction of the paper's scene",
+    about: "A flow around a ball as beads on streamlines: a reconstruction of the scene in the paper",
     default_size: 1,
     sizes: 1..=1,
     generate,
 };
 
-/// The ball and its beads, the paper's count.
+/// The ball and the beads; as many as in the paper.
 const SPHERES: usize = 2514;
 const BALL_RADIUS: f64 = 0.25;
-/// Such that all boxes together take 42.0 % of the scene's.
+/// Chosen so that all bounding boxes together take 42.0 % of the volume of the scene.
 const BEAD_RADIUS: f64 = 0.05735;
 /// Streamlines by height (y) and across (z).
 const LINES: [u32; 2] = [5, 9];
 const BEADS_PER_LINE: u32 = 56;
-/// Where streamlines begin: this far upstream of the ball, in a window of this height and width.
+/// Streamlines begin this far upstream of the ball, in a window of this height and width.
 const UPSTREAM: f64 = 1.5;
 const WINDOW: [f64; 2] = [0.805, 2.163];
-/// How far undisturbed fluid comes while a line is drawn.
+/// Distance that undisturbed fluid travels along a streamline.
 const LENGTH: f64 = 3.952;
-/// Steps of integration from bead to bead.
+/// Integration steps from bead to bead.
 const STEPS: u32 = 4;
 
 fn generate(size: u32) -> SceneParts {
@@ -73,7 +73,7 @@ pub(super) fn light(position: (f64, f64, f64)) -> Light {
     }
 }
 
-/// Of the ball, and of the beads.
+/// Returns the materials of the ball and of the beads.
 pub(super) fn materials() -> [Material; 2] {
     let material = |color, specular| Material {
         color,
@@ -88,7 +88,7 @@ pub(super) fn materials() -> [Material; 2] {
     ]
 }
 
-/// The ball, then the beads of one streamline after the other, with their materials' numbers.
+/// Returns the ball, then the beads of one streamline after the other, and the materials of all.
 pub(super) fn flow() -> (Vec<Primitive>, Vec<u32>) {
     let [rows, columns] = LINES;
     let place = |i: u32, n: u32| f64::from(i) / f64::from(n - 1) - 0.5;
@@ -114,14 +114,14 @@ fn sphere(center: Vec3, radius: f64) -> Primitive {
     Primitive::Sphere(Sphere::new(round_point(center), radius).expect("radii are positive"))
 }
 
-/// Places at equal times of what starts here.
+/// Returns the positions of a particle at equal time steps.
 fn streamline(start: Vec3) -> impl Iterator<Item = Vec3> {
     let step = LENGTH / f64::from((BEADS_PER_LINE - 1) * STEPS);
     let advance = move |place: &Vec3| Some((0..STEPS).fold(*place, |at, _| rk4_step(at, step)));
     std::iter::successors(Some(start), advance).take(BEADS_PER_LINE as usize)
 }
 
-/// Where the flow takes a place within a step of time (Runge and Kutta, fourth order).
+/// Advances a particle by one time step (fourth-order Runge–Kutta).
 fn rk4_step(at: Vec3, step: f64) -> Vec3 {
     let first = velocity(at);
     let second = velocity(at + first * (step * 0.5));
@@ -130,7 +130,7 @@ fn rk4_step(at: Vec3, step: f64) -> Vec3 {
     at + (first + 2.0 * second + 2.0 * third + fourth) * (step / 6.0)
 }
 
-/// Velocity of an ideal fluid around the ball; far away it is 1 along x.
+/// Returns the velocity of an ideal fluid around the ball; far away it is 1 along x.
 fn velocity(at: Vec3) -> Vec3 {
     let distance = at.length();
     let dipole = BALL_RADIUS.powi(3) / (2.0 * distance.powi(3));

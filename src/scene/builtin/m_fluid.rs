@@ -1,9 +1,9 @@
-//! `m-fluid`: [`super::fluid`] within a hoop, above a large mirror. A reconstruction: the paper's own
-//! data were never published.
+//! `m-fluid`: [`super::fluid`] inside a hoop, above a large mirror. A reconstruction: the data of
+//! the paper were never published.
 //!
-//! Known of it are the data of *fluid* with one toroid and one large mirroring plane at the bottom,
-//! 2899 objects in all: 2514 spheres, 384 quadrangles of a 24 × 16 torus and the plane, which makes
-//! the scene's box so large that R_BBSC falls to 1.32 %.
+//! The original is *fluid* with a torus and a large mirror below, 2899 objects in total. Here these
+//! are 2514 spheres, 384 quadrilaterals of a 24 × 16 torus, and the mirror, which makes the
+//! bounding box so large that R_BBSC is only 1.32 %.
 
 use super::entry::{Builtin, SPD_BACKGROUND, reconstruction_note};
 use super::fluid;
@@ -17,20 +17,20 @@ use std::f64::consts::TAU;
 
 pub(super) const BUILTIN: Builtin = Builtin {
     name: "m-fluid",
-    about: "The flow of fluid in a hoop above a mirror: a reconstruction of the paper's scene",
+    about: "The flow of fluid in a hoop above a mirror: a reconstruction of the scene in the paper",
     default_size: 1,
     sizes: 1..=1,
     generate,
 };
 
-/// The hoop around the flow, downstream of the ball: its place on x, its radius, and its tube's.
+/// The hoop around the flow, downstream of the ball: x coordinate, radius, and radius of the tube.
 const HOOP_X: f64 = 1.2;
 const HOOP_RADIUS: f64 = 0.42;
 const TUBE_RADIUS: f64 = 0.06;
-/// Quadrangles around the hoop and around its tube.
+/// Quadrilaterals around the hoop and around its tube.
 const AROUND: u32 = 24;
 const AROUND_TUBE: u32 = 16;
-/// The mirror's height, middle and half its sides; such that R_BBSC is the paper's.
+/// Height, center and half the size of the mirror, chosen to match R_BBSC of the paper.
 const MIRROR_Y: f64 = -0.95;
 const MIRROR_X: f64 = 0.5;
 const MIRROR_HALF: [f64; 2] = [8.0, 6.442];
@@ -79,7 +79,7 @@ fn generate(size: u32) -> SceneParts {
     }
 }
 
-/// A torus about the x axis.
+/// Returns a torus around the x axis.
 fn hoop() -> impl Iterator<Item = Primitive> {
     let vertex = |i: u32, j: u32| {
         let (around, tube) = (turn(i, AROUND), turn(j, AROUND_TUBE));
@@ -98,7 +98,8 @@ fn hoop() -> impl Iterator<Item = Primitive> {
     })
 }
 
-/// The angle of a share of a full turn; the last is the first again, to the bit.
+/// Returns the angle of `i` of `n` parts of a full turn. The last angle is exactly equal to the
+/// first.
 fn turn(i: u32, n: u32) -> f64 {
     TAU * f64::from(i % n) / f64::from(n)
 }

@@ -25,12 +25,12 @@ pub static BUILTINS: &[Builtin] = &[
     teaching::BUILTIN,
 ];
 
-/// Why a generator gave no scene.
+/// Why a scene could not be generated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BuiltinError {
-    #[error("no generator is called '{0}'")]
+    #[error("there is no generator '{0}'")]
     Unknown(String),
-    #[error("{name} takes sizes {lowest} to {highest}, found {found}")]
+    #[error("the size of {name} must be from {lowest} to {highest}, found {found}")]
     Size {
         name: &'static str,
         lowest: u32,
@@ -39,15 +39,15 @@ pub enum BuiltinError {
     },
 }
 
-/// The generator of this name.
+/// Returns the generator with this name.
 pub fn find(name: &str) -> Option<&'static Builtin> {
     BUILTINS.iter().find(|b| b.name == name)
 }
 
-/// Generates a scene; without a size, the paper's.
+/// Generates a scene; the default size is that of the paper.
 ///
 /// # Errors
-/// An unknown name or a size out of range.
+/// The name is unknown or the size out of range.
 pub fn generate(name: &str, size: Option<u32>) -> Result<SceneParts, BuiltinError> {
     let builtin = find(name).ok_or_else(|| BuiltinError::Unknown(name.to_owned()))?;
     let size = size.unwrap_or(builtin.default_size);

@@ -1,17 +1,16 @@
-//! Numbers as the published scene files hold them: printed by C's `%g`, read back.
+//! Numbers as in the published scene files: printed by C's `%g` and read back.
 
 use crate::geometry::Vec3;
 
-/// The value of `printf("%g", x)` read back: `x` rounded to 6 significant digits.
-///
-/// The sign of zero stays. `x` must be finite.
+/// Returns the value of `printf("%g", x)` read back: `x` rounded to 6 significant digits. Keeps the
+/// sign of zero. `x` must be finite.
 pub fn round_g(x: f64) -> f64 {
     format!("{x:.5e}")
         .parse()
         .expect("a formatted number reads back")
 }
 
-/// [`round_g`] of every coordinate.
+/// Applies [`round_g`] to every coordinate.
 pub fn round_point(p: Vec3) -> Vec3 {
     Vec3::from_array(p.to_array().map(round_g))
 }
@@ -34,7 +33,7 @@ mod tests {
             (0.99999949, "0.999999"),
             (-2.0 / 3.0, "-0.666667"),
             (1.2246467991473532e-16, "1.22465e-16"),
-            // Ties of exactly representable values go to the even digit.
+            // Exact ties are rounded to the even digit.
             (123456.5, "123456"),
             (123457.5, "123458"),
             (1.000005e7, "1e+07"),

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 pub(super) const BUILTIN: Builtin = Builtin {
     name: "rings",
-    about: "Objects of six interlocked five-sided rings of spheres and cylinders before a wall",
+    about: "Groups of six interlocked five-sided rings of spheres and cylinders in front of a wall",
     default_size: 7,
     sizes: 1..=20,
     generate,
@@ -19,10 +19,10 @@ pub(super) const BUILTIN: Builtin = Builtin {
 
 /// Radius of the tubes and of the spheres at their joints.
 const TUBE_RADIUS: f64 = 0.07412;
-/// Distance of the joints from the object's centre; the object's own radius is about 1.
+/// Distance of the joints from the center of the group, whose radius is about 1.
 const RING_RADIUS: f64 = 1.0 / 1.07412;
 
-/// The wall, and 30 spheres and 30 cylinders for each of Σ i² objects, i from 1 to `size`.
+/// Generates the wall, and 30 spheres and 30 cylinders for each of Σ i² groups, i from 1 to `size`.
 fn generate(size: u32) -> SceneParts {
     let spacing = 1.0 / libm::sin(PI / 8.0);
     let layers = f64::from(size);
@@ -69,7 +69,7 @@ fn generate(size: u32) -> SceneParts {
     }
 }
 
-/// White for the wall, then one colour for each ring of an object.
+/// Returns white for the wall, then one color for each ring of a group.
 fn materials() -> Vec<Material> {
     let wall = Material {
         color: Vec3::ONE,
@@ -98,7 +98,7 @@ fn materials() -> Vec<Material> {
     std::iter::once(wall).chain(colors.map(ring)).collect()
 }
 
-/// A square behind the last layer that fills the view.
+/// Returns a square behind the last layer that fills the view.
 fn wall(spacing: f64, layers: f64) -> Primitive {
     let y = spacing * (layers + 1.0);
     let half = 1.01 * (layers + 2.0) * spacing * libm::tan(PI / 8.0);
@@ -108,8 +108,8 @@ fn wall(spacing: f64, layers: f64) -> Primitive {
     Primitive::Polygon(square.expect("a square is a polygon"))
 }
 
-/// The joints of the six pentagons of one object about the origin: the faces of half a
-/// dodecahedron, one upright and five about it.
+/// Returns the joints of the six pentagons of a group around the origin: the faces of half a
+/// dodecahedron, one upright and five around it.
 fn six_rings() -> [[Vec3; 5]; 6] {
     let degrees = |angle: f64| angle * PI / 180.0;
     let upright: [Vec3; 5] = std::array::from_fn(|i| {
@@ -130,7 +130,7 @@ fn six_rings() -> [[Vec3; 5]; 6] {
     })
 }
 
-/// Adds a sphere at every joint and a cylinder from it to the joint before.
+/// Adds a sphere at every joint and a cylinder from it to the previous joint.
 fn add_ring(joints: [Vec3; 5], objects: &mut Vec<Primitive>) {
     let radius = round_g(TUBE_RADIUS);
     for (i, &joint) in joints.iter().enumerate() {

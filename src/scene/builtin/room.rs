@@ -1,11 +1,12 @@
-//! `room`: a furnished room as a CAD system exports it, polygons alone. A reconstruction: the paper's
-//! own data were never published.
+//! `room`: a furnished room, all polygons, as exported by a CAD system. A reconstruction: the data
+//! of the paper were never published.
 //!
-//! Known of it are 7788 polygons and the figures of the paper's Tables 4 and 6. They tell more than
-//! they seem to: with method 1, R_FVWV of 12 % and 8 references a leaf mean that 150,000 deepest
-//! leaves lie where the boxes of some ten slanted polygons coincide, which is a sloping roof in
-//! layers; with method 2, 5.4 references a leaf and R_FVWV of 41 % mean closed boxes left whole.
-//! So furniture, walls and goods on shelves are boxes of boards (an outer and an inner skin).
+//! The original has 7788 polygons and the figures of the paper's Tables 4 and 6, which reveal more
+//! than it seems. With method 1, R_FVWV of 12 % and 8 references per leaf mean that 150,000 deepest
+//! leaves are where the bounding boxes of about ten slanted polygons coincide: a sloping roof in
+//! layers. With method 2, 5.4 references per leaf and R_FVWV of 41 % mean closed boxes that are not
+//! split. So furniture, walls and goods on shelves are boxes of thin sheets (an outer and an inner
+//! skin).
 
 use super::entry::{Builtin, SPD_BACKGROUND, reconstruction_note};
 use super::percent_g::round_point;
@@ -17,40 +18,40 @@ use crate::scene::parts::SceneParts;
 
 pub(super) const BUILTIN: Builtin = Builtin {
     name: "room",
-    about: "A furnished room under a sloping roof: a reconstruction of the paper's scene",
+    about: "A furnished room under a sloping roof: a reconstruction of the scene in the paper",
     default_size: 1,
     sizes: 1..=1,
     generate,
 };
 
-/// The paper's count.
+/// As many as in the paper.
 const POLYGONS: usize = 7788;
-/// Of a box.
+/// Faces of a box.
 const FACES: usize = 6;
 
-/// Width (x), depth (y) and height (z) within the walls, in metres. The floor's top is z = 0.
+/// Width (x), depth (y) and height (z) inside the walls, in meters. The top of the floor is z = 0.
 const WIDTH: f64 = 5.0;
 const DEPTH: f64 = 4.0;
 const HEIGHT: f64 = 2.4;
 const FLOOR: f64 = 0.35;
 const WALL: f64 = 0.3;
-/// Thickness of the sheet that hollow things are made of.
+/// Thickness of the sheets of hollow objects.
 const SKIN: f64 = 0.004;
 
-/// The roof: layers, thickness of one, and how far it rises to the back. The rise is such that
-/// R_BBSC is the paper's.
+/// The roof: number of layers, thickness of a layer, and rise toward the back. The rise is chosen
+/// to match R_BBSC of the paper.
 const LAYERS: u32 = 6;
 const LAYER: f64 = 0.005;
 const RISE: f64 = 0.1315;
 
-/// Shelves above the four cupboards, and the height of a shelf.
+/// Number of shelves above each of the four cupboards, and the height of a shelf.
 const SHELVES: u32 = 4;
 const SHELF: f64 = 1.3 / SHELVES as f64;
 
-/// Goods on shelves, and how high they are: pseudo-random from a fixed seed.
+/// Seed of the pseudo-random heights of the goods on the shelves.
 const SEED: u32 = 7;
 
-/// Numbers of the materials.
+/// Indices of the materials.
 const STONE: u32 = 0;
 const WOOD: u32 = 1;
 const PAINT: u32 = 2;
@@ -107,7 +108,7 @@ fn materials() -> Vec<Material> {
     ]
 }
 
-/// A cuboid: the middle of its base, and its size.
+/// A cuboid: the center of its base, and its size.
 #[derive(Clone, Copy)]
 struct Cuboid {
     base: Vec3,
@@ -122,15 +123,15 @@ impl Cuboid {
         }
     }
 
-    /// The cuboid within, a skin farther in on all sides.
-    fn within(&self) -> Cuboid {
+    /// Returns the inner cuboid, smaller by a skin on all sides.
+    fn inner(&self) -> Cuboid {
         Cuboid {
             base: self.base + Vec3::Z * SKIN,
             size: self.size - 2.0 * SKIN,
         }
     }
 
-    /// The corner on the sides given by −1 and 1.
+    /// Returns the corner on the sides given by −1 and 1.
     fn corner(&self, side: [f64; 3]) -> Vec3 {
         let [x, y, z] = side;
         self.base + Vec3::new(x * 0.5, y * 0.5, (z + 1.0) * 0.5) * self.size
@@ -182,10 +183,10 @@ impl Room {
 
     fn hollow(&mut self, material: u32, cuboid: Cuboid) {
         self.solid(material, cuboid);
-        self.solid(material, cuboid.within());
+        self.solid(material, cuboid.inner());
     }
 
-    /// Floor, back wall and left wall; the other sides are open.
+    /// Adds floor, back wall and left wall; the other sides are open.
     fn shell(&mut self) {
         let height = HEIGHT + FLOOR;
         for cuboid in [
@@ -224,7 +225,7 @@ impl Room {
         );
     }
 
-    /// A couch, two cabinets in the corners, a chest.
+    /// Adds a couch, two cabinets in the corners, and a chest.
     fn furniture(&mut self) {
         for cuboid in [
             Cuboid::new(-1.5, -1.0, 0.0, [1.7, 1.8, 1.0]),
@@ -236,7 +237,7 @@ impl Room {
         }
     }
 
-    /// Sheared boxes, one upon the other.
+    /// Adds sheared boxes, stacked on top of each other.
     fn roof(&mut self) {
         for layer in 0..LAYERS {
             let z = HEIGHT + f64::from(layer) * LAYER * 1.02;
@@ -247,7 +248,8 @@ impl Room {
         }
     }
 
-    /// Four cupboards at the back wall with shelves above them; gives the middle of each shelf.
+    /// Adds four cupboards at the back wall with shelves above them; returns the center of each
+    /// shelf.
     fn cupboards(&mut self) -> Vec<Vec3> {
         let mut shelves = Vec::new();
         for cupboard in 0..4 {
@@ -267,8 +269,8 @@ impl Room {
         shelves
     }
 
-    /// Boxes side by side on the shelves, as many as are left of the polygons; with an odd box, that
-    /// stands on the table.
+    /// Adds boxes side by side on the shelves until the number of polygons is reached. If it is
+    /// odd, one more box stands on the table.
     fn goods(&mut self, shelves: &[Vec3]) {
         let left = (POLYGONS - self.objects.len()) / FACES;
         if left % 2 == 1 {
@@ -292,8 +294,8 @@ impl Room {
     }
 }
 
-/// Numbers from 0 to 1 that look random (linear congruences with the constants of D. Knuth, The Art
-/// of Computer Programming 2, 3.3.4, line 16).
+/// Pseudo-random numbers from 0 to 1 (linear congruential generator with the constants of D. Knuth,
+/// The Art of Computer Programming 2, 3.3.4, line 16).
 struct Random(u32);
 
 impl Random {

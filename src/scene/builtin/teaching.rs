@@ -1,5 +1,5 @@
-//! `teaching`: a small scene with every kind of primitive, few enough to follow each one's way
-//! through the tree.
+//! `teaching`: a small scene with every kind of primitive, small enough to follow every step in the
+//! tree.
 
 use super::entry::Builtin;
 use super::percent_g::round_point;
@@ -11,16 +11,17 @@ use crate::scene::parts::SceneParts;
 
 pub(super) const BUILTIN: Builtin = Builtin {
     name: "teaching",
-    about: "A dozen objects of every kind, one a mirror and one of glass, to watch a tree at work",
+    about: "Twelve objects of every kind, with a mirror and a glass sphere, to follow a tree at work",
     default_size: 1,
     sizes: 1..=1,
     generate,
 };
 
-/// A floor and eleven objects that stand on it at z = 0, their boxes apart from each other.
+/// Generates a floor at z = 0 and eleven objects on it, whose bounding boxes do not touch each
+/// other.
 ///
-/// The directions of slanted objects and vertex normals are Pythagorean (0.6, 0.8 and the like),
-/// so that all numbers are short and normals have unit length.
+/// The directions of slanted objects and vertex normals are Pythagorean (such as 0.6, 0.8), so that
+/// all numbers are short and normals have unit length.
 fn generate(size: u32) -> SceneParts {
     let (materials, objects): (Vec<_>, Vec<_>) = pieces().into_iter().unzip();
     SceneParts {
@@ -51,7 +52,7 @@ fn generate(size: u32) -> SceneParts {
     }
 }
 
-/// The objects, each with a material of its own.
+/// Returns the objects, each with its own material.
 fn pieces() -> Vec<(Material, Primitive)> {
     vec![
         (matt(0.78, 0.74, 0.66), floor()),
@@ -113,7 +114,7 @@ fn sphere(center: [f64; 3], radius: f64) -> Primitive {
     Primitive::Sphere(sphere.expect("the radius is positive"))
 }
 
-/// An upright cone on the floor, its two radii below and above.
+/// Returns an upright cone on the floor, given by the radii at its bottom and top.
 fn cone([x, y]: [f64; 2], base_radius: f64, height: f64, apex_radius: f64) -> Primitive {
     let base = Vec3::new(x, y, 0.0);
     let apex = Vec3::new(x, y, height);
@@ -131,7 +132,7 @@ fn floor() -> Primitive {
     polygon(corners.map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec(), None)
 }
 
-/// A concave polygon: a five-pointed star on two of its points.
+/// Returns a concave polygon: a five-pointed star that stands on two of its points.
 fn star() -> Primitive {
     let outline = [
         (0.0, 3.08),
@@ -148,7 +149,7 @@ fn star() -> Primitive {
     polygon(outline.map(|(x, z)| Vec3::new(x, 4.0, z)).to_vec(), None)
 }
 
-/// A convex polygon, turned against the axes.
+/// Returns a convex polygon that is not aligned with the axes.
 fn hexagon() -> Primitive {
     let outline = [
         (1.0, 0.87),
@@ -162,7 +163,7 @@ fn hexagon() -> Primitive {
     polygon(outline.map(place).to_vec(), None)
 }
 
-/// A flat polygon that its vertex normals make look like a piece of a column.
+/// Returns a flat polygon whose vertex normals make it look like part of a column.
 fn curved_screen() -> Primitive {
     let (left, right) = (Vec3::new(0.28, -0.96, 0.0), Vec3::new(0.96, -0.28, 0.0));
     let vertices = vec![
@@ -205,7 +206,7 @@ mod tests {
     use crate::geometry::Aabb;
     use crate::primitive::{PrimitiveKind, Shape};
 
-    /// Rounding that bounds of primitives may add.
+    /// Tolerance for rounding in the bounds of primitives.
     const SLACK: f64 = 1e-6;
 
     fn bounds() -> Vec<Aabb> {

@@ -10,7 +10,7 @@ use crate::scene::parts::SceneParts;
 
 pub(super) const BUILTIN: Builtin = Builtin {
     name: "tetra",
-    about: "A tetrahedron of tetrahedra, mostly empty: triangles alone, no floor",
+    about: "A tetrahedron of tetrahedra, mostly empty: only triangles, no floor",
     default_size: 6,
     sizes: 1..=9,
     generate,
@@ -25,7 +25,7 @@ const CORNERS: [Vec3; 4] = [
 ];
 const FACES: [[usize; 3]; 4] = [[0, 1, 2], [3, 2, 1], [2, 3, 0], [1, 0, 3]];
 
-/// 4^`size` triangles.
+/// Generates 4^`size` triangles.
 fn generate(size: u32) -> SceneParts {
     let mut objects = Vec::with_capacity(4usize.pow(size));
     add_tetrahedra(Vec3::ZERO, 1.0, size - 1, &mut objects);
@@ -58,7 +58,7 @@ fn generate(size: u32) -> SceneParts {
     }
 }
 
-/// Adds the tetrahedra within a cube, halved `halvings` times.
+/// Adds the tetrahedra within a cube that is halved `halvings` times.
 fn add_tetrahedra(center: Vec3, half_width: f64, halvings: u32, objects: &mut Vec<Primitive>) {
     if halvings > 0 {
         let half = half_width * 0.5;

@@ -2,8 +2,8 @@
 
 use crate::structure::frame::{ObjectPlanes, is_inside};
 
-/// Numbers of the objects of a cell: those inside it, and those that only touch it from outside, which
-/// are inside none of its parts either.
+/// The objects of a cell by number: those that overlap it, and those that only touch it from
+/// outside. The latter do not overlap any part of the cell either.
 #[derive(Default)]
 pub(super) struct CellObjects {
     pub(super) inside: Vec<u32>,
@@ -11,14 +11,15 @@ pub(super) struct CellObjects {
 }
 
 impl CellObjects {
-    /// All objects of a scene, by their planes.
+    /// Returns all objects of a scene, given by their planes.
     pub(super) fn of_root(planes: &[ObjectPlanes], root: &[[f32; 2]; 3]) -> Self {
         let all = 0..planes.len() as u32;
         let (inside, touching) = all.partition(|&object| is_inside(&planes[object as usize], root));
         CellObjects { inside, touching }
     }
 
-    /// Whether those inside a cell are told from those that only touch it.
+    /// Returns whether objects inside the cell and objects that only touch it are in the right
+    /// lists.
     pub(super) fn are_partitioned(&self, planes: &[ObjectPlanes], cell: &[[f32; 2]; 3]) -> bool {
         let is_inside = |object: &u32| is_inside(&planes[*object as usize], cell);
         self.inside.iter().all(is_inside) && !self.touching.iter().any(is_inside)

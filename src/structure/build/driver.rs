@@ -1,7 +1,7 @@
 //! The one build driver: termination, distribution of objects, threads, memory, cancellation.
 //!
-//! Large cells are split into tasks, each of which builds a subtree in arrays of its own; they are put
-//! together in depth-first order. The tree is the same for any number of threads.
+//! Large cells are split into tasks. Each task builds a subtree in its own arrays, which are joined
+//! in depth-first order. The tree is the same for any number of threads.
 
 use super::cell_objects::CellObjects;
 use super::error::BuildError;
@@ -22,13 +22,13 @@ use crate::structure::voxels::Voxels;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Builds the tree of a scene on the threads of the pool that it is called in (`rayon`), or of the
-/// global pool. The same scene and settings give the same tree, always.
+/// Builds the tree of a scene on the threads of the current `rayon` pool, or of the global pool.
+/// The same scene and settings always give the same tree.
 ///
-/// A scene without objects gives a tree of one empty leaf.
+/// The tree of a scene without objects is one empty leaf.
 ///
 /// # Errors
-/// Settings out of range, cancellation, or a tree that would not fit the memory limit.
+/// A setting is out of range, the tree would exceed the memory limit, or cancellation.
 pub fn build(
     scene: &Scene,
     settings: &BuildSettings,
@@ -39,7 +39,7 @@ pub fn build(
     if objects.len() >= Node::MAX_LEAF {
         return Err(BuildError::TooManyObjects(objects.len()));
     }
-    // Entered once, and not for every cell.
+    // Enters the pool once instead of once per cell.
     rayon::scope(|_| in_pool(scene, settings, progress))
 }
 
@@ -116,21 +116,21 @@ fn in_pool(
     })
 }
 
-/// So many objects are treated between two looks at whether the build was cancelled.
+/// Objects between two checks for cancellation.
 const CHUNK: usize = 1 << 14;
 
-/// A cell in the coordinates of the root cell: lower and upper end by axis.
+/// A cell in local coordinates: lower and upper end along each axis.
 type Local = [[f32; 2]; 3];
 
-/// Where a cell lies.
+/// Position of a cell in space and in the tree.
 #[derive(Clone, Copy)]
 struct Place {
     bounds: Aabb,
     local: Local,
     depth: u32,
-    /// Splits from the root to this cell that gained too little.
+    /// Number of failed splits from the root to this cell (see [`Cell::failed_splits`]).
     failed_splits: u32,
-    /// Objects in the lists of the cells from the root to this one.
+    /// Number of objects in the lists of the cells from the root to this one.
     pending: usize,
 }
 
@@ -145,15 +145,15 @@ struct Driver<'a> {
     bounds: &'a [Aabb],
     planes: &'a [ObjectPlanes],
     limits: Limits,
-    /// Share of the work that is done, where every level counts half as much as the one above; the
-    /// bits of an `f64`.
+    /// Fraction of the work that is done, where a child counts half as much as its parent; the bits
+    /// of an `f64`.
     done: AtomicU64,
 }
 
 /// Cells with more objects are split into tasks.
 const TASK: usize = 1 << 12;
 
-/// Cells with more objects look every time whether the build was cancelled.
+/// Cells with more objects always check for cancellation.
 const LARGE: usize = 1 << 8;
 
 impl Driver<'_> {
@@ -240,7 +240,7 @@ impl Driver<'_> {
         Ok(())
     }
 
-    /// Says how much is done.
+    /// Reports the progress.
     fn report_progress(&self, part: &mut Part) {
         let more = std::mem::take(&mut part.done);
         let add = |bits| Some((f64::from_bits(bits) + more).to_bits());
@@ -251,8 +251,8 @@ impl Driver<'_> {
         self.progress.set(f64::from_bits(before) + more);
     }
 
-    /// Below | empty | above, where the empty slab between two planes is left out if they are one.
-    /// A slab takes one more inner node, but no level of depth of its own.
+    /// Splits a cell into below | empty | above; if both planes of the slab are equal, into below |
+    /// above. A slab takes one more inner node, but does not count as a level.
     fn split(
         &self,
         part: &mut Part,
@@ -264,8 +264,8 @@ impl Driver<'_> {
         let [below, above] = self.parts(place, objects.len(), axis, slab);
         self.limits.reserve_pending(place.depth, below.1.pending)?;
         let outer = part.inner(&self.limits, place.depth)?;
-        let apart = objects.len() > TASK && rayon::current_num_threads() > 1;
-        let built = if apart {
+        let in_parallel = objects.len() > TASK && rayon::current_num_threads() > 1;
+        let built = if in_parallel {
             let (below, above) = rayon::join(
                 || self.build_separately(objects, &below),
                 || self.build_separately(objects, &above),
@@ -294,7 +294,7 @@ impl Driver<'_> {
         Ok(())
     }
 
-    /// The parts of a cell with so many objects below and above a slab.
+    /// Returns the parts of a cell below and above a slab.
     fn parts(
         &self,
         place: &Place,
@@ -323,7 +323,7 @@ impl Driver<'_> {
         ]
     }
 
-    /// Takes over from the parent's objects those of a child and builds it.
+    /// Selects the objects of a child from those of its parent and builds it.
     fn child(
         &self,
         part: &mut Part,
@@ -345,7 +345,7 @@ impl Driver<'_> {
         Ok(())
     }
 
-    /// The same in arrays of its own.
+    /// Like [`Driver::child`], but in separate arrays.
     fn build_separately(
         &self,
         objects: &CellObjects,
@@ -355,7 +355,7 @@ impl Driver<'_> {
         self.child(&mut part, objects, child)?;
         part.finish(&self.limits)?;
         self.report_progress(&mut part);
-        // What waits to be put together holds only what it needs.
+        // Free memory that is no longer needed while the part is pending.
         part.spare = Vec::new();
         Ok(part)
     }

@@ -5,7 +5,7 @@ use crate::structure::method::Structure;
 use crate::structure::node::Node;
 use crate::structure::settings::SettingsError;
 
-/// Why there is no tree.
+/// Why a tree could not be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BuildError {
     #[error(transparent)]
@@ -13,8 +13,8 @@ pub enum BuildError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     #[error(
-        "the tree needs more than the memory limit of {} MiB: stopped at depth {depth} after \
-         {nodes} nodes and {references} references; {} or raise the limit",
+        "the tree exceeds the memory limit of {} MiB: stopped at depth {depth} after {nodes} nodes \
+         and {references} references; {} or raise the limit",
         .limit >> 20,
         .structure.how_to_shrink()
     )]
@@ -22,10 +22,10 @@ pub enum BuildError {
         /// Bytes.
         limit: u64,
         depth: u32,
-        /// About how many there were; how many exactly depends on the order in which threads work.
+        /// Approximate: the exact number depends on the order in which threads work.
         nodes: usize,
         references: usize,
-        /// Of the method.
+        /// The structure that the method builds.
         structure: Structure,
     },
     #[error("the scene has {0} objects; a tree can hold {most}", most = Node::MAX_LEAF - 1)]

@@ -1,4 +1,4 @@
-//! How much a build has taken and may take.
+//! The memory limit of a build.
 
 use super::error::BuildError;
 use crate::geometry::Aabb;
@@ -7,8 +7,9 @@ use crate::structure::method::Structure;
 use crate::structure::node::Node;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// What the parts of a build hold together. Whether a tree fits does not depend on the order in which
-/// its parts are built: counts only grow, and what is estimated follows from them.
+/// Counts the memory that all parts of a build use together. Whether a tree fits does not depend on
+/// the order in which its parts are built, because counts only grow and the estimate follows from
+/// them.
 pub(super) struct Limits {
     /// Bytes.
     limit: u64,
@@ -16,16 +17,16 @@ pub(super) struct Limits {
     structure: Structure,
     nodes: AtomicUsize,
     references: AtomicUsize,
-    /// Objects in the lists of the cells from the root to a cell, the most of any cell.
+    /// Maximum over all cells of the objects in the lists of the cells from the root to that cell.
     pending: AtomicUsize,
 }
 
-/// Arrays take up to this many times what is in them: twice where they have just grown, and once more
-/// while what was built apart is put together.
+/// Arrays take up to this many times the size of their content: twice after they have just grown,
+/// and once more while parts that were built separately are joined.
 const GROWTH: usize = 3;
 
 impl Limits {
-    /// For a scene of so many objects.
+    /// Creates the limit for a scene with the given number of objects.
     pub(super) fn new(limit: u64, objects: usize, structure: Structure) -> Self {
         Limits {
             limit,
@@ -37,10 +38,10 @@ impl Limits {
         }
     }
 
-    /// Takes so many more nodes and references into account, for a cell at `depth`.
+    /// Adds nodes and references for a cell at `depth`.
     ///
     /// # Errors
-    /// The tree would take more than the limit with them.
+    /// The tree would exceed the limit.
     pub(super) fn take(
         &self,
         depth: u32,
@@ -67,10 +68,10 @@ impl Limits {
         })
     }
 
-    /// Takes into account that lists of so many objects wait on the way to a cell at `depth`.
+    /// Accounts for the lists of objects that are pending on the path to a cell at `depth`.
     ///
     /// # Errors
-    /// As for [`Limits::take`].
+    /// The same as for [`Limits::take`].
     pub(super) fn reserve_pending(&self, depth: u32, objects: usize) -> Result<(), BuildError> {
         if self.pending.fetch_max(objects, Relaxed) < objects {
             self.take(depth, 0, 0)?;

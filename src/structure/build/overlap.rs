@@ -1,4 +1,4 @@
-//! Which objects of a cell belong to its parts.
+//! Distributes the objects of a cell to its parts.
 
 use super::cell_objects::CellObjects;
 use crate::geometry::{Aabb, Axis};
@@ -6,17 +6,17 @@ use crate::primitive::{Primitive, PrimitiveKind, Shape};
 use crate::structure::frame::{Frame, ObjectPlanes};
 use crate::structure::settings::{BuildSettings, OverlapRule};
 
-/// Decides whether an object belongs to a cell into whose parent it came.
+/// Decides whether an object of a cell belongs to one of its parts.
 pub(super) struct Overlap<'a> {
     objects: &'a [Primitive],
     bounds: &'a [Aabb],
     planes: &'a [ObjectPlanes],
-    /// The kinds held against the cell exactly; all others by their bounds.
+    /// The kinds that are tested exactly; all others are tested by their bounds.
     exact: [bool; PrimitiveKind::ALL.len()],
     slack: f64,
 }
 
-/// Which part of a cell: the one below a plane or the one above it.
+/// The side of a plane.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Side {
     Below,
@@ -28,7 +28,7 @@ pub(super) struct HalfCell {
     side: Side,
     axis: Axis,
     plane: f32,
-    /// Objects that end beyond this plane, away from the part, are certainly not in it.
+    /// Objects that end beyond this plane, on the other side, are certainly not in the part.
     certain: f32,
     pub(super) bounds: Aabb,
 }
@@ -36,7 +36,7 @@ pub(super) struct HalfCell {
 impl HalfCell {
     /// `bounds` are those of the part.
     pub(super) fn new(frame: &Frame, bounds: Aabb, side: Side, axis: Axis, plane: f32) -> Self {
-        // Twice what the slack and the rounding of both coordinates can amount to.
+        // Twice the largest possible sum of the slack and the rounding of both coordinates.
         let (_, half) = frame.center_and_half();
         let unsure = 4.0 * frame.slack() / half[axis.index()];
         let certain = match side {
@@ -77,8 +77,8 @@ impl<'a> Overlap<'a> {
         }
     }
 
-    /// Adds to the objects of a part of a cell those of these that belong to it. All of them are
-    /// `inside` the cell, or all only touch it.
+    /// Adds those of `objects` that belong to a part of the cell to the objects of the part. Either
+    /// all of `objects` are inside the cell, or all only touch it.
     pub(super) fn select(
         &self,
         part: &HalfCell,
@@ -104,7 +104,7 @@ impl<'a> Overlap<'a> {
         }
     }
 
-    /// For objects inside the cell: each is inside the part, only touches it, or neither.
+    /// Selects among objects inside the cell: each is inside the part, only touches it, or neither.
     fn select_inside(&self, part: &HalfCell, objects: &[u32], to: &mut CellObjects) {
         let CellObjects { inside, touching } = to;
         let [from, near] = [inside.len(), touching.len()];
@@ -113,7 +113,7 @@ impl<'a> Overlap<'a> {
         let [mut end, mut near_end] = [0; 2];
         let (certain, unsure) = (&mut inside[from..], &mut touching[near..]);
         for &object in objects {
-            // Always put there and kept by a count: a branch would often be foretold wrong.
+            // Branchless, because this branch mispredicts often: always write, then advance or not.
             let [is_certain, is_near] = self.reach(part, object);
             certain[end] = object;
             unsure[near_end] = object;
@@ -138,7 +138,7 @@ impl<'a> Overlap<'a> {
         touching.truncate(kept);
     }
 
-    /// Removes from the objects of a list from a place on those that do not overlap a cell.
+    /// Removes the objects from index `from` on that do not overlap the cell.
     fn keep_overlapping(&self, cell: &Aabb, list: &mut Vec<u32>, from: usize) {
         let mut kept = from;
         for place in from..list.len() {
@@ -152,8 +152,8 @@ impl<'a> Overlap<'a> {
         list.truncate(kept);
     }
 
-    /// What the stored planes tell: whether an object certainly has a part beyond the plane of the
-    /// part, or else comes so near to it that its bounds must be asked.
+    /// Returns, from the stored planes, whether an object certainly reaches into the part, and
+    /// otherwise whether it is so close that its exact bounds must decide.
     #[inline]
     fn reach(&self, part: &HalfCell, object: u32) -> [bool; 2] {
         let [lo, hi] = self.planes[object as usize][part.axis.index()];
@@ -164,7 +164,7 @@ impl<'a> Overlap<'a> {
         [certain, near & !certain]
     }
 
-    /// Whether an object's bounds come within the slack of the part.
+    /// Returns whether the bounds of an object are within the slack of the part.
     fn bounds_reach(&self, part: &HalfCell, object: u32) -> bool {
         let (bounds, k) = (&self.bounds[object as usize], part.axis.index());
         match part.side {

@@ -1,4 +1,4 @@
-//! A subtree in arrays of its own.
+//! A subtree in its own arrays.
 
 use super::cell_objects::CellObjects;
 use super::error::BuildError;
@@ -12,15 +12,15 @@ pub(super) struct Part {
     pub(super) nodes: Vec<Node>,
     pub(super) references: Vec<u32>,
     pub(super) depth_reached: u32,
-    /// Share of the whole build that was done here and is not told yet.
+    /// Fraction of the whole build that was done here and is not reported yet.
     pub(super) done: f64,
-    /// Nodes and references that [`Limits`] knows of.
+    /// Nodes and references that are already counted by [`Limits`].
     counted: [usize; 2],
-    /// Lists that cells no longer need, for other cells.
+    /// Lists to reuse for other cells.
     pub(super) spare: Vec<CellObjects>,
 }
 
-/// So much is built before it is counted.
+/// Nodes and references between two updates of [`Limits`].
 const BATCH: usize = 1 << 10;
 
 impl Part {
@@ -43,19 +43,19 @@ impl Part {
         Ok(())
     }
 
-    /// Puts an inner node in place whose upper child is not known yet; gives its place.
+    /// Adds an inner node whose upper child is not known yet and returns its index.
     pub(super) fn inner(&mut self, limits: &Limits, depth: u32) -> Result<usize, BuildError> {
         self.count(limits, depth, 0)?;
         self.nodes.push(Node::inner(Axis::X, 0.0, 0));
         Ok(self.nodes.len() - 1)
     }
 
-    /// The upper child of `node` comes next.
+    /// Completes an inner node: the next node becomes its upper child.
     pub(super) fn close(&mut self, node: usize, axis: Axis, plane: f32) {
         self.nodes[node] = Node::inner(axis, plane, self.nodes.len() as u32);
     }
 
-    /// Appends a part that was built apart.
+    /// Appends a part that was built separately.
     pub(super) fn append(&mut self, part: Part) {
         let (nodes, references) = (self.nodes.len() as u32, self.references.len() as u32);
         let moved = part.nodes.iter().map(|n| n.moved(nodes, references));
@@ -68,8 +68,8 @@ impl Part {
         }
     }
 
-    /// Counts what is not counted yet and one node and `references` references to come, if that is
-    /// much.
+    /// Updates [`Limits`] before one node and `references` references are added, if a batch is
+    /// complete.
     fn count(&mut self, limits: &Limits, depth: u32, references: usize) -> Result<(), BuildError> {
         let [nodes, known] = self.counted;
         let held = [self.nodes.len() + 1, self.references.len() + references];
@@ -80,7 +80,7 @@ impl Part {
         Ok(())
     }
 
-    /// Counts all that is not counted yet.
+    /// Updates [`Limits`] with everything that is not counted yet.
     pub(super) fn finish(&mut self, limits: &Limits) -> Result<(), BuildError> {
         let [nodes, known] = self.counted;
         let held = [self.nodes.len(), self.references.len()];

@@ -1,4 +1,4 @@
-//! A uniform grid of about cubic voxels.
+//! A uniform grid of approximately cubic voxels.
 
 use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::{Axis, Vec3};
@@ -10,9 +10,10 @@ use std::sync::OnceLock;
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "grid",
     title: "Uniform grid",
-    about: "Divides the scene into equal, about cubic voxels, through which rays step from one to the \
-            next. D_MAX and N_OILF do not apply, and there are no inner nodes to pass: the window's \
-            tree panes show planes between the voxels that only SIMD rays (--kernel stream) traverse.",
+    about: "Divides the scene into equal, approximately cubic voxels, and rays step from one to the \
+            next. D_MAX and N_OILF do not apply, and rays traverse no inner nodes. The tree panes of \
+            the window show the planes between the voxels; only SIMD kernels (--kernel stream) \
+            traverse these planes.",
     source: "A. Fujimoto, T. Tanaka and K. Iwata, ARTS: accelerated ray-tracing system, 1986; \
              J. G. Cleary and G. Wyvill, Analysis of an algorithm for fast ray tracing using uniform \
              space subdivision, 1988; J. Amanatides and A. Woo, A fast voxel traversal algorithm for \
@@ -26,20 +27,20 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
         lowest: 0.001,
         highest: 1000.0,
         step: 0.0,
-        unit: "voxels an object",
-        about: "Voxels for every object of the scene, at most 1024 along an axis.",
+        unit: "voxels per object",
+        about: "Number of voxels per object of the scene; at most 1024 voxels along an axis.",
         source: "I. Wald, T. Ize, A. Kensler, A. Knoll and S. G. Parker, Ray tracing animated scenes \
                  using coherent grid traversal, 2006",
     }],
     rule: |settings| Box::new(UniformGrid::new(settings)),
 };
 
-/// The most voxels along an axis.
+/// Maximum number of voxels along an axis.
 const MAX_VOXELS_PER_AXIS: f64 = 1024.0;
 
 struct UniformGrid {
     density: f64,
-    /// Voxels along each axis, once they are known.
+    /// Number of voxels along each axis; computed once.
     voxels: OnceLock<[u32; 3]>,
 }
 
@@ -51,7 +52,7 @@ impl UniformGrid {
         }
     }
 
-    /// The voxels between the ends of a cell along an axis.
+    /// Returns the range of voxels that a cell spans along an axis.
     fn range(&self, cell: &Cell<'_>, axis: Axis) -> [u32; 2] {
         let voxels = self.voxels.get_or_init(|| {
             let size = cell.frame.cell().size();
@@ -61,15 +62,15 @@ impl UniformGrid {
         cell.local[axis.index()].map(|end| ((f64::from(end) + 1.0) * 0.5 * voxels).round() as u32)
     }
 
-    /// The plane below a voxel, in the coordinates of the root cell.
+    /// Returns the plane below a voxel, in local coordinates.
     fn plane(&self, axis: Axis, voxel: u32) -> f32 {
         let voxels = self.voxels.get().map_or(1, |voxels| voxels[axis.index()]);
         (2.0 * f64::from(voxel) / f64::from(voxels) - 1.0) as f32
     }
 }
 
-/// How many voxels along each axis divide a box of this size into about `wanted` that are about cubic.
-/// An axis shorter than a voxel is not divided.
+/// Returns the numbers of voxels along each axis that divide a box of this size into about `wanted`
+/// approximately cubic voxels. An axis shorter than a voxel is not divided.
 fn about_cubic(size: Vec3, wanted: f64) -> [u32; 3] {
     let size = (size / size.max_element()).to_array();
     let mut divided = [true; 3];
@@ -96,7 +97,7 @@ fn about_cubic(size: Vec3, wanted: f64) -> [u32; 3] {
 
 impl SplitRule for UniformGrid {
     fn decide(&self, cell: &Cell<'_>) -> Decision {
-        // The axis with the most voxels, so that neighbours lie near to each other in memory.
+        // Splitting the axis with the most voxels keeps neighbors close in memory.
         let (axis, [from, to]) = Axis::ALL
             .map(|axis| (axis, self.range(cell, axis)))
             .into_iter()

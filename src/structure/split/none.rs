@@ -1,4 +1,5 @@
-//! No tree at all: one leaf that holds every object. The naive tracer, and the judge of all others.
+//! No tree: one leaf that contains all objects. This is the naive ray tracer, and the reference for
+//! all other methods.
 
 use super::rule::{Cell, Decision, SplitRule};
 use crate::structure::method::Structure;
@@ -7,8 +8,8 @@ use crate::structure::settings::MethodInfo;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "none",
-    title: "None: every object tested",
-    about: "Never splits: one leaf holds all objects and every ray is tested against all of them.",
+    title: "None: test every object",
+    about: "Never splits. One leaf contains all objects, and every ray is tested against all of them.",
     source: "T. Whitted, An improved illumination model for shaded display, 1980",
     paper: None,
     paper_spheres_exactly: false,

@@ -1,4 +1,4 @@
-//! The object median: as many objects below the plane as above it.
+//! The object median: the same number of objects below and above the plane.
 
 use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::Axis;
@@ -9,7 +9,8 @@ use crate::structure::settings::{BuildSettings, MethodInfo};
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "object-median",
     title: "Object median",
-    about: "Splits at the median of the objects' centres, so that both halves hold about as many.",
+    about: "Splits at the median of the objects' centers, so that both halves contain about the same \
+            number of objects.",
     source: "M. R. Kaplan, Space-tracing: a constant time ray-tracer, 1985; J. D. MacDonald and \
              K. S. Booth, Heuristics for ray tracing using space subdivision, 1990, section 3",
     paper: None,
@@ -22,8 +23,8 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
         highest: 1.0,
         step: 1.0,
         unit: "",
-        about: "1 splits the cell's longest axis, 0 takes the axes in cyclic order as method 1.",
-        source: "ours: 0 leaves the plane as the only difference to midpoint",
+        about: "1 splits the longest axis of a cell, 0 uses the axes in cyclic order, as method 1 does.",
+        source: "ours: with 0, the position of the plane is the only difference from midpoint",
     }],
     rule: |settings| Box::new(ObjectMedian::new(settings)),
 };

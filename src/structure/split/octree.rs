@@ -1,7 +1,8 @@
 //! An octree: every node is split in the middle along all three axes.
 //!
-//! Its leaves, and so all that is counted of leaves, are those of an octree with children by eights.
-//! Its inner nodes are the planes that part the children, seven a node: x, then y, then z.
+//! Its leaves, and all parameters of leaves, are those of an octree with eight children per node.
+//! Its inner nodes are the planes that separate the children, seven per octree node: x, then y,
+//! then z.
 
 use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::Axis;
@@ -11,9 +12,9 @@ use crate::structure::settings::MethodInfo;
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "octree",
     title: "Octree",
-    about: "Splits every node in the middle along all three axes into eight. It is held and walked as \
-            planes, seven a node: D_MAX, D_REACH and the inner nodes count planes, three levels of \
-            them for one of the octree.",
+    about: "Splits every node into eight, in the middle along all three axes. It is stored and traversed \
+            as planes, seven per octree node: D_MAX, D_REACH and the inner nodes count planes, where \
+            three levels of planes are one level of the octree.",
     source: "A. S. Glassner, Space subdivision for fast ray tracing, 1984; as planes: M. R. Kaplan, \
              Space-tracing: a constant time ray-tracer, 1985",
     paper: None,

@@ -6,13 +6,13 @@ use crate::progress::Progress;
 use crate::structure::frame::{Frame, ObjectPlanes};
 use crate::structure::node::StopReason;
 
-/// Says where, if anywhere, a cell is split.
+/// Decides whether and where a cell is split.
 pub trait SplitRule: Send + Sync {
-    /// The cell holds more than `N_OILF` objects and lies above `D_MAX`.
+    /// Decides on a cell that contains more than `N_OILF` objects and is above depth `D_MAX`.
     fn decide(&self, cell: &Cell<'_>) -> Decision;
 }
 
-/// What becomes of a cell. Planes are in the coordinates of the root cell ([`Frame`]).
+/// A decision on a cell. Planes are in local coordinates ([`Frame`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Decision {
     Leaf(StopReason),
@@ -20,8 +20,8 @@ pub enum Decision {
         axis: Axis,
         plane: f32,
     },
-    /// A split that gains too little to be worth itself, made in the hope of better ones below it:
-    /// see [`Cell::failed_splits`].
+    /// A split that does not lower the cost enough, made in the hope of better ones below it; see
+    /// [`Cell::failed_splits`].
     FailedSplit {
         axis: Axis,
         plane: f32,
@@ -33,55 +33,55 @@ pub enum Decision {
     },
 }
 
-/// A cell as a rule sees it.
+/// The cell that a rule decides on.
 pub struct Cell<'a> {
     pub frame: &'a Frame,
-    /// The cell in the world.
+    /// The cell in world coordinates.
     pub bounds: Aabb,
-    /// The cell in the coordinates of the root cell: lower and upper end by axis.
+    /// The cell in local coordinates: lower and upper end along each axis.
     pub local: [[f32; 2]; 3],
     pub depth: u32,
     pub depth_limit: u32,
-    /// How many of the splits between the root and the cell were [`Decision::FailedSplit`]s.
+    /// Number of [`Decision::FailedSplit`]s between the root and the cell.
     pub failed_splits: u32,
-    /// Numbers of its objects that do more than touch it from outside, in any order.
+    /// Objects that overlap the cell, by number, in any order.
     pub inside: &'a [u32],
-    /// Those that only touch it.
+    /// Objects that only touch the cell from outside.
     pub touching: &'a [u32],
     /// All objects of the scene, by number.
     pub primitives: &'a [Primitive],
-    /// Their bounds.
+    /// The bounds of all objects.
     pub object_bounds: &'a [Aabb],
-    /// Their bounds as planes.
+    /// The bounds of all objects, as planes.
     pub object_planes: &'a [ObjectPlanes],
-    /// Rules that take long look at it and decide anything once the build is cancelled.
+    /// Slow rules check this and may return any decision once the build is cancelled.
     pub progress: &'a Progress,
 }
 
 impl Cell<'_> {
-    /// Numbers of its objects, in any order.
+    /// Returns the objects of the cell, in any order.
     pub fn objects(&self) -> impl Iterator<Item = u32> + '_ {
         self.inside.iter().chain(self.touching).copied()
     }
 
-    /// How many objects it has.
+    /// Returns the number of objects of the cell.
     pub fn object_count(&self) -> usize {
         self.inside.len() + self.touching.len()
     }
 
-    /// The plane through the middle of the cell.
+    /// Returns the plane through the middle of the cell.
     pub fn midpoint(&self, axis: Axis) -> f32 {
         let [lo, hi] = self.local[axis.index()];
         lo * 0.5 + hi * 0.5
     }
 
-    /// Whether a plane lies strictly inside the cell.
+    /// Returns whether a plane is strictly inside the cell.
     pub fn divides(&self, axis: Axis, plane: f32) -> bool {
         let [lo, hi] = self.local[axis.index()];
         lo < plane && plane < hi
     }
 
-    /// The extent of an object along an axis, clipped to the cell, in the world.
+    /// Returns the extent of an object along an axis, clipped to the cell, in world coordinates.
     pub fn clipped(&self, object: u32, axis: Axis) -> [f64; 2] {
         let (bounds, k) = (&self.object_bounds[object as usize], axis.index());
         [

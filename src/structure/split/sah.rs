@@ -1,10 +1,11 @@
 //! The surface-area heuristic for kernels that test a block of objects at once.
 //!
-//! The expected cost of a leaf is the number of blocks its objects fill, not of the objects: a test
-//! of 1 costs as much as one of 8 or 16. Candidates are the ends of the objects' bounds, each as the
-//! nearest plane that a node can store, so that neighbours in a mesh are parted between them; large
-//! cells try the limits of bins instead, so that a tree takes time in O(N log N). An object that only touches a cell from outside does not count there: kernels that read leaves in
-//! blocks leave it out, as the neighbour has it.
+//! The cost of a leaf is the number of blocks that its objects fill, not the number of objects:
+//! testing 1 object takes as long as testing 8 or 16. Candidates are the ends of the objects'
+//! bounds, rounded to the nearest plane that a node can store, so that neighboring triangles of a
+//! mesh are separated exactly. Large cells try only the limits of bins, so that building takes O(N
+//! log N) time. Objects that only touch a cell from outside are not counted: kernels that read
+//! leaves in blocks skip them, because the neighboring cell contains them.
 
 mod bins;
 mod cost;
@@ -24,9 +25,9 @@ use extents::Extents;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah",
-    title: "Surface area, leaves in blocks",
-    about: "Splits where the surface-area heuristic expects rays to cost least when objects are \
-            tested in blocks; favours cutting off empty space.",
+    title: "SAH, leaves in blocks",
+    about: "Splits at the plane with the lowest expected cost by the surface-area heuristic if objects \
+            are tested in blocks. Favors cutting off empty space.",
     source: "I. Wald and V. Havran, On building fast kd-trees for ray tracing, 2006; V. Havran, \
              Heuristic ray shooting algorithms, 2000",
     paper: None,
@@ -40,7 +41,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 64.0,
             step: 1.0,
             unit: "objects",
-            about: "How many objects are tested at the cost of one.",
+            about: "Number of objects that are tested at the cost of one.",
             source: "lanes of a 512-bit vector; 8 and 16 measured by cargo bench --bench peers",
         },
         Constant {
@@ -50,7 +51,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 100.0,
             step: 0.0,
             unit: "blocks",
-            about: "Cost of passing an inner node, in tests of a block.",
+            about: "Cost of traversing an inner node, relative to testing a block.",
             source: "measured by cargo bench --bench peers",
         },
         Constant {
@@ -60,8 +61,8 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1.0,
             step: 0.0,
             unit: "",
-            about: "Factor on the cost of a split with an empty side; below 1 favours cutting off \
-                    empty space.",
+            about: "Factor on the cost of a split with an empty side; below 1 favors cutting off empty \
+                    space.",
             source: "Wald and Havran 2006, section 3",
         },
         Constant {
@@ -71,10 +72,10 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1e9,
             step: 1.0,
             unit: "objects",
-            about: "Cells with at most this many objects try every plane, larger ones the limits of \
+            about: "Cells with at most this many objects try every plane, larger cells only the limits of \
                     64 bins.",
-            source: "measured by cargo bench --bench peers and growth: as quick to build as with 1024, \
-                     and rays are up to a twentieth faster",
+            source: "measured by cargo bench --bench peers and growth: builds as fast as with 1024, and \
+                     rays are up to 5 % faster",
         },
         CLIP,
     ],
@@ -89,8 +90,8 @@ pub(super) const CLIP: Constant = Constant {
     highest: 1.0,
     step: 1.0,
     unit: "",
-    about: "1 counts an object by the bounds of its part within the cell, 0 by its bounds cut off at \
-            the cell; best with objects held against cells exactly.",
+    about: "1 counts an object by the bounds of its part within the cell, 0 by its bounds clipped to the \
+            cell. Best with --overlap exact.",
     source: "V. Havran, Heuristic ray shooting algorithms, 2000 (split clipping)",
 };
 
@@ -109,7 +110,7 @@ impl Sah {
         }
     }
 
-    /// The cheapest of the limits of bins.
+    /// Returns the cheapest bin limit.
     fn best_bin_limit(&self, cell: &Cell<'_>) -> Best {
         let bins = Bins::of(cell, self.clip);
         let mut best = Best {
@@ -125,7 +126,7 @@ impl Sah {
         best
     }
 
-    /// The cheapest of all planes.
+    /// Returns the cheapest of all planes.
     fn best_plane(&self, cell: &Cell<'_>) -> Best {
         Extents::with(cell, self.clip, |extents, scratch| {
             let mut best = Best {

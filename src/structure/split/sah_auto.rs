@@ -1,9 +1,9 @@
 //! The surface-area heuristic with automatic termination.
 //!
-//! A split that does not lower the expected cost far enough counts as failed. It is made all the
-//! same, for there may be better ones below it, but only so many on the way from the root to a leaf.
-//! With no such allowance and a quality ratio of 1, a cell is a leaf where no split costs less: the
-//! plain cost stop. The method's greatest depth is that of `D_MAX` automatic.
+//! A split that does not lower the expected cost enough counts as failed. It is made anyway,
+//! because there may be better splits below it, but only a limited number of times on the path from
+//! the root to a leaf. With a limit of 0 and a quality ratio of 1, a cell becomes a leaf if no
+//! split costs less than the leaf. The method is meant for automatic `D_MAX`.
 
 use super::rule::{Cell, Decision, SplitRule};
 use super::sah::CLIP;
@@ -16,9 +16,9 @@ use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-auto",
-    title: "Surface area, automatic termination",
-    about: "Splits where the surface-area heuristic expects rays to cost least, and ends where so \
-            many splits gained too little; best with D_MAX automatic.",
+    title: "SAH, automatic termination",
+    about: "Splits at the plane with the lowest expected cost by the surface-area heuristic, and stops \
+            after a limited number of splits that gained too little. Best with automatic D_MAX.",
     source: "V. Havran, Heuristic ray shooting algorithms, 2000, and V. Havran and J. Bittner, On \
              improving kd-trees for ray shooting, 2002; after K. R. Subramanian and D. S. Fussell, \
              Automatic termination criteria for ray tracing hierarchies, 1991",
@@ -33,8 +33,8 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1000.0,
             step: 0.0,
             unit: "",
-            about: "Cost of passing an inner node. Only its ratio to intersection-cost counts.",
-            source: "15, 20 and bonus 0.2 are one set in use, 1, 80 and bonus 0.5 another (M. Pharr \
+            about: "Cost of traversing an inner node. Only its ratio to intersection-cost matters.",
+            source: "15, 20 and bonus 0.2 are one common set; 1, 80 and bonus 0.5 another (M. Pharr \
                      and G. Humphreys, Physically Based Rendering)",
         },
         Constant {
@@ -44,7 +44,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1000.0,
             step: 0.0,
             unit: "",
-            about: "Cost of testing an object.",
+            about: "Cost of an intersection test.",
             source: "as for traversal-cost",
         },
         Constant {
@@ -54,7 +54,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1.0,
             step: 0.0,
             unit: "",
-            about: "Share of its cost that a split with an empty side is let off; 0 favours none.",
+            about: "Fraction by which the cost of a split with an empty side is reduced; 0 for no bonus.",
             source: "as for traversal-cost",
         },
         Constant {
@@ -64,7 +64,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1.0,
             step: 0.0,
             unit: "",
-            about: "A split fails if it costs more than this share of what the leaf costs.",
+            about: "A split counts as failed if it costs more than this fraction of the cost of a leaf.",
             source: "V. Havran 2000, as commonly quoted",
         },
         Constant {
@@ -74,7 +74,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 100.0,
             step: 0.0,
             unit: "splits",
-            about: "Failed splits allowed between the root and a leaf, whatever D_MAX is.",
+            about: "Failed splits allowed between the root and a leaf, independent of D_MAX.",
             source: "V. Havran 2000, as commonly quoted",
         },
         Constant {
@@ -83,8 +83,8 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             lowest: 0.0,
             highest: 1.0,
             step: 0.0,
-            unit: "splits a level",
-            about: "Failed splits allowed in addition to those per level of D_MAX.",
+            unit: "splits per level",
+            about: "Additional failed splits allowed per level of D_MAX.",
             source: "V. Havran 2000, as commonly quoted",
         },
         CLIP,
@@ -93,7 +93,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
 };
 
 struct SahAuto {
-    /// Cost of passing an inner node, in tests of an object.
+    /// Cost of traversing an inner node, in intersection tests.
     traversal_cost: f64,
     /// Factor on the cost of a split with an empty side.
     empty_factor: f64,
@@ -116,7 +116,8 @@ impl SahAuto {
         }
     }
 
-    /// The cheapest plane with its expected cost, in tests of an object; of equal ones the first.
+    /// Returns the cheapest plane, or the first of several, with its expected cost in intersection
+    /// tests.
     fn cheapest(&self, cell: &Cell<'_>) -> Option<(f64, Axis, f32)> {
         let parts: Vec<Aabb> = cell
             .objects()
@@ -142,7 +143,7 @@ impl SahAuto {
         best
     }
 
-    /// The bounds of an object's part within a cell.
+    /// Returns the bounds of the part of an object within a cell.
     fn part(&self, cell: &Cell<'_>, object: u32) -> Option<Aabb> {
         if self.clip {
             return cell.primitives[object as usize].bounds_within(&cell.bounds);
@@ -154,7 +155,7 @@ impl SahAuto {
         ))
     }
 
-    /// Whether there may be one more failed split above a cell's leaves.
+    /// Returns whether one more failed split is allowed in this cell.
     fn may_fail(&self, cell: &Cell<'_>) -> bool {
         let allowed = self.failures + self.failures_per_level * f64::from(cell.depth_limit);
         f64::from(cell.failed_splits) + 1.0 <= allowed

@@ -1,9 +1,9 @@
-//! The paper's method 2: surface-area heuristic, and cutting off empty space.
+//! The paper's method 2: the surface-area heuristic, and cutting off empty space.
 //!
-//! The paper gives no details. This is the rule (Q) of a search that comes nearest to its figures;
-//! every switch of that search is a constant here. Candidates are planes just outside the objects'
-//! bounds, clipped to the cell. The best split must pay before a gap is cut; a cut takes both ends
-//! of the gap at once and counts as one level of depth.
+//! The paper gives no details. This is rule Q, which came closest to the paper's figures in a
+//! search over many variants; every choice of that search is a setting here. Candidates are planes
+//! just outside the bounds of the objects, clipped to the cell. A gap is cut only if the best split
+//! is cheaper than a leaf. A cut takes out the gap with two planes and counts as one level.
 
 use super::rule::{Cell, Decision, SplitRule};
 use super::sweep::{Areas, CandidatePlane, Sweep};
@@ -14,9 +14,9 @@ use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-cut",
-    title: "Surface area, empty space cut off (method 2)",
-    about: "Splits where the surface-area heuristic expects rays to cost least, and cuts off empty \
-            space outside and inside the node.",
+    title: "SAH, empty space cut off (method 2)",
+    about: "Splits at the plane with the lowest expected cost by the surface-area heuristic, and cuts off \
+            empty space around and between the objects of the node.",
     source: "J. D. MacDonald and K. S. Booth, Heuristics for ray tracing using space subdivision, \
              1990; the paper's method 2",
     paper: Some(2),
@@ -30,7 +30,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 0.1,
             step: 0.0,
             unit: "length",
-            about: "How far planes are moved outwards from the bounds of an object.",
+            about: "Distance of planes from the bounds of an object.",
             source: "search for method 2: 1e-7 to 1e-5 fit the paper's figures",
         },
         Constant {
@@ -40,8 +40,8 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1.0,
             step: 0.0,
             unit: "of the cell's width",
-            about: "Planes are sought from the lower of the spatial and the object median less \
-                    this to the higher plus this; 1 allows all.",
+            about: "Candidate planes are limited to the interval between the spatial and the object \
+                    median, extended by this on both sides; 1 allows all.",
             source: "rule Q of the search; MacDonald and Booth 1990: the best plane lies between \
                      the medians, the object median being the upper median of all bounds",
         },
@@ -52,7 +52,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1.0,
             step: 0.0,
             unit: "of the cell's width",
-            about: "The widest gap between objects is cut out if it exceeds this; 1 cuts none.",
+            about: "The widest gap between objects is cut out if it is wider than this; 1 cuts none.",
             source: "rule Q of the search",
         },
         Constant {
@@ -62,8 +62,8 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1.0,
             step: 0.0,
             unit: "",
-            about: "Factor on the cost of a split with an empty side; below 1 favours cutting off \
-                    empty space.",
+            about: "Factor on the cost of a split with an empty side; below 1 favors cutting off empty \
+                    space.",
             source: "1 in rule Q, 0.85 in rule R of the search",
         },
         Constant {
@@ -73,8 +73,8 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1.0,
             step: 1.0,
             unit: "",
-            about: "1 makes a leaf where no split costs less than the leaf, 0 splits on.",
-            source: "rule Q of the search: tetra ends by cost, not by depth",
+            about: "1 makes a leaf if no split costs less than the leaf, 0 splits anyway.",
+            source: "rule Q of the search: in tetra, cost stops splitting before depth does",
         },
     ],
     rule: |settings| Box::new(SahCut::new(settings)),
@@ -88,14 +88,14 @@ struct SahCut {
     cost_stop: bool,
 }
 
-/// A plane with what a ray is expected to cost if the cell is split there.
+/// A plane with the expected cost of a ray if the cell is split there.
 #[derive(Clone, Copy)]
 struct Candidate {
     axis: Axis,
     plane: f32,
-    /// Objects below times area below, and the same above.
+    /// Number of objects times area, summed over both sides.
     cost: f64,
-    /// Distance from the cell's middle as a share of its width.
+    /// Distance from the middle of the cell, as a fraction of its width.
     off_center: f64,
 }
 
@@ -110,8 +110,8 @@ impl SahCut {
         }
     }
 
-    /// Improves on `best` by the planes of an axis; gives the widest gap between objects as its
-    /// share of the cell's width and its ends, if it is wide enough to cut.
+    /// Updates `best` with the planes of an axis. Returns the widest gap between objects, if it is
+    /// wide enough to cut: its fraction of the cell's width, and its ends.
     fn search(
         &self,
         cell: &Cell<'_>,
@@ -166,8 +166,9 @@ impl SahCut {
 }
 
 impl Candidate {
-    /// Cheaper, or as cheap and nearer to the cell's middle. Costs that differ by no more than
-    /// rounding are equal, or noise would choose among the many ties of symmetric scenes.
+    /// Returns whether this candidate is cheaper, or equally cheap and nearer to the middle of the
+    /// cell. Costs that differ only by rounding count as equal, or noise would decide the many ties
+    /// of symmetric scenes.
     fn beats(&self, other: &Candidate) -> bool {
         let rounding = 1e-12 * other.cost;
         self.cost < other.cost - rounding
@@ -209,7 +210,7 @@ impl SplitRule for SahCut {
     }
 }
 
-/// The upper of the two middle ones of all bounds, given as two sorted lists of equal length.
+/// Returns the upper median of all bounds, given as two sorted lists of equal length.
 fn upper_median(lows: &[f64], highs: &[f64]) -> f64 {
     let (mut i, mut k) = (0, 0);
     let mut median = f64::NAN;
@@ -225,7 +226,7 @@ fn upper_median(lows: &[f64], highs: &[f64]) -> f64 {
     median
 }
 
-/// The widest stretch between objects that no extent covers; extents are sorted by lower end.
+/// Returns the widest gap between objects; extents are sorted by their lower ends.
 fn widest_gap(extents: &[[f64; 2]]) -> Option<[f64; 2]> {
     let mut widest: Option<[f64; 2]> = None;
     let mut covered = extents.first()?[1];

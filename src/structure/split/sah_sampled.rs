@@ -1,7 +1,8 @@
-//! Area-weighted counts at a few equally spaced planes, after Octree-R.
+//! The surface-area heuristic at a few equally spaced planes, after Octree-R.
 //!
-//! Octree-R is an octree whose three planes are moved from the middle of a node to where the estimated
-//! number of tests is least. In a bintree one plane at a time is, along the cheapest axis or in turn.
+//! Octree-R is an octree in which the three planes of a node are not in the middle, but where the
+//! estimated number of tests is lowest. This method does the same for one plane at a time, along
+//! the cheapest axis or along the axes in cyclic order.
 
 use super::rule::{Cell, Decision, SplitRule};
 use super::sweep::Areas;
@@ -12,9 +13,9 @@ use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-sampled",
-    title: "Surface area, sampled planes (as Octree-R)",
-    about: "Splits at the one of a few equally spaced planes where objects, weighted by the areas \
-            of the two sides, are fewest.",
+    title: "SAH, sampled planes (as Octree-R)",
+    about: "Tries a few equally spaced planes and splits at the one with the lowest expected cost by the \
+            surface-area heuristic.",
     source: "K.-Y. Whang, J.-W. Song, J.-W. Chang, J.-Y. Kim, W.-S. Cho, C.-M. Park and I.-Y. Song, \
              Octree-R: an adaptive octree for efficient ray tracing, 1995",
     paper: None,
@@ -28,7 +29,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 255.0,
             step: 1.0,
             unit: "planes",
-            about: "Planes tried along an axis; 1 tries the middle alone.",
+            about: "Number of planes to try along an axis; 1 tries only the middle.",
             source: "ours: eighths of the cell",
         },
         Constant {
@@ -38,9 +39,9 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1.0,
             step: 1.0,
             unit: "",
-            about: "1 takes the axes in cyclic order, so that three levels split all three as a node \
-                    of Octree-R does, 0 the cheapest plane of all axes.",
-            source: "ours: one plane at a time is what a bintree offers",
+            about: "1 uses the axes in cyclic order, so that three levels split all three axes, like a \
+                    node of Octree-R; 0 uses the cheapest plane of all axes.",
+            source: "ours: a bintree splits by one plane at a time",
         },
         Constant {
             name: "cost-stop",
@@ -49,8 +50,8 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             highest: 1.0,
             step: 1.0,
             unit: "",
-            about: "1 makes a leaf where no sampled plane costs less than the leaf, 0 splits on.",
-            source: "ours, as in sah-cut; 0 ends by D_MAX and N_OILF alone, as Octree-R does",
+            about: "1 makes a leaf if no sampled plane costs less than the leaf, 0 splits anyway.",
+            source: "ours, as in sah-cut; with 0 only D_MAX and N_OILF stop splitting, as in Octree-R",
         },
     ],
     rule: |settings| Box::new(SahSampled::new(settings)),
@@ -62,13 +63,13 @@ struct SahSampled {
     cost_stop: bool,
 }
 
-/// A plane with the objects on its sides, weighted by the sides' areas.
+/// A plane with its cost: the objects on each side, weighted by the area of the side.
 #[derive(Clone, Copy)]
 struct Candidate {
     axis: Axis,
     plane: f32,
     cost: f64,
-    /// Samples between it and the middle one.
+    /// Distance from the middle plane, in samples.
     off_center: u32,
 }
 
@@ -88,7 +89,8 @@ impl SahSampled {
         let parts = self.samples + 1;
         (1..parts).map(move |sample| {
             let plane = lo + (hi - lo) * (sample as f32 / parts as f32);
-            // As the driver counts, but for rounding: what touches the plane is on both sides.
+            // As in the driver, up to rounding: an object that touches the plane counts on both
+            // sides.
             let (mut below, mut above) = (0, 0);
             for object in cell.objects() {
                 let [begin, end] = cell.object_planes[object as usize][k];
@@ -112,7 +114,7 @@ impl SplitRule for SahSampled {
             Some(first) => vec![Axis::from_index(first.index() + cell.depth as usize)],
             None => Axis::ALL.to_vec(),
         };
-        // Of equal costs the one nearest to the middle.
+        // Among equal costs, the plane nearest to the middle.
         let best = axes
             .into_iter()
             .flat_map(|axis| self.candidates(cell, axis))

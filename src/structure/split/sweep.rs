@@ -1,26 +1,26 @@
-//! Candidate planes just outside the ends of a cell's objects, with what lies on their two sides.
+//! Candidate planes just outside the ends of the objects of a cell, with the objects on both sides.
 
 use super::rule::Cell;
 use crate::geometry::{Aabb, Axis};
 
-/// Where the objects of a cell begin and end along an axis, each sorted.
+/// The lower and upper ends of the objects of a cell along an axis, both sorted.
 pub(super) struct Sweep {
     pub(super) lows: Vec<f64>,
     pub(super) highs: Vec<f64>,
 }
 
-/// A plane, and how many objects the driver puts on either side of it.
+/// A plane, and the number of objects that the driver puts on each side.
 #[derive(Clone, Copy)]
 pub(super) struct CandidatePlane {
     pub(super) plane: f32,
-    /// Its coordinate in the world.
+    /// Its world coordinate.
     pub(super) world: f64,
     pub(super) below: usize,
     pub(super) above: usize,
 }
 
 impl Sweep {
-    /// Of extents in any order.
+    /// Sorts the ends of extents, which can be in any order.
     pub(super) fn new(extents: impl Iterator<Item = [f64; 2]>) -> Self {
         let (mut lows, mut highs): (Vec<f64>, Vec<f64>) = extents.map(|[lo, hi]| (lo, hi)).unzip();
         lows.sort_unstable_by(f64::total_cmp);
@@ -28,8 +28,8 @@ impl Sweep {
         Sweep { lows, highs }
     }
 
-    /// The planes inside the cell that lie more than the length `epsilon` below where an object
-    /// begins, then those above where one ends; both ascending.
+    /// Returns the planes inside the cell that are more than the length `epsilon` below the start
+    /// of an object, then those above the end of an object; both in ascending order.
     pub(super) fn planes<'a>(
         &'a self,
         cell: &'a Cell<'_>,
@@ -55,7 +55,7 @@ impl Sweep {
             })
             .map(move |plane| {
                 let world = cell.frame.to_world(axis, f64::from(plane));
-                // As the driver counts: an object within the slack of the plane is on both sides.
+                // As in the driver, an object within the slack of the plane counts on both sides.
                 CandidatePlane {
                     plane,
                     world,
@@ -72,7 +72,7 @@ pub(super) struct Areas {
     hi: f64,
     /// Area of the two faces parallel to the plane.
     faces: f64,
-    /// Area of the other four faces a unit of length.
+    /// Area of the other four faces per unit of length.
     rim: f64,
 }
 
@@ -88,7 +88,8 @@ impl Areas {
         }
     }
 
-    /// Objects on the two sides of a plane of the world, each times the area of its side.
+    /// Returns the number of objects on each side of a plane (world coordinate) times the area of
+    /// that side, summed over both sides.
     pub(super) fn weigh(&self, plane: f64, below: usize, above: usize) -> f64 {
         below as f64 * self.below(plane) + above as f64 * self.above(plane)
     }

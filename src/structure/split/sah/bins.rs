@@ -1,4 +1,4 @@
-//! The limits of bins as planes, for cells with many objects.
+//! Bin limits as candidate planes, for cells with many objects.
 
 use super::cost::Plane;
 use super::extents::{Extents, Scratch, Source};
@@ -7,7 +7,7 @@ use crate::geometry::Axis;
 use crate::structure::split::rule::Cell;
 use rayon::prelude::*;
 
-/// How many objects begin and end in every bin of every axis.
+/// The number of objects that begin and end in each bin along each axis.
 pub(super) struct Bins {
     grids: [Grid; 3],
     counts: Counts,
@@ -20,14 +20,14 @@ struct Counts {
     ends: [[u32; BINS]; 3],
 }
 
-/// Objects that a thread takes at once.
+/// Objects per task.
 const CHUNK: usize = 1 << 14;
 
-/// Objects whose extents are held at once.
+/// Objects whose extents are computed at once.
 const BATCH: usize = 1 << 9;
 
 impl Bins {
-    /// Those of a cell's objects; incomplete if the build is cancelled meanwhile.
+    /// Counts the objects of a cell; incomplete if the build is cancelled.
     pub(super) fn of(cell: &Cell<'_>, clip: bool) -> Self {
         let grids = Axis::ALL.map(|axis| Grid::new(cell.local[axis.index()], BINS));
         let source = Source::new(cell, clip);
@@ -50,12 +50,12 @@ impl Bins {
         Bins { grids, counts }
     }
 
-    /// Objects that do more than touch the cell from outside.
+    /// Returns the number of objects that overlap the cell.
     pub(super) fn objects(&self) -> usize {
         self.counts.objects
     }
 
-    /// The limits between bins, ascending.
+    /// Returns the limits between bins, in ascending order.
     pub(super) fn planes(&self, axis: Axis) -> impl Iterator<Item = Plane> + '_ {
         let k = axis.index();
         let (mut begun, mut ended) = (0, 0);

@@ -27,7 +27,7 @@ impl Costs {
         (objects as u32).div_ceil(self.block) as f32
     }
 
-    /// Expected cost of a ray through the cell if it is split, in tests of a block, without the
+    /// Returns the expected cost of a ray through the split cell, in block tests, without the
     /// factor for empty sides.
     pub(super) fn cost_of_parts(&self, plane: &Plane, areas: &Areas) -> f32 {
         let work = areas.below(plane.at) * self.blocks(plane.below)
@@ -35,7 +35,7 @@ impl Costs {
         self.traversal_cost + work
     }
 
-    /// The same with that factor.
+    /// Returns the same with the factor for empty sides.
     pub(super) fn cost(&self, plane: &Plane, areas: &Areas) -> f32 {
         let empty = plane.below == 0 || plane.above == 0;
         let factor = if empty { self.empty_factor } else { 1.0 };
@@ -43,7 +43,7 @@ impl Costs {
     }
 }
 
-/// A plane and how many objects have a part on either side of it.
+/// A plane and the number of objects with a part on each side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Plane {
     pub(super) at: f32,
@@ -51,15 +51,16 @@ pub(super) struct Plane {
     pub(super) above: usize,
 }
 
-/// The cheapest that was found for a cell.
+/// The cheapest choice found for a cell.
 pub(super) struct Best {
     pub(super) cost: f32,
-    /// `None` is a leaf.
+    /// `None` for a leaf.
     pub(super) plane: Option<(Axis, f32)>,
 }
 
 impl Best {
-    /// Of planes that cost the same the first along the first axis stays.
+    /// Takes a plane if it is cheaper. Among planes of equal cost, the lowest on the first axis
+    /// wins.
     pub(super) fn offer(&mut self, axis: Axis, at: f32, cost: f32) {
         let earlier = |(other, plane): (Axis, f32)| (axis.index(), at) < (other.index(), plane);
         let earlier = self.plane.is_some_and(earlier);
@@ -72,7 +73,7 @@ impl Best {
     }
 }
 
-/// Surface areas of the two parts of a cell as shares of the cell's, linear in the plane.
+/// Surface areas of the two parts of a cell, as fractions of the cell's area; linear in the plane.
 pub(super) struct Areas {
     pub(super) ends: Extent,
     /// Share of the two faces parallel to the plane.

@@ -1,14 +1,14 @@
-//! All planes at which an object begins or ends, for cells with few objects.
+//! All planes at which an object begins or ends as candidates, for cells with few objects.
 //!
-//! The planes are sorted into bins, and a bin is only looked into if, by the counts at its limits, one
-//! of its planes might be the cheapest. What is found is what looking at every plane finds.
+//! The planes are sorted into bins. A bin is searched only if the counts at its limits allow one of
+//! its planes to be the cheapest. The result is the same as for trying every plane.
 
 use super::cost::{Areas, Best, Costs, Extent, Plane};
 use super::extents::{Along, Scratch};
 use super::grid::{BINS, Grid, count_bins};
 use crate::geometry::Axis;
 
-/// Objects a bin, on average.
+/// Average number of objects per bin.
 const OBJECTS_PER_BIN: usize = 8;
 
 /// The search along one axis of a cell.
@@ -16,16 +16,16 @@ pub(super) struct Search<'a> {
     costs: &'a Costs,
     areas: &'a Areas,
     axis: Axis,
-    /// Of the cell.
+    /// Ends of the cell.
     ends: Extent,
     best: &'a mut Best,
 }
 
-/// What lies in a bin and before it.
+/// The object ends in a bin, and the counts before it.
 struct Bin<'a> {
     begins: &'a mut [f32],
     ends: &'a mut [f32],
-    /// Objects that begin and end in the bins before.
+    /// Numbers of objects that begin and end in earlier bins.
     begun: usize,
     ended: usize,
 }
@@ -53,7 +53,7 @@ impl<'a> Search<'a> {
         let objects = begins.len();
         let pairs = || begins.iter().zip(ends);
         scratch.flat.clear();
-        // To look at all of them is quick, and in most cells there is none.
+        // This check is fast, and most cells have no flat objects.
         if pairs().fold(false, |any, (begin, end)| any | (begin == end)) {
             let flat = pairs().filter(|(begin, end)| begin == end);
             scratch.flat.extend(flat.map(|(&begin, _)| begin));
@@ -87,7 +87,7 @@ impl<'a> Search<'a> {
                 *cost = self.lower_bound(limits, begin_of[bin] as usize, objects - ended);
             }
         }
-        // The most promising first, as what it gives rules out most of the others.
+        // The most promising bin comes first, because its result rules out most of the others.
         let by_cost = |a: &usize, b: &usize| costs[*a].total_cmp(&costs[*b]);
         let first = (0..bins).min_by(by_cost);
         if first.is_none_or(|first| costs[first] > self.best.cost) {
@@ -118,8 +118,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Offers the planes before which no object begins and after which none ends: the only ones that
-    /// may have an empty side.
+    /// Offers the planes at the first start and the last end of an object: the only ones that can
+    /// have an empty side.
     fn outermost(&mut self, extents: Along<'_>, flat: &[f32]) {
         let objects = extents.begins.len();
         let [first, last] = extents.hull();
@@ -135,10 +135,11 @@ impl<'a> Search<'a> {
         });
     }
 
-    /// No plane between two limits costs less, but for the outermost, where at least so many objects
-    /// are on either side. Between them the cost of parts with these objects is linear.
+    /// Returns a lower bound for the cost of all planes between two limits, except the outermost
+    /// ones, given the minimum number of objects on each side. The cost with fixed counts is linear
+    /// in between.
     fn lower_bound(&self, limits: Extent, below: usize, above: usize) -> f32 {
-        /// More than rounding can take off a cost.
+        /// An upper bound for the relative rounding error of a cost.
         const ROUNDING: f32 = 32.0 * f32::EPSILON;
         let [a, b] = limits.map(|at| {
             let plane = Plane {
@@ -160,7 +161,7 @@ impl<'a> Search<'a> {
         } = bin;
         begins.sort_unstable_by(f32::total_cmp);
         ends.sort_unstable_by(f32::total_cmp);
-        // How many of them lie before the plane.
+        // The numbers of starts and ends before the plane.
         let (mut i, mut k) = (0, 0);
         loop {
             let at = match (begins.get(i), ends.get(k)) {
@@ -182,13 +183,13 @@ impl<'a> Search<'a> {
     }
 }
 
-/// How many of a sorted list are equal to `at`.
+/// Returns how many elements of a sorted list are equal to `at`.
 fn count(sorted: &[f32], at: f32) -> usize {
     let from = sorted.partition_point(|&other| other < at);
     sorted[from..].partition_point(|&other| other == at)
 }
 
-/// Where each bin begins if planes lie in the order of their bins, and the end.
+/// The start of each bin in a list that is ordered by bins, and the end of the list.
 type Starts = [u32; BINS + 1];
 
 #[inline]
@@ -200,7 +201,7 @@ fn find_starts(planes: &[u8], bins: usize, starts: &mut Starts) {
     }
 }
 
-/// Puts planes in the order of their bins.
+/// Orders planes by their bins (counting sort).
 fn distribute(planes: &[f32], bins: &[u8], starts: &Starts, sorted: &mut Vec<f32>) {
     let mut next = *starts;
     sorted.resize(planes.len(), 0.0);
@@ -218,7 +219,7 @@ mod tests {
     use super::*;
     use crate::structure::{BuildSettings, Method};
 
-    /// What a plane cuts, by definition.
+    /// Counts the objects on both sides of a plane, by definition.
     fn counted(extents: &[Extent], at: f32) -> Plane {
         let in_plane = extents.iter().filter(|e| **e == [at, at]).count();
         Plane {
@@ -229,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn looking_into_few_bins_finds_what_trying_every_plane_finds() {
+    fn searching_few_bins_finds_what_trying_every_plane_finds() {
         let settings = BuildSettings::for_method(Method::named(METHOD.name).unwrap());
         let costs = Costs::new(&settings);
         let ends = [-0.75, 0.5];
@@ -240,7 +241,7 @@ mod tests {
         };
         for case in 0..2000 {
             let objects = 1 + next(if case % 10 == 0 { 700 } else { 90 });
-            // Few places make many ends equal, and width 0 an object that lies in a plane.
+            // Few positions make many ends equal; width 0 makes an object flat.
             let (places, widest) = (4 + next(400), 1 + next(40));
             let place = |i: u32| (ends[0] + 1.25 * i as f32 / places as f32).min(ends[1]);
             let extents: Vec<Extent> = (0..objects)

@@ -1,4 +1,4 @@
-//! Where the objects of a cell begin and end within it.
+//! The extents of the objects of a cell, clipped to it.
 
 use super::cost::Extent;
 use crate::geometry::Axis;
@@ -6,20 +6,21 @@ use crate::primitive::Shape;
 use crate::structure::frame::ObjectPlanes;
 use crate::structure::split::rule::Cell;
 
-/// Gives the extents of a cell's objects.
+/// Computes the extents of the objects of a cell.
 pub(super) struct Source<'a> {
     cell: &'a Cell<'a>,
     clip: bool,
 }
 
 impl<'a> Source<'a> {
-    /// With `clip` extents are those of an object's part within the cell, else those of its bounds
-    /// cut off at the cell.
+    /// With `clip`, extents are those of the part of an object within the cell; otherwise, those of
+    /// its bounds clipped to the cell.
     pub(super) fn new(cell: &'a Cell<'a>, clip: bool) -> Self {
         Source { cell, clip }
     }
 
-    /// The extent of the part of an object that is within the cell; none if there is no such part.
+    /// Returns the extent of the part of an object within the cell; `None` if there is no such
+    /// part.
     fn clipped(&self, object: u32) -> Option<ObjectPlanes> {
         let planes = &self.cell.object_planes[object as usize];
         let cut = clamp_to_cell(planes, &self.cell.local);
@@ -29,13 +30,13 @@ impl<'a> Source<'a> {
         self.part(object, &cut)
     }
 
-    /// The extent of the part within the cell of an object whose bounds, cut off at the cell, are
-    /// `cut`.
+    /// Returns the extent of the part within the cell of an object whose bounds, clipped to the
+    /// cell, are `cut`.
     fn part(&self, object: u32, cut: &ObjectPlanes) -> Option<ObjectPlanes> {
         let primitive = &self.cell.primitives[object as usize];
         let part = primitive.bounds_within(&self.cell.bounds)?;
         let part = self.cell.frame.planes_around(&part);
-        // Rounding must not move ends out of the cell.
+        // Rounding must not move the ends out of the cell.
         Some(std::array::from_fn(|k| {
             let [lo, hi] = cut[k];
             part[k].map(|at| at.max(lo).min(hi))
@@ -43,21 +44,21 @@ impl<'a> Source<'a> {
     }
 }
 
-/// The extents of a cell's objects, one axis after the other.
+/// The extents of the objects of a cell, one list per axis.
 #[derive(Default)]
 pub(super) struct Extents {
     begins: [Vec<f32>; 3],
     ends: [Vec<f32>; 3],
 }
 
-/// The extents along an axis: where each object begins, and where it ends.
+/// The extents along an axis: the start and the end of each object.
 #[derive(Clone, Copy)]
 pub(super) struct Along<'a> {
     pub(super) begins: &'a [f32],
     pub(super) ends: &'a [f32],
 }
 
-/// Lists that are used for one cell after the other.
+/// Lists that are reused from cell to cell.
 #[derive(Default)]
 pub(super) struct Scratch {
     pub(super) begins: Vec<f32>,
@@ -68,7 +69,7 @@ pub(super) struct Scratch {
 }
 
 thread_local! {
-    /// Kept so that no cell allocates.
+    /// Kept per thread, so that cells do not allocate.
     static SCRATCH: std::cell::Cell<(Extents, Scratch)> = std::cell::Cell::default();
 }
 
@@ -86,7 +87,7 @@ impl Extents {
         result
     }
 
-    /// Takes the extents of some of a cell's objects.
+    /// Computes the extents of some objects of a cell.
     pub(super) fn fill(&mut self, source: &Source<'_>, objects: &[u32]) {
         let most = objects.len();
         for list in self.begins.iter_mut().chain(&mut self.ends) {
@@ -108,7 +109,8 @@ impl Extents {
                 .filter_map(|&object| source.clipped(object))
                 .for_each(put);
         } else {
-            // Read once: for all the compiler knows, writing to the lists might change them.
+            // Copied because the compiler must assume that writing to the lists changes the
+            // originals.
             let (planes, local) = (source.cell.object_planes, source.cell.local);
             for &object in objects {
                 put(clamp_to_cell(&planes[object as usize], &local));
@@ -119,7 +121,7 @@ impl Extents {
         }
     }
 
-    /// Objects that do more than touch the cell from outside.
+    /// Returns the number of objects that overlap the cell.
     pub(super) fn objects(&self) -> usize {
         self.begins[0].len()
     }
@@ -133,7 +135,7 @@ impl Extents {
 }
 
 impl Along<'_> {
-    /// Ends of the whole: where the first object begins and the last ends.
+    /// Returns the start of the first object and the end of the last.
     pub(super) fn hull(&self) -> Extent {
         [
             fold(self.begins, f32::INFINITY, min),
@@ -142,20 +144,20 @@ impl Along<'_> {
     }
 }
 
-/// The lower of two numbers, of equal ones the first. Unlike `f32::min` it is one instruction, as none is
-/// NaN.
+/// Returns the smaller of two numbers, the first if they are equal. Unlike `f32::min`, this
+/// compiles to one instruction, because it does not handle NaN.
 #[inline]
 fn min(a: f32, b: f32) -> f32 {
     if b < a { b } else { a }
 }
 
-/// The higher likewise.
+/// Returns the larger of two numbers, the first if they are equal.
 #[inline]
 fn max(a: f32, b: f32) -> f32 {
     if b > a { b } else { a }
 }
 
-/// The extent of bounds, cut off at a cell.
+/// Returns bounds clipped to a cell.
 #[inline]
 fn clamp_to_cell(planes: &ObjectPlanes, cell: &ObjectPlanes) -> ObjectPlanes {
     std::array::from_fn(|k| {
@@ -164,7 +166,7 @@ fn clamp_to_cell(planes: &ObjectPlanes, cell: &ObjectPlanes) -> ObjectPlanes {
     })
 }
 
-/// Folds in lanes, so that no step waits for the one before.
+/// Folds in eight independent lanes, so that no step depends on the previous one.
 fn fold(values: &[f32], start: f32, step: impl Fn(f32, f32) -> f32) -> f32 {
     let (lanes, rest) = values.as_chunks::<8>();
     let mut folded = [start; 8];

@@ -2,22 +2,22 @@
 
 use super::cost::Extent;
 
-/// The most bins of a grid.
+/// Maximum number of bins.
 pub(super) const BINS: usize = 64;
 
 /// Bins from one end of a cell to the other.
 #[derive(Clone, Copy)]
 pub(super) struct Grid {
     lo: f32,
-    /// Width of a bin in units of the plane's coordinate, and bins a unit.
+    /// Width of a bin in local coordinates, and its reciprocal.
     width: f32,
     scale: f32,
     last: f32,
 }
 
 impl Grid {
-    /// About so many bins, from 1 to [`BINS`]; a single one where a cell is so thin that the limits
-    /// of more might not be told apart.
+    /// Creates `bins` bins, from 1 to [`BINS`]; only one if the cell is so thin that the limits of
+    /// several might coincide.
     pub(super) fn new([lo, hi]: Extent, bins: usize) -> Self {
         let width = (hi - lo) / bins as f32;
         let thick = width > 16.0 * f32::EPSILON * lo.abs().max(hi.abs());
@@ -30,7 +30,7 @@ impl Grid {
         }
     }
 
-    /// The lower limit of a bin.
+    /// Returns the lower limit of a bin.
     #[inline]
     pub(super) fn limit(&self, bin: usize) -> f32 {
         self.lo + self.width * bin as f32
@@ -40,31 +40,32 @@ impl Grid {
         self.last as usize + 1
     }
 
-    /// The bins whose limits, as rounded, hold planes between them: these lie at or above the lower
-    /// and below the upper one, but for the ends of the cell.
+    /// Computes the bin of each plane. A plane is at or above the rounded lower limit of its bin
+    /// and below the upper one, except at the ends of the cell.
     pub(super) fn bins_of(&self, planes: &[f32], bins: &mut Vec<u8>) {
         bins.resize(planes.len(), 0);
         #[cfg(target_arch = "x86_64")]
         if is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has these instructions.
+            // SAFETY: AVX2 is available, as checked above.
             return unsafe { self.bins_of_avx2(planes, bins) };
         }
         self.bins_of_here(planes, bins);
     }
 
     /// # Safety
-    /// The processor has these instructions.
+    /// AVX2 must be available.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
     unsafe fn bins_of_avx2(&self, planes: &[f32], bins: &mut [u8]) {
         self.bins_of_here(planes, bins);
     }
 
-    /// Free of branches and of conversions, so that it becomes vector instructions; the same in all of
-    /// them, as each operation rounds by itself.
+    /// Contains no branches and no conversions, so that it compiles to SIMD instructions. The
+    /// result is the same on every instruction set, because each operation is rounded separately.
     #[inline(always)]
     fn bins_of_here(&self, planes: &[f32], bins: &mut [u8]) {
-        /// Above it an `f32` has no fraction: to add it rounds, and leaves the integer in the bits.
+        /// From here on an `f32` has no fraction: adding it rounds and leaves the integer in the
+        /// low bits.
         const INTEGERS: f32 = (1 << 23) as f32;
         for (bin, &at) in bins.iter_mut().zip(planes) {
             let guess = (at - self.lo) * self.scale - 0.5;
@@ -80,10 +81,11 @@ impl Grid {
     }
 }
 
-/// Counts how many of these bins there are of each.
+/// Counts the elements of each bin.
 #[inline]
 pub(super) fn count_bins(bins: &[u8], counts: &mut [u32; BINS]) {
-    // Neighbours are often the same, and an increment waits for the one before in its place.
+    // Two tables, because neighbors are often equal and increments of one counter depend on each
+    // other.
     let mut others = [0; BINS];
     let (pairs, rest) = bins.as_chunks::<2>();
     for &[one, other] in pairs {
