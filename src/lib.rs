@@ -20,16 +20,18 @@
 //! | [`structure`] | 8-byte nodes, the build driver, voxels of grids, moments of the build, validation | |
 //! | [`structure::split`] | build methods: where a cell is split | a line in [`structure::split::SPLIT_RULES`] |
 //! | [`trace`] | traversal of trees and grids in two precisions; timed and counting kernels, scalar and SIMD; shading, rendering, recorded rays | |
-//! | [`setup`] | the whole experiment: scene, structure, render settings, camera | |
-//! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ, counts per kind of ray; verification against testing every object | an entry of [`measure::PARAMETERS`] or [`measure::RAY_FIGURES`] |
+//! | [`setup`] | the whole experiment: scene, structure, render settings, camera | a field and an entry of [`setup::SETTINGS`] |
+//! | [`measure`] | counters, which serve as the parameters of the paper's Tables 1 to 3, as heatmaps and as counts per kind of ray; Δ and Λ; verification against testing every object | an entry of [`measure::COUNTERS`] |
 //! | [`measure::model`] | the time model of equation (1), by regression and in place; where the rendering time goes | |
 //! | [`measure::sweep`] | the parameters for every combination of settings: points, rows, shards | |
 //! | [`measure::paper`] | the paper's printed tables, and its experiment repeated | |
 //! | [`measure::judge`] | exact arithmetic: why two hits differ | |
 //! | [`measure::stability`] | tests with extreme inputs | an entry of [`measure::stability::CASES`] |
 //! | [`measure::accuracy`] | accuracy vs. time: error and rendering time of each setting | a line in [`measure::accuracy::KNOBS`] |
-//! | [`measure::heat`] | counts per pixel | a line in [`measure::heat::HEATMAPS`] |
+//! | [`measure::heat`] | heatmaps: the cost of each pixel | |
 //! | [`jobs`] | background jobs and their scheduler: progress, pause, cancel, partial results | a file with one [`jobs::Job`] |
+//! | [`present::number`] [`present::words`] | numbers and results as text | |
+//! | [`present::chart`] | charts of a sweep | |
 //! | [`present::overlay`] | leaf cells, selection, ray paths and heatmaps as plain colors and lines; histograms | a line in [`present::overlay::COLORINGS`], [`present::overlay::COLORMAPS`] or [`present::overlay::HISTOGRAMS`] |
 //! | [`present::report`] | reports as text, JSON, CSV, Markdown, LaTeX and HTML | a line in [`present::report::WRITERS`] |
 //! | [`present::export`] | pictures, heatmaps with legends, leaf boxes, the whole report | a line in [`present::export::LEAF_WRITERS`] |
@@ -43,7 +45,7 @@
 //! file or generator ─▶ Scene ─▶ Tree ─▶ timed rendering   ─▶ picture, T_TR
 //!                                    └▶ counted rendering ─▶ tallies, T_TT
 //!                  facts on scene and tree, times, tallies ─▶ Measurement
-//!                  Measurement ─▶ PARAMETERS ─▶ Δ, Λ ─▶ reports and panels
+//!                  Measurement ─▶ COUNTERS ─▶ Δ, Λ ─▶ reports and panels
 //! ```
 //!
 //! # From another program
@@ -64,7 +66,7 @@
 //!     ..RenderSettings::default()
 //! };
 //! let measured = measure(&scene, &build, &render, &progress)?;
-//! let leaves = (parameter("N_LS").value)(&measured.measurement);
+//! let leaves = parameter("N_LS").value(&measured.measurement);
 //! assert!(leaves > Some(1.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

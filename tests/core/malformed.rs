@@ -190,25 +190,29 @@ fn each_mistake_after_a_view_is_named_with_its_line() {
             &["y of vertex 2 of 3 (a finite number)", "found 'nan'"],
         ),
         ("s 0 0 0 1#2\n3\n", 11, &["found the number '3'"]),
-        // Radii.
-        (
-            "s 0 0 0 -1\n",
-            10,
-            &["the sphere's radius, 0 or larger", "found '-1'"],
-        ),
+        // Radii: negative ones are those of an inside, which has but one.
         (
             "c 0 0 0 -0.5 0 0 1 1\n",
             10,
-            &["the cone's radius at its base, 0 or larger", "found '-0.5'"],
+            &[
+                "the cone's radius at its apex, of the same sign",
+                "found '1'",
+            ],
         ),
         (
             "c 0 0 0 1\n0 0 1 -1e-9\n",
             11,
-            &[
-                "the cone's radius at its apex, 0 or larger",
-                "found '-1e-9'",
-            ],
+            &["of the same sign", "found '-1e-9'"],
         ),
+        ("s 0 0 0 -inf\n", 10, &["the sphere's radius", "'-inf'"]),
+        // Comments.
+        (
+            "s 0 0 0 1\n/* and so on\n",
+            11,
+            &["'*/' at the end of the comment", "end of the file"],
+        ),
+        // Other formats.
+        ("fm 1 0 0\n", 10, &["'fm' of AFF", "another format"]),
         // A second view is checked like the first.
         (
             "v\nfrom 0 0 0\nat 0 0 0\n",
@@ -365,7 +369,6 @@ fn a_file_without_a_view_says_so_at_its_last_line() {
 #[test]
 fn binary_garbage_is_quoted_short_and_without_control_characters() {
     let cases: &[&[u8]] = &[
-        b"\xff\xfe\x00s\x00 \x00",
         b"\x7fELF\x02\x01\x01\x00\x00",
         b"\x89PNG\r\n\x1a\n",
         b"\x00\x00\x00\x00",
@@ -378,6 +381,14 @@ fn binary_garbage_is_quoted_short_and_without_control_characters() {
         assert!(message.contains("expected an entity"), "{message}");
         assert!(!message.contains(char::is_control), "{message:?}");
         assert!(message.len() < 400, "{message}");
+    }
+    for (bytes, name) in [
+        (&b"\xff\xfes\0 \0"[..], "UTF-16"),
+        (b"\0v\0\n\0f\0r", "UTF-16"),
+        (b"\xff\xfe\0\0", "UTF-32"),
+    ] {
+        let (line, message) = mistake(bytes);
+        assert!(line == 1 && message.contains(name), "{message}");
     }
     let (line, message) = mistake(&[VIEW.as_bytes(), b"s 0 0 \xc3\x28 1\n"].concat());
     assert_eq!(line, 10);
@@ -431,7 +442,6 @@ fn check_answer(answer: Result<SceneParts, ReadError>, lines: usize) {
                 assert!((1..=lines).contains(&line));
             }
         }
-        Err(ReadError::InSibling { name, .. }) => panic!("nothing is beside it, not even {name}"),
         Err(ReadError::Cancelled(_)) => panic!("nobody cancelled"),
     }
 }

@@ -12,9 +12,17 @@ use crate::scene::note::{Note, NoteKind};
 use crate::scene::parts::SceneParts;
 use std::collections::HashMap;
 
-/// Maximum number of objects and skipped faces of a file, including instances of meshes. This many
-/// triangles take about 8 GiB.
+/// Maximum number of objects and skipped faces of a file, including instances of meshes.
+///
+/// A triangle takes at most [`BYTES_PER_TRIANGLE`], so that this many take at most 11 GiB.
 pub const MAX_FACES: usize = 1 << 25;
+
+/// Maximum memory that a triangle with vertex normals takes, in bytes: the object, its material
+/// index and its normals.
+pub const BYTES_PER_TRIANGLE: usize = size_of::<Primitive>() + size_of::<u32>() + NORMALS;
+
+/// Bytes of three normals, with what an allocator adds to them.
+const NORMALS: usize = size_of::<[Vec3; 3]>() + 16;
 
 /// Maximum number of vertices of a face; larger faces are skipped.
 pub const MAX_VERTICES: usize = 1 << 20;
@@ -51,16 +59,36 @@ pub(super) struct SceneBuilder {
     /// The index of each material in `materials`, by the bits of its numbers.
     slots: HashMap<[u64; 8], u32>,
     /// The current material.
-    material: Material,
+    material: Current,
     /// Its index in `materials`, once an object uses it.
     slot: Option<u32>,
+    /// For each named material in use, its number and its index in `materials`.
+    named: HashMap<usize, u32>,
     reasons: Vec<Reason>,
     faces: usize,
     /// Vertices of polygons.
     corners: usize,
 }
 
+/// The material of the objects that follow.
+enum Current {
+    Known(Material),
+    /// A material that is defined at the end, by its number.
+    Named(usize),
+}
+
+impl Default for Current {
+    fn default() -> Self {
+        Current::Known(Material::default())
+    }
+}
+
 impl SceneBuilder {
+    /// Returns the number of objects and skipped faces so far.
+    pub fn faces(&self) -> usize {
+        self.faces
+    }
+
     /// Returns the tight bounding box of all objects so far.
     pub fn bounds(&self) -> Aabb {
         complete::bounds(&self.objects)
@@ -76,25 +104,62 @@ impl SceneBuilder {
     /// Sets the material of the objects that follow. Equal materials are merged, and unused
     /// materials are dropped.
     pub fn set_material(&mut self, material: Material) {
-        self.material = material;
+        self.material = Current::Known(material);
         self.slot = None;
+    }
+
+    /// Sets the material of the objects that follow to one that [`SceneBuilder::define`] defines
+    /// once everything is read.
+    pub fn set_named_material(&mut self, number: usize) {
+        self.material = Current::Named(number);
+        self.slot = self.named.get(&number).copied();
+    }
+
+    /// Defines the materials that [`SceneBuilder::set_named_material`] announced, each by its
+    /// number. Equal materials are merged.
+    pub fn define(&mut self, materials: &[Material]) {
+        if self.named.is_empty() {
+            return;
+        }
+        for (&number, &slot) in &self.named {
+            self.materials[slot as usize] = materials[number];
+        }
+        self.named.clear();
+        let (mut merged, mut slots) = (Vec::new(), HashMap::new());
+        let new: Vec<u32> = self
+            .materials
+            .iter()
+            .map(|m| merge(m, &mut merged, &mut slots))
+            .collect();
+        for slot in &mut self.material_of {
+            *slot = new[*slot as usize];
+        }
+        (self.materials, self.slots, self.slot) = (merged, slots, None);
     }
 
     /// Notes that something was skipped or changed. Notes are counted by reason, with the position
     /// of the first.
     pub fn note(&mut self, kind: NoteKind, text: &str, place: Place) {
+        self.note_times(kind, text, 1, place);
+    }
+
+    /// Notes that something was skipped or changed `times` times.
+    pub fn note_times(&mut self, kind: NoteKind, text: &str, times: usize, place: Place) {
+        if times == 0 {
+            return;
+        }
         let is_full = self.reasons.len() >= MAX_REASONS;
         for text in [text, OTHER_REASONS] {
             let known = |reason: &&mut Reason| reason.kind == kind && reason.text == text;
             if let Some(reason) = self.reasons.iter_mut().find(known) {
-                reason.count += 1;
+                reason.count += times;
                 return;
             }
             if !is_full || text == OTHER_REASONS {
                 self.reasons.push(Reason {
                     kind,
                     text: text.to_owned(),
-                    count: 1,
+                    count: times,
                     first: place,
                 });
                 return;
@@ -105,17 +170,32 @@ impl SceneBuilder {
     /// Adds a face: a triangle if it has three vertices, a polygon if it has more. A non-planar
     /// polygon is split into triangles. A face with zero area is skipped.
     ///
+    /// A normal of zero length, or one that is not finite, is replaced by that of the face.
+    ///
     /// # Errors
-    /// A number is not finite, or there are too many faces.
+    /// A coordinate is not finite, or there are too many faces.
     pub fn face(
         &mut self,
         place: Place,
         vertices: &[Vec3],
         normals: Option<&[Vec3]>,
     ) -> Result<(), ReadError> {
-        if normals.is_some_and(|n| n.contains(&Vec3::ZERO)) {
-            const TEXT: &str = "zero-length vertex normal; using the face normal";
-            self.note(NoteKind::Changed, TEXT, place);
+        let mut repaired = Vec::new();
+        let mut normals = normals;
+        if let Some(given) = normals
+            && given.iter().any(|n| !is_direction(*n))
+        {
+            let (infinite, zero) = (
+                given.iter().any(|n| !n.is_finite()),
+                given.contains(&Vec3::ZERO),
+            );
+            for (there, text) in [(infinite, INFINITE_NORMAL), (zero, ZERO_NORMAL)] {
+                self.note_times(NoteKind::Changed, text, usize::from(there), place);
+            }
+            let direction = |n: &Vec3| if is_direction(*n) { *n } else { Vec3::ZERO };
+            repaired.extend(given.iter().map(direction));
+            let any = repaired.iter().any(|n| *n != Vec3::ZERO);
+            normals = any.then_some(&repaired);
         }
         if let &[a, b, c] = vertices {
             let normals = normals.map(|n| [n[0], n[1], n[2]]);
@@ -180,8 +260,8 @@ impl SceneBuilder {
             Ok(object) => {
                 self.count_face(place)?;
                 let material = self.slot();
-                self.objects.push(object);
-                self.material_of.push(material);
+                push(&mut self.objects, object);
+                push(&mut self.material_of, material);
                 Ok(())
             }
             Err(ShapeError::ZeroArea) => self.skip_face(place, ZERO_AREA),
@@ -204,6 +284,15 @@ impl SceneBuilder {
         Ok(())
     }
 
+    /// Notes in one line that a file has points but no faces.
+    pub fn note_points(&mut self, points: usize) {
+        if points > 0 {
+            let are = if points == 1 { "point" } else { "points" };
+            let text = format!("{points} {are}, no faces");
+            self.notes.push(Note::new(NoteKind::Skipped, text));
+        }
+    }
+
     fn count_face(&mut self, place: Place) -> Result<(), ReadError> {
         self.faces += 1;
         if self.faces > MAX_FACES {
@@ -218,26 +307,15 @@ impl SceneBuilder {
         if let Some(slot) = self.slot {
             return slot;
         }
-        let m = self.material;
-        let [r, g, b] = m.color.to_array();
-        let numbers = [
-            r,
-            g,
-            b,
-            m.diffuse,
-            m.specular,
-            m.shine,
-            m.transmittance,
-            m.index_of_refraction,
-        ];
-        let materials = &mut self.materials;
-        let slot = *self
-            .slots
-            .entry(numbers.map(f64::to_bits))
-            .or_insert_with(|| {
-                materials.push(m);
-                (materials.len() - 1) as u32
-            });
+        let slot = match self.material {
+            Current::Known(material) => merge(&material, &mut self.materials, &mut self.slots),
+            Current::Named(number) => {
+                let slot = self.materials.len() as u32;
+                self.materials.push(Material::default());
+                self.named.insert(number, slot);
+                slot
+            }
+        };
         self.slot = Some(slot);
         slot
     }
@@ -311,5 +389,41 @@ impl SceneBuilder {
     }
 }
 
+/// Adds an item to a list. A long list grows by a quarter at a time instead of doubling.
+fn push<T>(list: &mut Vec<T>, item: T) {
+    const LONG: usize = 1 << 16;
+    let length = list.len();
+    if length == list.capacity() && length >= LONG {
+        list.reserve_exact(length / 4);
+    }
+    list.push(item);
+}
+
+/// Returns the index of a material in `materials`, where it is added if no equal one is there.
+fn merge(m: &Material, materials: &mut Vec<Material>, slots: &mut HashMap<[u64; 8], u32>) -> u32 {
+    let [r, g, b] = m.color.to_array();
+    let numbers = [
+        r,
+        g,
+        b,
+        m.diffuse,
+        m.specular,
+        m.shine,
+        m.transmittance,
+        m.index_of_refraction,
+    ];
+    *slots.entry(numbers.map(f64::to_bits)).or_insert_with(|| {
+        materials.push(*m);
+        (materials.len() - 1) as u32
+    })
+}
+
+/// Returns whether a normal has a direction.
+fn is_direction(normal: Vec3) -> bool {
+    normal.is_finite() && normal != Vec3::ZERO
+}
+
+pub(super) const INFINITE_NORMAL: &str = "vertex normal that is not finite; using the face normal";
+const ZERO_NORMAL: &str = "zero-length vertex normal; using the face normal";
 const ZERO_AREA: &str = "polygon with zero area";
 const OTHER_REASONS: &str = "other reasons";

@@ -13,12 +13,6 @@ pub enum ReadError {
         expected: String,
         found: String,
     },
-    /// An error in a file that this file refers to, or the lack of that file.
-    #[error("{}", located(.name, .reason))]
-    InSibling {
-        name: String,
-        reason: Box<ReadError>,
-    },
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }

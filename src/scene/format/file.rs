@@ -20,13 +20,25 @@ pub enum FormatError {
     #[error("{}", located(.path.display(), .reason))]
     Read { path: PathBuf, reason: ReadError },
     #[error(
-        "{}: unknown file format: neither the extension nor the content is that of a scene file ({})",
+        "{}: unknown file format: neither the extension nor the content is that of a scene file ({}){}",
         .path.display(),
-        names()
+        names(),
+        hint(.path)
     )]
     Unknown { path: PathBuf },
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+/// Returns what else is known about a file of an unknown format.
+fn hint(path: &Path) -> &'static str {
+    let is_aff = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("aff"));
+    match is_aff {
+        true => "; AFF, the Animated File Format of BART, is another format than NFF",
+        false => "",
+    }
 }
 
 /// Reads a scene file. The content determines the format, or else the extension. The scene is named

@@ -112,10 +112,10 @@ impl<'a> Iterator for Words<'a> {
     }
 }
 
-impl Words<'_> {
-    /// Returns the rest of the line as text.
-    pub fn rest(&self) -> String {
-        String::from_utf8_lossy(self.rest.trim_ascii()).into_owned()
+impl<'a> Words<'a> {
+    /// Returns the rest of the line.
+    pub fn rest_bytes(&self) -> &'a [u8] {
+        self.rest.trim_ascii()
     }
 
     /// Creates the error that a word, or the end of the line if `None`, was not expected here.
@@ -129,7 +129,7 @@ impl Words<'_> {
         let Some(word) = self.next() else {
             return Ok(None);
         };
-        match parse::<f64>(word) {
+        match number(word) {
             Some(number) if number.is_finite() => Ok(Some(number)),
             _ => Err(self.error(format_args!("{what} (a finite number)"), Some(word))),
         }
@@ -140,19 +140,133 @@ impl Words<'_> {
         self.number(&what)?.ok_or_else(|| self.error(what, None))
     }
 
-    /// Parses three numbers.
+    /// Parses three numbers, which need not be finite.
     pub fn point(&mut self, of: &str) -> Result<Vec3, ReadError> {
         let mut point = [0.0; 3];
-        for (number, name) in point.iter_mut().zip(["x", "y", "z"]) {
-            *number = self.expect_number(format_args!("{name} of {of}"))?;
+        for (coordinate, name) in point.iter_mut().zip(["x", "y", "z"]) {
+            let word = self.next();
+            *coordinate = word
+                .and_then(number)
+                .ok_or_else(|| self.error(format_args!("{name} of {of} (a number)"), word))?;
         }
         Ok(Vec3::from_array(point))
     }
+
+    /// Parses three numbers of a direction; what cannot be read is not a number.
+    pub fn direction(&mut self) -> Vec3 {
+        let mut part = || self.next().and_then(number).unwrap_or(f64::NAN);
+        Vec3::new(part(), part(), part())
+    }
+}
+
+/// Parses a number as programs write it: also with the exponents of Fortran (`1.5D+02`), and with
+/// the names that C libraries give to what is not a number (`-1.#IND00`, `nan(ind)`). Returns
+/// `None` for anything else.
+pub(super) fn number(word: &[u8]) -> Option<f64> {
+    parse(word).or_else(|| unusual_number(word))
+}
+
+#[cold]
+fn unusual_number(word: &[u8]) -> Option<f64> {
+    const LONGEST: usize = 64;
+    if word.len() > LONGEST {
+        return None;
+    }
+    let word = word.to_ascii_lowercase();
+    let unsigned = word.strip_prefix(b"-").or(word.strip_prefix(b"+"));
+    let unsigned = unsigned.unwrap_or(&word);
+    if unsigned.starts_with(b"nan(") && unsigned.ends_with(b")") {
+        return Some(f64::NAN);
+    }
+    if let Some(name) = unsigned.strip_prefix(b"1.#") {
+        let name = name.trim_ascii_end();
+        let is = |known: &[u8]| {
+            let digits = name.strip_prefix(known);
+            digits.is_some_and(|digits| digits.iter().all(u8::is_ascii_digit))
+        };
+        if is(b"inf") {
+            let infinite = f64::INFINITY;
+            return Some(if word[0] == b'-' { -infinite } else { infinite });
+        }
+        let is_nan = [&b"ind"[..], b"qnan", b"snan", b"nan"].into_iter().any(is);
+        return is_nan.then_some(f64::NAN);
+    }
+    let exponent = word.iter().position(|b| *b == b'd')?;
+    let digits = |bytes: &[u8]| {
+        let of_number = |b: &u8| matches!(b, b'0'..=b'9' | b'.' | b'+' | b'-');
+        !bytes.is_empty() && bytes.iter().all(of_number)
+    };
+    if !digits(&word[..exponent]) || !digits(&word[exponent + 1..]) {
+        return None;
+    }
+    let mut word = word;
+    word[exponent] = b'e';
+    parse(&word)
+}
+
+/// Returns where a comment that begins with `#` starts, if there is one. The `#` in the names that
+/// C libraries give to what is not a number (`-1.#IND00`) starts none.
+pub(super) fn comment_start(line: &[u8]) -> Option<usize> {
+    let starts_one = |i: usize| {
+        let is_name =
+            line[..i].ends_with(b"1.") && line.get(i + 1).is_some_and(u8::is_ascii_alphabetic);
+        !is_name
+    };
+    let mut marks = line.iter().enumerate().filter(|(_, byte)| **byte == b'#');
+    marks.find(|(i, _)| starts_one(*i)).map(|(i, _)| i)
+}
+
+/// Parses a whole number, which may be written as a decimal (`4.0`).
+pub(super) fn whole(word: &[u8]) -> Option<i64> {
+    // Longer numbers are left to the general case, which notices an overflow.
+    if word.len() <= 18 && !word.is_empty() && word.iter().all(u8::is_ascii_digit) {
+        return Some(word.iter().fold(0, |n, b| 10 * n + i64::from(b - b'0')));
+    }
+    parse(word).or_else(|| whole_of(number(word)?))
+}
+
+/// Returns a number as an integer; `None` if it is not whole or does not fit.
+pub(super) fn whole_of(number: f64) -> Option<i64> {
+    const LARGEST: f64 = (1_u64 << 53) as f64;
+    (number.fract() == 0.0 && number.abs() <= LARGEST).then_some(number as i64)
 }
 
 /// Parses a word.
 pub(super) fn parse<T: std::str::FromStr>(word: &[u8]) -> Option<T> {
     std::str::from_utf8(word).ok()?.parse().ok()
+}
+
+/// Refuses text in an encoding other than ASCII and its extensions. Text in UTF-16 or UTF-32 is
+/// recognized by its byte-order mark, or by the zeros among its first letters.
+pub(super) fn refuse_wide_text(bytes: &[u8]) -> Result<(), ReadError> {
+    match wide_text(bytes) {
+        None => Ok(()),
+        Some(name) => {
+            let expected = "text in ASCII or UTF-8 (save the file in that encoding)";
+            Err(ReadError::at(
+                Place::Line(1),
+                expected,
+                format_args!("text in {name}"),
+            ))
+        }
+    }
+}
+
+/// Returns the name of the encoding of text with more than one byte per letter; `None` for other
+/// text.
+pub(super) fn wide_text(bytes: &[u8]) -> Option<&'static str> {
+    let letter = |b: u8| b.is_ascii_graphic() || b.is_ascii_whitespace();
+    match *bytes {
+        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => Some("UTF-32"),
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("UTF-16"),
+        [a, 0, 0, 0, b, 0, 0, 0, ..] | [0, 0, 0, a, 0, 0, 0, b, ..] if letter(a) && letter(b) => {
+            Some("UTF-32")
+        }
+        [a, 0, b, 0, c, 0, ..] | [0, a, 0, b, 0, c, ..] if letter(a) && letter(b) && letter(c) => {
+            Some("UTF-16")
+        }
+        _ => None,
+    }
 }
 
 /// Quotes text for a message: truncated to a short length, with control characters escaped.

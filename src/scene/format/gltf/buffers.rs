@@ -1,5 +1,7 @@
 //! Loads the buffers: from the file, from data URIs, or from files in the same folder.
 
+use super::extensions::compressed;
+use super::json::Root;
 use crate::progress::Progress;
 use crate::scene::format::error::ReadError;
 use crate::scene::format::input::{Input, MAX_BYTES, SiblingError};
@@ -8,7 +10,7 @@ use crate::scene::format::place::Place;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
-use gltf_json::Root;
+use percent_encoding::percent_decode_str;
 use std::borrow::Cow;
 
 /// Writers differ in whether they pad the end.
@@ -33,7 +35,8 @@ pub(super) fn load<'a>(
             (None, Some(binary)) if number == 0 => Cow::Borrowed(binary),
             (None, _) => {
                 let expected = "a URI, or the binary chunk of a GLB";
-                return Err(ReadError::at(place, expected, "neither"));
+                let error = compressed(buffer.extensions.keys(), place);
+                return Err(error.unwrap_or_else(|| ReadError::at(place, expected, "neither")));
             }
         };
         let declared = buffer.byte_length.0;
@@ -57,15 +60,10 @@ fn of_uri(
     input: &Input<'_>,
     progress: &Progress,
 ) -> Result<Vec<u8>, ReadError> {
-    if let Some(data) = uri.strip_prefix("data:") {
-        let Some((_, text)) = data.split_once(";base64,") else {
-            return Err(ReadError::at(place, "a data URI in base64", "another"));
-        };
-        return BASE64
-            .decode(text)
-            .map_err(|error| ReadError::at(place, "base64", error));
+    if let Some(data) = uri.trim_start().strip_prefix("data:") {
+        return of_data(data, place);
     }
-    let name = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
+    let name = percent_decode_str(uri).decode_utf8_lossy();
     input
         .read_sibling(&name, progress)
         .map_err(|error| match error {
@@ -75,4 +73,32 @@ fn of_uri(
                 ReadError::at(place, expected, format_args!("none: {error}"))
             }
         })
+}
+
+/// Returns the bytes of a data URI (L. Masinter, RFC 2397), given what follows `data:`.
+fn of_data(data: &str, place: Place) -> Result<Vec<u8>, ReadError> {
+    let Some((kind, text)) = data.split_once(',') else {
+        return Err(ReadError::at(place, "a data URI with a comma", "none"));
+    };
+    let decoded = Cow::from(percent_decode_str(text));
+    let is_base64 = kind.trim_end().to_ascii_lowercase().ends_with("base64");
+    if !is_base64 {
+        return Ok(decoded.into_owned());
+    }
+    let is_unusual = |b: &u8| b.is_ascii_whitespace() || matches!(b, b'-' | b'_');
+    let plain: Cow<'_, [u8]> = if decoded.iter().any(is_unusual) {
+        // Line breaks, and the alphabet for URLs.
+        let letters = decoded.iter().filter(|b| !b.is_ascii_whitespace());
+        let letter = |b: &u8| match b {
+            b'-' => b'+',
+            b'_' => b'/',
+            other => *other,
+        };
+        letters.map(letter).collect::<Vec<u8>>().into()
+    } else {
+        decoded
+    };
+    BASE64
+        .decode(&plain)
+        .map_err(|error| ReadError::at(place, "base64 in the data URI", error))
 }

@@ -6,6 +6,10 @@ use crate::scene::format::place::Place;
 /// Bytes at the start and end of a file in which the `asset` key is looked for.
 const SNIFFED_BYTES: usize = 1 << 16;
 
+/// What is expected where another version is found.
+pub(super) const VERSION_2: &str =
+    "glTF version 2 (convert the file, for example by importing and exporting it with Blender)";
+
 /// Returns whether the file is a GLB.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
     bytes.starts_with(b"glTF")
@@ -27,7 +31,8 @@ pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), ReadError> {
     }
     let version = number(bytes, 4)?;
     if version != 2 {
-        return Err(ReadError::at(Place::Byte(4), "version 2", version));
+        let found = format!("glTF {version}.0");
+        return Err(ReadError::at(Place::Byte(4), VERSION_2, found));
     }
     let length = number(bytes, 8)? as usize;
     let Some(file) = bytes.get(..length) else {

@@ -1,11 +1,10 @@
 //! Conversion of `KHR_lights_punctual` to lights without falloff.
 
-use super::nodes::PlacedLight;
+use super::nodes::{LightKind, PlacedLight};
 use crate::geometry::{Aabb, Vec3};
 use crate::scene::format::builder::SceneBuilder;
 use crate::scene::material::Light;
 use crate::scene::note::NoteKind;
-use gltf_json::extensions::scene::khr_lights_punctual::Type;
 
 /// Distance of directional lights, in diagonals of the scene.
 const FAR: f64 = 1000.0;
@@ -20,8 +19,10 @@ pub(super) fn add(lights: &[PlacedLight], bounds: &Aabb, builder: &mut SceneBuil
     let mut shining = Vec::new();
     for light in lights {
         let (position, squared) = match light.kind {
-            Type::Directional => (center - FAR * size * light.direction, 1.0),
-            Type::Point | Type::Spot => (light.position, light.position.distance_squared(center)),
+            LightKind::Directional => (center - FAR * size * light.direction, 1.0),
+            LightKind::Point | LightKind::Spot => {
+                (light.position, light.position.distance_squared(center))
+            }
         };
         // Avoids dividing by zero for a light at the center itself.
         let color = light.color * light.intensity / squared.max(1e-6 * size * size);
@@ -31,13 +32,13 @@ pub(super) fn add(lights: &[PlacedLight], bounds: &Aabb, builder: &mut SceneBuil
         }
         const FAR_AWAY: &str = "directional light replaced by a distant point light";
         match light.kind {
-            Type::Directional => builder.note(NoteKind::Changed, FAR_AWAY, light.place),
-            Type::Spot => builder.note(
+            LightKind::Directional => builder.note(NoteKind::Changed, FAR_AWAY, light.place),
+            LightKind::Spot => builder.note(
                 NoteKind::Changed,
                 "spot light replaced by a point light",
                 light.place,
             ),
-            Type::Point => {}
+            LightKind::Point => {}
         }
         shining.push((position, color, light.place));
     }

@@ -1,15 +1,29 @@
 //! glTF 2.0 and its binary form GLB (Khronos Group, glTF 2.0 Specification, 2021).
 //!
 //! Reads the meshes of the file's scene with the transformations of its nodes, the first
-//! perspective camera, base colors, and the lights of `KHR_lights_punctual`. Buffers can be in the
-//! file, in data URIs, or in files in its folder or below. Textures, lines, points, orthographic
-//! cameras, animations, skins and sparse accessors are skipped and counted.
+//! perspective camera and base colors. Buffers can be in the file, in data URIs, or in files in its
+//! folder or below. These extensions are read:
 //!
-//! `gltf-json` parses the JSON. Every index and range in it is checked here where it is used.
+//! | extension | meaning |
+//! |---|---|
+//! | `EXT_mesh_gpu_instancing` | copies of a mesh |
+//! | `KHR_node_visibility` | hidden nodes |
+//! | `KHR_mesh_quantization` | coordinates in small integers |
+//! | `KHR_lights_punctual` | lights |
+//! | `KHR_materials_pbrSpecularGlossiness` | diffuse and specular color |
+//! | `KHR_materials_transmission`, `KHR_materials_ior` | glass |
+//!
+//! Textures, vertex colors, emission, lines, points, orthographic cameras, animations, skins and
+//! all other extensions are skipped and named in the load report. A file that requires an extension
+//! which changes the geometry, such as mesh compression, is refused.
+//!
+//! Every index and range in the JSON is checked where it is used.
 
 mod accessor;
 mod buffers;
 mod container;
+mod extensions;
+mod json;
 mod lights;
 mod material;
 mod meshes;
@@ -24,9 +38,9 @@ use super::place::Place;
 use crate::geometry::Vec3;
 use crate::progress::Progress;
 use crate::scene::camera::Camera;
-use crate::scene::note::NoteKind;
+use crate::scene::note::{Note, NoteKind};
 use crate::scene::parts::SceneParts;
-use gltf_json::Root;
+use json::{Head, Root};
 
 pub(super) const FORMAT: Format = Format {
     name: "gltf",
@@ -44,9 +58,14 @@ fn read(input: &Input<'_>, progress: &Progress) -> Result<SceneParts, ReadError>
     let (json, binary) = container::split(input.bytes)?;
     progress.check()?;
     let root = parse(json)?;
-    refuse_unreadable(&root)?;
+    extensions::refuse_required(&root)?;
     let buffers = buffers::load(&root, binary, input, &progress.part(0.0, 0.1))?;
     let mut builder = SceneBuilder::default();
+    if root.asset.version().is_none() {
+        let text = "no version in the file; reading it as glTF 2.0";
+        builder.notes.push(Note::new(NoteKind::Defaulted, text));
+    }
+    extensions::note_ignored(&root, &mut builder);
     note_skipped(&root, &mut builder);
     let placed = nodes::collect(&root, &mut builder, progress)?;
     meshes::read(
@@ -76,39 +95,26 @@ fn parse(json: &[u8]) -> Result<Root, ReadError> {
         let most = format_args!("at most {MAX_JSON_OBJECTS} JSON objects");
         return Err(ReadError::at(start, most, objects));
     }
+    super::lines::refuse_wide_text(json)?;
     let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
-    let root: Root = gltf_json::deserialize::from_slice(json).map_err(|error| {
+    let other_version = |asset: &json::Asset| {
+        let version = asset
+            .version()
+            .filter(|version| !version.starts_with('2'))?;
+        let version = super::lines::quoted(version.as_bytes());
+        let found = format!("glTF {}", version.trim_matches('\''));
+        Some(ReadError::at(start, container::VERSION_2, found))
+    };
+    let root: Root = serde_json::from_slice(json).map_err(|error| {
+        // Other versions have another structure.
+        let head: Result<Head, _> = serde_json::from_slice(json);
+        let other = head.ok().and_then(|head| other_version(&head.asset));
         let line = Place::Line(error.line().max(1));
-        ReadError::at(line, "the JSON of a glTF file", error)
+        other.unwrap_or_else(|| ReadError::at(line, "the JSON of a glTF file", error))
     })?;
-    let version = &root.asset.version;
-    if !version.starts_with("2.") {
-        return Err(ReadError::at(
-            start,
-            "glTF version 2",
-            format!("{version:?}"),
-        ));
-    }
-    Ok(root)
-}
-
-/// Rejects files that require an extension which changes the geometry or how it is stored.
-fn refuse_unreadable(root: &Root) -> Result<(), ReadError> {
-    const HARMLESS: [&str; 5] = [
-        "KHR_lights_punctual",
-        "KHR_mesh_quantization",
-        "KHR_materials_",
-        "KHR_texture_",
-        "EXT_texture_",
-    ];
-    let harmful = |name: &&String| !HARMLESS.iter().any(|known| name.starts_with(known));
-    match root.extensions_required.iter().find(harmful) {
-        None => Ok(()),
-        Some(name) => {
-            let expected = "only supported required extensions";
-            let name = super::lines::quoted(name.as_bytes());
-            Err(ReadError::at(Place::Line(1), expected, name))
-        }
+    match other_version(&root.asset) {
+        Some(error) => Err(error),
+        None => Ok(root),
     }
 }
 

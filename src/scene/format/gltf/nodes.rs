@@ -1,5 +1,7 @@
 //! The node hierarchy: where meshes, cameras and lights are placed.
 
+use super::extensions::{INSTANCING, LIGHTS, VISIBILITY};
+use super::json::{Fields, Node, Root, Whole};
 use crate::geometry::Vec3;
 use crate::progress::Progress;
 use crate::scene::format::builder::SceneBuilder;
@@ -7,10 +9,7 @@ use crate::scene::format::error::ReadError;
 use crate::scene::format::place::Place;
 use crate::scene::note::NoteKind;
 use glam::{DMat4, DQuat};
-use gltf_json::extensions::scene::khr_lights_punctual::{Light, Type};
-use gltf_json::scene::Node;
-use gltf_json::validation::Checked;
-use gltf_json::{Index, Mesh, Root};
+use serde_json::Value;
 
 /// Nodes between two checks for cancellation.
 const NODES_PER_CHECK: usize = 4096;
@@ -18,11 +17,18 @@ const NODES_PER_CHECK: usize = 4096;
 /// Everything that the nodes place in the world.
 #[derive(Default)]
 pub(super) struct Placed {
-    /// Meshes by number, with their transformation to world space.
-    pub meshes: Vec<(Index<Mesh>, DMat4)>,
+    pub meshes: Vec<PlacedMesh>,
     /// The first perspective camera.
     pub camera: Option<PlacedCamera>,
     pub lights: Vec<PlacedLight>,
+}
+
+/// A mesh in world space.
+pub(super) struct PlacedMesh {
+    pub mesh: usize,
+    pub to_world: DMat4,
+    /// The node with the extension that places copies of the mesh.
+    pub instancing: Option<usize>,
 }
 
 /// A perspective camera in world space.
@@ -36,9 +42,16 @@ pub(super) struct PlacedCamera {
     pub near: f64,
 }
 
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum LightKind {
+    Directional,
+    Point,
+    Spot,
+}
+
 /// A light in world space.
 pub(super) struct PlacedLight {
-    pub kind: Type,
+    pub kind: LightKind,
     pub color: Vec3,
     /// Candela, or lux for a directional one.
     pub intensity: f64,
@@ -57,9 +70,9 @@ pub(super) fn collect(
     progress: &Progress,
 ) -> Result<Placed, ReadError> {
     let mut placed = Placed::default();
-    let number = root.scene.map_or(0, |scene| scene.value());
+    let number = root.scene.map_or(0, Whole::index);
     let roots: Vec<usize> = match root.scenes.get(number) {
-        Some(scene) => scene.nodes.iter().map(Index::value).collect(),
+        Some(scene) => scene.nodes.iter().map(|node| node.index()).collect(),
         None if root.scenes.is_empty() => orphans(root),
         None => {
             let count = root.scenes.len();
@@ -99,10 +112,19 @@ pub(super) fn collect(
             builder.note(NoteKind::Skipped, "node with two parents", place);
             continue;
         }
+        let visibility = node
+            .extensions
+            .get(VISIBILITY)
+            .and_then(|e| e.get("visible"));
+        if visibility == Some(&Value::Bool(false)) {
+            let text = "node that is hidden (KHR_node_visibility), with its children";
+            builder.note(NoteKind::Skipped, text, place);
+            continue;
+        }
         let world = parent * local(node);
-        node_content(root, node, world, place, &mut placed, builder)?;
-        let children = node.children.iter().flatten().rev();
-        pending.extend(children.map(|child| (child.value(), world)));
+        node_content(root, node, world, number, &mut placed, builder);
+        let children = node.children.iter().rev();
+        pending.extend(children.map(|child| (child.index(), world)));
     }
     Ok(placed)
 }
@@ -110,12 +132,8 @@ pub(super) fn collect(
 /// Returns the nodes that are not a child of any other.
 fn orphans(root: &Root) -> Vec<usize> {
     let mut is_child = vec![false; root.nodes.len()];
-    for child in root
-        .nodes
-        .iter()
-        .flat_map(|node| node.children.iter().flatten())
-    {
-        if let Some(known) = is_child.get_mut(child.value()) {
+    for child in root.nodes.iter().flat_map(|node| &node.children) {
+        if let Some(known) = is_child.get_mut(child.index()) {
             *known = true;
         }
     }
@@ -124,50 +142,48 @@ fn orphans(root: &Root) -> Vec<usize> {
 
 /// Returns the transformation from the node's coordinates to those of its parent.
 fn local(node: &Node) -> DMat4 {
-    if let Some(matrix) = node.matrix {
-        return DMat4::from_cols_array(&matrix.map(f64::from));
+    if let Some(matrix) = &node.matrix {
+        return DMat4::from_cols_array(matrix);
     }
-    let vector = |v: [f32; 3]| Vec3::from_array(v.map(f64::from));
-    let rotation = node.rotation.unwrap_or_default().0.map(f64::from);
-    let rotation = DQuat::from_array(rotation);
     DMat4::from_scale_rotation_translation(
-        node.scale.map_or(Vec3::ONE, vector),
-        // In `f32` its length is 1 only up to rounding.
-        if rotation.length_squared() > 0.0 {
-            rotation.normalize()
-        } else {
-            DQuat::IDENTITY
-        },
-        node.translation.map_or(Vec3::ZERO, vector),
+        node.scale.map_or(Vec3::ONE, Vec3::from_array),
+        rotation(node.rotation.unwrap_or_default()),
+        node.translation.map_or(Vec3::ZERO, Vec3::from_array),
     )
+}
+
+/// Returns the rotation of a quaternion, whose length may be 1 only up to rounding.
+pub(super) fn rotation(quaternion: [f64; 4]) -> DQuat {
+    let rotation = DQuat::from_array(quaternion);
+    if rotation.length_squared() > 0.0 {
+        rotation.normalize()
+    } else {
+        DQuat::IDENTITY
+    }
 }
 
 fn node_content(
     root: &Root,
     node: &Node,
-    world: DMat4,
-    place: Place,
+    to_world: DMat4,
+    number: usize,
     placed: &mut Placed,
     builder: &mut SceneBuilder,
-) -> Result<(), ReadError> {
+) {
+    let place = Place::Element("node", number);
     if let Some(mesh) = node.mesh {
-        placed.meshes.push((mesh, world));
-    }
-    let none = "none of this number";
-    if let Some(number) = node.camera {
-        let camera = root.cameras.get(number.value());
-        let camera = camera.ok_or_else(|| ReadError::at(place, "a camera", none))?;
-        let camera = camera.perspective.as_ref().and_then(|p| {
-            Some(PlacedCamera {
-                from: world.transform_point3(Vec3::ZERO),
-                forward: world.transform_vector3(Vec3::NEG_Z).try_normalize()?,
-                up: world.transform_vector3(Vec3::Y).try_normalize()?,
-                angle: f64::from(p.yfov).to_degrees(),
-                aspect: f64::from(p.aspect_ratio.unwrap_or(1.0)),
-                near: f64::from(p.znear),
-            })
+        placed.meshes.push(PlacedMesh {
+            mesh: mesh.index(),
+            to_world,
+            instancing: node.extensions.contains_key(INSTANCING).then_some(number),
         });
+    }
+    if let Some(camera) = &node.camera {
+        let camera = Whole::of(camera).and_then(|number| root.cameras.get(number.index()));
+        let exists = camera.is_some();
+        let camera = camera.and_then(|camera| placed_camera(camera, to_world));
         let why = match (&placed.camera, &camera) {
+            _ if !exists => "camera that does not exist",
             (_, None) => "camera without perspective",
             (Some(_), _) => "camera after the first",
             (None, Some(_)) => {
@@ -179,29 +195,50 @@ fn node_content(
             builder.note(NoteKind::Skipped, why, place);
         }
     }
-    let extension = node.extensions.as_ref();
-    if let Some(named) = extension.and_then(|e| e.khr_lights_punctual.as_ref()) {
-        let lights = root.extensions.as_ref();
-        let lights = lights.and_then(|e| e.khr_lights_punctual.as_ref());
-        let light = lights.and_then(|all| all.lights.get(named.light.value()));
-        let light = light.ok_or_else(|| ReadError::at(place, "a light", none))?;
-        placed.lights.extend(placed_light(light, world, place));
+    if let Some(named) = node.extensions.get(LIGHTS) {
+        let light = named.get("light").and_then(Whole::of).and_then(|number| {
+            let all = root.extensions.get(LIGHTS)?.get("lights")?;
+            all.get(number.index())
+        });
+        match light.and_then(|light| placed_light(light, to_world, place)) {
+            Some(light) => placed.lights.push(light),
+            None => {
+                let text = "light that does not exist or cannot be read";
+                builder.note(NoteKind::Skipped, text, place);
+            }
+        }
     }
-    Ok(())
 }
 
-fn placed_light(light: &Light, world: DMat4, place: Place) -> Option<PlacedLight> {
-    let Checked::Valid(kind) = light.type_ else {
-        return None;
+fn placed_camera(camera: &Value, to_world: DMat4) -> Option<PlacedCamera> {
+    let mut fields = Fields::of(Some(camera.get("perspective")?));
+    let camera = PlacedCamera {
+        from: to_world.transform_point3(Vec3::ZERO),
+        forward: to_world.transform_vector3(Vec3::NEG_Z).try_normalize()?,
+        up: to_world.transform_vector3(Vec3::Y).try_normalize()?,
+        angle: fields.number("yfov", 0.0).to_degrees(),
+        aspect: fields.number("aspectRatio", 1.0),
+        near: fields.number("znear", 0.0),
     };
-    Some(PlacedLight {
-        kind,
-        color: Vec3::from_array(light.color.map(f64::from)),
-        intensity: f64::from(light.intensity),
-        position: world.transform_point3(Vec3::ZERO),
-        direction: world
+    fields.unreadable.is_empty().then_some(camera)
+}
+
+fn placed_light(light: &Value, to_world: DMat4, place: Place) -> Option<PlacedLight> {
+    let mut fields = Fields::of(Some(light));
+    let light = PlacedLight {
+        kind: match fields.text("type")? {
+            "directional" => LightKind::Directional,
+            "point" => LightKind::Point,
+            "spot" => LightKind::Spot,
+            _ => return None,
+        },
+        color: Vec3::from_array(fields.numbers("color", [1.0; 3])),
+        intensity: fields.number("intensity", 1.0),
+        position: to_world.transform_point3(Vec3::ZERO),
+        direction: to_world
             .transform_vector3(Vec3::NEG_Z)
             .normalize_or(Vec3::NEG_Z),
         place,
-    })
+    };
+    fields.unreadable.is_empty().then_some(light)
 }

@@ -1,7 +1,8 @@
 //! Neutral File Format (E. Haines, Standard Procedural Databases, NFF 3.1).
 //!
 //! A file is a stream of words, separated by white space and line breaks. `#` starts a comment that
-//! extends to the end of its line. An entity is a keyword followed by its numbers:
+//! extends to the end of its line; `/* */` encloses one, too, as in the examples of many courses.
+//! An entity is a keyword followed by its numbers:
 //!
 //! | entity | what follows |
 //! |---|---|
@@ -14,9 +15,13 @@
 //! | `p` | polygon: number of vertices, then x y z of each |
 //! | `pp` | polygon: number of vertices, then x y z and the normal's x y z of each |
 //!
-//! The reader is stricter than the specification in one point: a negative radius ("visible only
-//! from inside") is an error because surfaces are visible from both sides here. It is more lenient
-//! in others: what can be repaired is repaired and noted (see [`read`]).
+//! A negative radius means that only the inside of the object is visible. Surfaces are visible from
+//! both sides here, so that it is read as the positive radius, with a note. What can be repaired is
+//! repaired and noted (see [`read`]).
+//!
+//! Two formats that are easily mistaken for this one are refused by name: the Neutral File Format
+//! of Sense8's WorldToolKit, and AFF, the Animated File Format of BART (J. Lext, U. Assarsson and
+//! T. Möller, 2000), which extends NFF by animations.
 
 mod read;
 mod words;
@@ -25,9 +30,10 @@ mod write;
 pub use read::read;
 pub use write::write;
 
+use words::Words;
+
 use super::complete;
 use super::entry::Format;
-use super::lines::Lines;
 use crate::progress::Progress;
 
 pub(super) const FORMAT: Format = Format {
@@ -49,19 +55,13 @@ const SNIFFED_BYTES: usize = 1 << 16;
 /// Returns whether the file has a view. `v` is also a vertex in OBJ, so the next word decides.
 fn recognizes(bytes: &[u8]) -> bool {
     let progress = Progress::new();
-    let mut lines = Lines::new(&bytes[..bytes.len().min(SNIFFED_BYTES)], &progress);
+    let mut words = Words::new(&bytes[..bytes.len().min(SNIFFED_BYTES)], &progress);
     let mut last_is_v = false;
-    while let Ok(Some(line)) = lines.next() {
-        let before_comment = line.bytes.split(|b| *b == b'#').next();
-        for word in before_comment
-            .unwrap_or_default()
-            .split(u8::is_ascii_whitespace)
-        {
-            if last_is_v && !word.is_empty() {
-                return word == b"from";
-            }
-            last_is_v |= word == b"v";
+    while let Ok(Some(word)) = words.next() {
+        if last_is_v {
+            return word.bytes == b"from";
         }
+        last_is_v = word.bytes == b"v";
     }
     false
 }

@@ -8,6 +8,7 @@ use crate::progress::Progress;
 use crate::scene::camera::{Camera, CameraError};
 use crate::scene::format::builder::SceneBuilder;
 use crate::scene::format::error::ReadError;
+use crate::scene::format::lines::{number, refuse_wide_text};
 use crate::scene::format::place::Place;
 use crate::scene::material::{Light, Material};
 use crate::scene::note::{Note, NoteKind};
@@ -26,21 +27,75 @@ const MAX_RESOLUTION: u32 = 65_536;
 /// - more than one `v` or `b`: the last one is used;
 /// - a polygon with zero area, a cylinder or cone with zero length: skipped;
 /// - a non-planar polygon: split into triangles, where each vertex keeps its normal;
-/// - a zero-length vertex normal: replaced by the normal of the polygon.
+/// - a vertex normal that is zero or not finite: replaced by the normal of the polygon;
+/// - a number of a material or color that is not finite: replaced by the default;
+/// - a negative radius, by which only the inside is visible: both sides are visible here.
 ///
 /// Memory use is at most a constant times the size of the file, whatever counts it declares.
 ///
 /// # Errors
 /// The first error, with its line; a missing `v` is reported at the last line. Cancellation.
 pub fn read(bytes: &[u8], progress: &Progress) -> Result<SceneParts, ReadError> {
+    refuse_wide_text(bytes)?;
+    refuse_sense8(bytes, progress)?;
     let mut reader = Reader::new(Words::new(bytes, progress));
     while let Some(word) = reader.words.next()? {
         reader.entity(word)?;
+    }
+    if let Some(line) = reader.words.open_comment {
+        return Err(syntax(
+            line,
+            "'*/' at the end of the comment",
+            "the end of the file",
+        ));
     }
     let parts = reader.finish()?;
     progress.set(1.0);
     Ok(parts)
 }
+
+/// Refuses the Neutral File Format of Sense8's WorldToolKit, which begins with `nff` and a version.
+fn refuse_sense8(bytes: &[u8], progress: &Progress) -> Result<(), ReadError> {
+    let mut words = Words::new(bytes, progress);
+    let Some(first) = words.next()? else {
+        return Ok(());
+    };
+    let second = words.next()?;
+    let is = |word: &Word<'_>, text: &[u8]| word.bytes.eq_ignore_ascii_case(text);
+    if is(&first, b"nff") && second.is_some_and(|second| is(&second, b"version")) {
+        let expected = "the Neutral File Format of E. Haines";
+        let found = "that of Sense8's WorldToolKit, another format of the same name";
+        return Err(syntax(first.line, expected, found));
+    }
+    Ok(())
+}
+
+/// Entities of AFF, the Animated File Format of BART, that NFF does not have.
+const AFF_ENTITIES: [&[u8]; 23] = [
+    b"a",
+    b"am",
+    b"animparams",
+    b"d",
+    b"detail_level",
+    b"e",
+    b"em",
+    b"fm",
+    b"g",
+    b"i",
+    b"include",
+    b"k",
+    b"keyframe",
+    b"la",
+    b"m",
+    b"mesh",
+    b"t",
+    b"tp",
+    b"tpp",
+    b"tt",
+    b"x",
+    b"xs",
+    b"}",
+];
 
 /// The state of the reader.
 struct Reader<'a> {
@@ -84,7 +139,7 @@ impl<'a> Reader<'a> {
                 "pp"
             }
             b"f" => {
-                self.read_fill()?;
+                self.read_fill(line)?;
                 "f"
             }
             b"c" => {
@@ -92,7 +147,7 @@ impl<'a> Reader<'a> {
                 "c"
             }
             b"l" => {
-                self.light()?;
+                self.light(line)?;
                 "l"
             }
             b"b" => {
@@ -114,10 +169,18 @@ impl<'a> Reader<'a> {
     fn no_entity(&self, word: &Word) -> ReadError {
         const ENTITIES: &str = "v, b, l, f, c, s, p or pp";
         match self.last_entity {
-            Some((letter, line)) if word.parse::<f64>().is_some() => syntax(
+            Some((letter, line)) if number(word.bytes).is_some() => syntax(
                 word.line,
                 format_args!("an entity ({ENTITIES}) after the complete '{letter}' of line {line}"),
                 format_args!("the number {}", word.quoted()),
+            ),
+            _ if AFF_ENTITIES.contains(&word.bytes) => syntax(
+                word.line,
+                format_args!("an entity of NFF ({ENTITIES})"),
+                format_args!(
+                    "{} of AFF, the Animated File Format of BART, which is another format",
+                    word.quoted()
+                ),
             ),
             _ => word.unexpected(format_args!("an entity ({ENTITIES})")),
         }
@@ -186,7 +249,13 @@ impl<'a> Reader<'a> {
     }
 
     fn background(&mut self, line: usize) -> Result<(), ReadError> {
-        let color = self.words.color("the background")?;
+        let mut color = self.words.color("the background")?;
+        if !color.is_finite() {
+            let text = "background color that is not finite; using black";
+            self.builder
+                .note(NoteKind::Changed, text, Place::Line(line));
+            color = Vec3::ZERO;
+        }
         if self.builder.background.replace(color).is_some() {
             self.replaced("background", line);
         }
@@ -199,18 +268,24 @@ impl<'a> Reader<'a> {
             .note(NoteKind::Skipped, &text, Place::Line(line));
     }
 
-    fn light(&mut self) -> Result<(), ReadError> {
+    fn light(&mut self, line: usize) -> Result<(), ReadError> {
         let position = self.words.point("the light")?;
-        let color = if self.words.number_follows() {
+        let mut color = if self.words.number_follows() {
             Some(self.words.color("the light's color")?)
         } else {
             None
         };
+        if color.is_some_and(|color| !color.is_finite()) {
+            let text = "color of a light that is not finite; using the default";
+            self.builder
+                .note(NoteKind::Changed, text, Place::Line(line));
+            color = None;
+        }
         self.builder.lights.push(Light { position, color });
         Ok(())
     }
 
-    fn read_fill(&mut self) -> Result<(), ReadError> {
+    fn read_fill(&mut self, line: usize) -> Result<(), ReadError> {
         let names = [
             "red",
             "green",
@@ -221,9 +296,29 @@ impl<'a> Reader<'a> {
             "T",
             "index of refraction",
         ];
-        let mut numbers = [0.0; 8];
+        let default = Material::default();
+        let Vec3 { x, y, z } = default.color;
+        let mut numbers = [
+            x,
+            y,
+            z,
+            default.diffuse,
+            default.specular,
+            default.shine,
+            default.transmittance,
+            default.index_of_refraction,
+        ];
         for (number, name) in numbers.iter_mut().zip(names) {
-            *number = self.words.number(format_args!("{name} of the material"))?;
+            let given = self
+                .words
+                .any_number(format_args!("{name} of the material"))?;
+            if given.is_finite() {
+                *number = given;
+            } else {
+                let text = format!("{name} of a material that is not finite; using {number}");
+                let place = Place::Line(line);
+                self.builder.note(NoteKind::Changed, &text, place);
+            }
         }
         let [
             r,
@@ -247,19 +342,38 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
+    /// Notes a negative radius: only the inside of the object is visible then.
+    fn note_negative(&mut self, line: usize) {
+        const TEXT: &str = "negative radius (visible from the inside); using both sides";
+        self.builder
+            .note(NoteKind::Changed, TEXT, Place::Line(line));
+    }
+
     fn sphere(&mut self, line: usize) -> Result<(), ReadError> {
         let center = self.words.point("the sphere's center")?;
-        let radius = self.words.radius("the sphere's radius")?;
-        let sphere = Sphere::new(center, radius).map(Primitive::Sphere);
+        let radius = self.words.number("the sphere's radius")?;
+        if radius < 0.0 {
+            self.note_negative(line);
+        }
+        let sphere = Sphere::new(center, radius.abs()).map(Primitive::Sphere);
         self.begin_object(line);
         self.builder.object(Place::Line(line), "a sphere", sphere)
     }
 
     fn cone(&mut self, line: usize) -> Result<(), ReadError> {
         let base = self.words.point("the cone's base")?;
-        let base_radius = self.words.radius("the cone's radius at its base")?;
+        let base_radius = self.words.number("the cone's radius at its base")?;
         let apex = self.words.point("the cone's apex")?;
-        let apex_radius = self.words.radius("the cone's radius at its apex")?;
+        let (apex_radius, word) = self.words.number_word("the cone's radius at its apex")?;
+        if base_radius < 0.0 || apex_radius < 0.0 {
+            if base_radius > 0.0 || apex_radius > 0.0 {
+                return Err(word.unexpected(
+                    "the cone's radius at its apex, of the same sign as that at its base",
+                ));
+            }
+            self.note_negative(line);
+        }
+        let [base_radius, apex_radius] = [base_radius.abs(), apex_radius.abs()];
         let cone = Cone::new(base, base_radius, apex, apex_radius).map(Primitive::Cone);
         self.begin_object(line);
         let place = Place::Line(line);
@@ -283,7 +397,7 @@ impl<'a> Reader<'a> {
             self.vertices.push(vertex);
             if with_normals {
                 let of = format_args!("the normal at vertex {number} of {count}");
-                let normal = self.words.point(of)?;
+                let normal = self.words.direction(of)?;
                 self.normals.push(normal);
             }
         }

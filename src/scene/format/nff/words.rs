@@ -4,7 +4,7 @@ use super::write::NOTE;
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::format::error::ReadError;
-use crate::scene::format::lines::{parse, quoted};
+use crate::scene::format::lines::{comment_start, number, parse, quoted};
 use crate::scene::format::place::Place;
 use std::fmt::Display;
 
@@ -43,13 +43,16 @@ pub(super) fn syntax(line: usize, expected: impl Display, found: impl Display) -
 const MAX_NOTES: usize = 16;
 const MAX_NOTE_BYTES: usize = 1024;
 
-/// An iterator over the words of a file. Skips comments, but keeps the notes among them.
+/// An iterator over the words of a file. Skips comments, from `#` to the end of the line or from
+/// `/*` to `*/`, but keeps the notes among them.
 pub(super) struct Words<'a> {
     bytes: &'a [u8],
     /// The notes found so far.
     pub notes: Vec<String>,
     at: usize,
     line: usize,
+    /// The line of a comment that does not end.
+    pub open_comment: Option<usize>,
     taken: u32,
     progress: &'a Progress,
 }
@@ -61,6 +64,7 @@ impl<'a> Words<'a> {
             notes: Vec::new(),
             at: 0,
             line: 1,
+            open_comment: None,
             taken: 0,
             progress,
         }
@@ -84,6 +88,10 @@ impl<'a> Words<'a> {
                     self.at += comment.len();
                     continue;
                 }
+                b'/' if self.bytes[self.at..].starts_with(b"/*") => {
+                    self.skip_block_comment();
+                    continue;
+                }
                 b'\n' => self.line += 1,
                 b'\r' if self.bytes.get(self.at + 1) != Some(&b'\n') => self.line += 1,
                 b'\r' | b' ' | b'\t' | b'\x0b' | b'\x0c' => {}
@@ -91,6 +99,21 @@ impl<'a> Words<'a> {
             }
             self.at += 1;
         }
+    }
+
+    /// Advances to the end of a comment in `/*` and `*/`, counting its lines.
+    fn skip_block_comment(&mut self) {
+        let rest = &self.bytes[self.at..];
+        let end = rest[2..].windows(2).position(|two| two == b"*/");
+        let comment = &rest[..end.map_or(rest.len(), |end| end + 4)];
+        if end.is_none() {
+            self.open_comment.get_or_insert(self.line);
+        }
+        let breaks = comment.iter().enumerate().filter(|(i, byte)| {
+            **byte == b'\n' || (**byte == b'\r' && comment.get(i + 1) != Some(&b'\n'))
+        });
+        self.line += breaks.count();
+        self.at += comment.len();
     }
 
     /// Returns the next word; `None` at the end of the file.
@@ -103,8 +126,11 @@ impl<'a> Words<'a> {
         }
         self.skip_blanks();
         let rest = &self.bytes[self.at..];
-        let is_end = |b: &u8| matches!(b, b'\t'..=b'\r' | b' ' | b'#');
+        let is_end = |b: &u8| matches!(b, b'\t'..=b'\r' | b' ');
         let length = rest.iter().position(is_end).unwrap_or(rest.len());
+        let length = comment_start(&rest[..length]).unwrap_or(length);
+        let comment = rest[..length].windows(2).position(|two| two == b"/*");
+        let length = comment.unwrap_or(length);
         self.at += length;
         Ok((length > 0).then_some(Word {
             bytes: &rest[..length],
@@ -128,7 +154,7 @@ impl<'a> Words<'a> {
     /// Parses the next word as a number and returns both.
     pub(super) fn number_word(&mut self, what: impl Display) -> Result<(f64, Word<'a>), ReadError> {
         let word = self.expect(&what)?;
-        match word.parse::<f64>() {
+        match number(word.bytes) {
             Some(number) if number.is_finite() => Ok((number, word)),
             _ => Err(word.unexpected(format_args!("{what} (a finite number)"))),
         }
@@ -138,29 +164,40 @@ impl<'a> Words<'a> {
         self.number_word(what).map(|(number, _)| number)
     }
 
-    pub(super) fn triple(&mut self, names: [&str; 3], of: impl Display) -> Result<Vec3, ReadError> {
+    /// Parses the next word as a number that need not be finite.
+    pub(super) fn any_number(&mut self, what: impl Display) -> Result<f64, ReadError> {
+        let word = self.expect(&what)?;
+        let unexpected = || word.unexpected(format_args!("{what} (a number)"));
+        number(word.bytes).ok_or_else(unexpected)
+    }
+
+    pub(super) fn point(&mut self, of: impl Display) -> Result<Vec3, ReadError> {
         let mut numbers = [0.0; 3];
-        for (number, name) in numbers.iter_mut().zip(names) {
+        for (number, name) in numbers.iter_mut().zip(["x", "y", "z"]) {
             *number = self.number(format_args!("{name} of {of}"))?;
         }
         Ok(Vec3::from_array(numbers))
     }
 
-    pub(super) fn point(&mut self, of: impl Display) -> Result<Vec3, ReadError> {
-        self.triple(["x", "y", "z"], of)
+    /// Parses a direction or a color, whose numbers need not be finite.
+    pub(super) fn any_triple(
+        &mut self,
+        names: [&str; 3],
+        of: impl Display,
+    ) -> Result<Vec3, ReadError> {
+        let mut numbers = [0.0; 3];
+        for (number, name) in numbers.iter_mut().zip(names) {
+            *number = self.any_number(format_args!("{name} of {of}"))?;
+        }
+        Ok(Vec3::from_array(numbers))
+    }
+
+    pub(super) fn direction(&mut self, of: impl Display) -> Result<Vec3, ReadError> {
+        self.any_triple(["x", "y", "z"], of)
     }
 
     pub(super) fn color(&mut self, of: impl Display) -> Result<Vec3, ReadError> {
-        self.triple(["red", "green", "blue"], of)
-    }
-
-    /// Parses a radius, which is at least 0.
-    pub(super) fn radius(&mut self, what: &str) -> Result<f64, ReadError> {
-        let (radius, word) = self.number_word(what)?;
-        if radius < 0.0 {
-            return Err(word.unexpected(format_args!("{what}, 0 or larger")));
-        }
-        Ok(radius)
+        self.any_triple(["red", "green", "blue"], of)
     }
 
     /// Returns the line of the last character; 1 for an empty file. Valid only at the end of the

@@ -9,12 +9,13 @@
 //! | `Ni` | index of refraction |
 //! | `illum` 0, 1, 2 | not a mirror: `Ks` is ignored, because here `Ks` also reflects rays |
 //!
-//! Textures and the rest are skipped and counted.
+//! Textures and the rest are skipped and counted, as are statements that cannot be read: a damaged
+//! material file never refuses the geometry.
 
 use crate::geometry::Vec3;
-use crate::progress::Progress;
+use crate::progress::{Cancelled, Progress};
 use crate::scene::format::error::ReadError;
-use crate::scene::format::lines::{Line, Lines, Words, quoted};
+use crate::scene::format::lines::{Line, Lines, Words, comment_start, quoted, wide_text};
 use crate::scene::format::place::Place;
 use crate::scene::material::Material;
 use crate::scene::note::NoteKind;
@@ -23,7 +24,7 @@ use std::collections::HashMap;
 /// One material of a file.
 #[derive(Default)]
 struct Found {
-    name: String,
+    name: Vec<u8>,
     diffuse: Option<Vec3>,
     specular: Option<Vec3>,
     shine: f64,
@@ -32,17 +33,39 @@ struct Found {
     illumination: Option<f64>,
 }
 
+/// Bytes at the start of a file in which it is checked that it is text.
+const SNIFFED_BYTES: usize = 1 << 12;
+
+/// Returns what a file is if it cannot be a material file.
+fn another_kind(bytes: &[u8]) -> Option<String> {
+    let head = &bytes[..bytes.len().min(SNIFFED_BYTES)];
+    let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
+    if let Some(encoding) = wide_text(head) {
+        return Some(format!("text in {encoding}"));
+    }
+    if head.contains(&0) {
+        return Some("not text".to_owned());
+    }
+    let is_page = text.trim_ascii_start().starts_with(b"<");
+    is_page.then(|| "a page in HTML or XML".to_owned())
+}
+
 /// Adds the materials of a file by name; the first material of a name wins. Calls `note` for
 /// everything that is skipped or changed.
 ///
 /// # Errors
-/// The first error, with its line; cancellation.
+/// Cancellation.
 pub(super) fn read(
     bytes: &[u8],
     progress: &Progress,
-    materials: &mut HashMap<String, Material>,
+    materials: &mut HashMap<Vec<u8>, Material>,
     note: &mut dyn FnMut(NoteKind, &str, Place),
-) -> Result<(), ReadError> {
+) -> Result<(), Cancelled> {
+    if let Some(what) = another_kind(bytes) {
+        let text = format!("{what}, not a material file");
+        note(NoteKind::Skipped, &text, Place::Line(1));
+        return Ok(());
+    }
     let mut current: Option<(Found, Place)> = None;
     let mut lines = Lines::new(bytes, progress);
     while let Some(line) = lines.next()? {
@@ -52,21 +75,43 @@ pub(super) fn read(
             (Some(comment), _) if comment.starts_with(b"#") => {}
             (Some(b"newmtl"), _) => {
                 let found = Found {
-                    name: words.rest(),
+                    name: words.rest_bytes().to_owned(),
                     ..Found::default()
                 };
                 if let Some((before, place)) = current.replace((found, line.place())) {
                     before.finish(place, materials, note);
                 }
             }
-            (Some(keyword), Some((found, _))) => found.statement(keyword, words, line, note)?,
+            (Some(keyword), Some((found, _))) => {
+                let end = comment_start(line.bytes);
+                let bytes = &line.bytes[..end.unwrap_or(line.bytes.len())];
+                let mut words = Line { bytes, ..line }.words();
+                words.next();
+                match found.statement(keyword, words, line, note) {
+                    Ok(()) => {}
+                    Err(ReadError::Cancelled(cancelled)) => return Err(cancelled),
+                    Err(ReadError::Syntax {
+                        expected, found, ..
+                    }) => {
+                        let keyword = quoted(keyword);
+                        let text = format!("{keyword}: expected {expected}, found {found}");
+                        note(NoteKind::Skipped, &text, line.place());
+                    }
+                }
+            }
             (Some(keyword), None) => {
-                return Err(words.error("'newmtl' as the first statement", Some(keyword)));
+                let text = format!("statement {} before the first 'newmtl'", quoted(keyword));
+                note(NoteKind::Skipped, &text, line.place());
             }
         }
     }
-    if let Some((last, place)) = current {
-        last.finish(place, materials, note);
+    match current {
+        Some((last, place)) => last.finish(place, materials, note),
+        None => note(
+            NoteKind::Skipped,
+            "a file without materials",
+            Place::Line(1),
+        ),
     }
     Ok(())
 }
@@ -128,7 +173,7 @@ impl Found {
     fn finish(
         self,
         place: Place,
-        materials: &mut HashMap<String, Material>,
+        materials: &mut HashMap<Vec<u8>, Material>,
         note: &mut dyn FnMut(NoteKind, &str, Place),
     ) {
         let specular = self
