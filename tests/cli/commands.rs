@@ -45,7 +45,7 @@ fn wrong_use_is_told_with_exit_code_2() {
         ("measure balls:99", "the size of balls must be from 0 to"),
         (
             "measure tetra:5 --memory-limit 0",
-            "--memory-limit: expected a whole number from 1",
+            "--memory-limit: expected an integer from 1",
         ),
         ("render teaching -o picture.jpg", ".png or .exr"),
         ("render teaching --resolution 16x16 -o no/a.png", "no/a.png"),
