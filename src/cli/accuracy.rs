@@ -11,7 +11,7 @@ pub fn run(args: &AccuracyArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
     let setup = args.settings.setup(&args.scene)?;
     let scene = resolve::scene(&setup.scene)?;
-    // A wrong size is told before a tree is built for it.
+    // Report an invalid size before a tree is built for it.
     setup.render.view(&scene)?;
     let mut choices = choices(&reference(&setup), &scene);
     if !args.only.is_empty() {

@@ -20,7 +20,7 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome> {
         ..
     } = &setups[0];
     let scene = resolve::scene(request)?;
-    // A wrong size is told before a tree is built for it.
+    // Report an invalid size before a tree is built for it.
     render.view(&scene)?;
     let mut runs = Vec::new();
     for Setup { build, .. } in &setups {
