@@ -180,8 +180,6 @@ impl SceneBuilder {
         vertices: &[Vec3],
         normals: Option<&[Vec3]>,
     ) -> Result<(), ReadError> {
-        let mut repaired = Vec::new();
-        let mut normals = normals;
         if let Some(given) = normals
             && given.iter().any(|n| !is_direction(*n))
         {
@@ -192,6 +190,22 @@ impl SceneBuilder {
             for (there, text) in [(infinite, INFINITE_NORMAL), (zero, ZERO_NORMAL)] {
                 self.note_times(NoteKind::Changed, text, usize::from(there), place);
             }
+        }
+        self.face_as_noted(place, vertices, normals)
+    }
+
+    /// Adds a face as [`SceneBuilder::face`] does, but without notes on its normals.
+    pub fn face_as_noted(
+        &mut self,
+        place: Place,
+        vertices: &[Vec3],
+        normals: Option<&[Vec3]>,
+    ) -> Result<(), ReadError> {
+        let mut repaired = Vec::new();
+        let mut normals = normals;
+        if let Some(given) = normals
+            && given.iter().any(|n| !is_direction(*n))
+        {
             let direction = |n: &Vec3| if is_direction(*n) { *n } else { Vec3::ZERO };
             repaired.extend(given.iter().map(direction));
             let any = repaired.iter().any(|n| *n != Vec3::ZERO);
