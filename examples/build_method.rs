@@ -72,7 +72,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{:8} {:>12} {:>12}", "", "midpoint", METHOD.name);
     for symbol in DELTA {
         let parameter = parameter(symbol);
-        let [a, b] = [midpoint, ours].map(|m| parameter.format((parameter.value)(&m.measurement)));
+        let [a, b] = [midpoint, ours].map(|m| parameter.format(parameter.value(&m.measurement)));
         println!("{symbol:8} {a:>12} {b:>12}  {}", parameter.name);
     }
     Ok(())

@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{}, {} objects", scene.name(), scene.objects().len());
     for symbol in DELTA {
         let parameter = parameter(symbol);
-        let [of_a, of_b] = [&a, &b].map(|tree| (parameter.value)(&tree.measurement));
+        let [of_a, of_b] = [&a, &b].map(|tree| parameter.value(&tree.measurement));
         let change = change(parameter.unit, of_a, of_b);
         println!(
             "{symbol:8} {:>12} {:>12} {:>14}  {}",

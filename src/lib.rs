@@ -21,15 +21,17 @@
 //! | [`structure::split`] | where a method splits a cell | a line in [`structure::split::SPLIT_RULES`] |
 //! | [`trace`] | traversal of trees and grids in two precisions, timed and counting kernels, plain or in lanes of vectors, shading, passes over a picture, visits of nodes | |
 //! | [`setup`] | the whole experiment: scene, structure, render settings, camera | |
-//! | [`measure`] | the paper's Tables 1 to 3, Δ, Λ, figures of each kind of ray; trees against testing every object | an entry of [`measure::PARAMETERS`] or [`measure::RAY_FIGURES`] |
+//! | [`measure`] | counters, which serve as the parameters of the paper's Tables 1 to 3, as heatmaps and as figures of each kind of ray; trees against testing every object | an entry of [`measure::COUNTERS`] |
 //! | [`measure::model`] | the time model of equation (1): by regression and in place; where the time of a picture goes | |
-//! | [`measure::sweep`] | the parameters over a grid of settings: points, rows, shards, charts | |
+//! | [`measure::sweep`] | the parameters over a grid of settings: points, rows, shards | |
 //! | [`measure::paper`] | the paper's printed tables, and its experiment repeated | |
 //! | [`measure::judge`] | exact arithmetic: why two answers about a ray differ | |
 //! | [`measure::stability`] | trees at the extremes | an entry of [`measure::stability::CASES`] |
 //! | [`measure::accuracy`] | what accuracy costs: time and error of every choice | a line in [`measure::accuracy::KNOBS`] |
-//! | [`measure::heat`] | what every pixel cost | a line in [`measure::heat::HEATMAPS`] |
+//! | [`measure::heat`] | heatmaps: what each pixel costs | |
 //! | [`jobs`] | work in the background and the one scheduler: progress, pause, cancel, partial results | a file with one [`jobs::Job`] |
+//! | [`present::number`] [`present::words`] | numbers and results as text | |
+//! | [`present::chart`] | charts of a sweep | |
 //! | [`present::overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves and rays | a line in [`present::overlay::COLORINGS`], [`present::overlay::COLORMAPS`] or [`present::overlay::HISTOGRAMS`] |
 //! | [`present::report`] | text, JSON, CSV, Markdown, LaTeX; the page of HTML | a line in [`present::report::WRITERS`] |
 //! | [`present::export`] | pictures, heatmaps with legends, leaf boxes, the report put together | a line in [`present::export::LEAF_WRITERS`] |
@@ -43,7 +45,7 @@
 //! file or generator ─▶ Scene ─▶ Tree ─▶ timed pass    ─▶ picture, T_TR
 //!                                    └▶ counted pass  ─▶ tallies, T_TT
 //!                       facts of scene and tree, times, tallies ─▶ Measurement
-//!                       Measurement ─▶ PARAMETERS ─▶ Δ, Λ ─▶ reports and panels
+//!                       Measurement ─▶ parameters() ─▶ Δ, Λ ─▶ reports and panels
 //! ```
 //!
 //! # From another program
@@ -64,7 +66,7 @@
 //!     ..RenderSettings::default()
 //! };
 //! let measured = measure(&scene, &build, &render, &progress)?;
-//! let leaves = (parameter("N_LS").value)(&measured.measurement);
+//! let leaves = parameter("N_LS").value(&measured.measurement);
 //! assert!(leaves > Some(1.0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -1,13 +1,15 @@
-//! The arguments as they are typed; [`super::resolve`] makes settings of them.
+//! The arguments as they are typed; the settings among them are made from the list of settings ([`super::setting_args`]).
 
-use super::values::{
-    ByColormap, ByHeatmap, ByParameter, Depths, LeafSizes, colormap_names, constant, depths,
-    equation_names, filter_names, heatmap_names, kernel_names, leaf_sizes, leaf_writer_names,
-    method_names, paper_scenes, parameter_names, pixel, point, precision_names, range, resolution,
-    sampling_names, scale_names, share, writer_names,
+use super::setting_args::{
+    Built, Everything, Extreme, Loaded, Modelled, OneMethod, Reference, Reproduced, SettingArgs,
+    Shared, Swept, Verified,
 };
-use crate::geometry::{Axis, Vec3};
-use crate::measure::accuracy::KNOBS;
+use super::values::{
+    ByColormap, ByHeatmap, ByParameter, colormap_names, equation_names, filter_names,
+    heatmap_names, knob_names, leaf_writer_names, method_names, paper_scenes, parameter_names,
+    pixel, range, scale_names, share, writer_names,
+};
+use crate::measure::accuracy::Knob;
 use crate::measure::heat::RayFilter;
 use crate::measure::model::Equation;
 use crate::measure::paper::PaperScene;
@@ -15,10 +17,8 @@ use crate::measure::sweep::Shard;
 use crate::present::overlay::{Range, Scale};
 use crate::scene::builtin::BUILTINS;
 use crate::scene::format::FORMATS;
-use crate::scene::{Cylinders, Sampling};
-use crate::structure::{BuildSettings, MaxDepth, Method, OverlapRule};
-use crate::trace::{KernelChoice, PrecisionChoice};
-use clap::builder::{PossibleValue, PossibleValuesParser};
+use crate::setup::Edits;
+use crate::structure::Method;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -58,7 +58,8 @@ pub enum Command {
     Methods(MethodsArgs),
     Verify(VerifyArgs),
     Stability(StabilityArgs),
-    Trade(TradeArgs),
+    #[command(alias = "trade")]
+    Accuracy(AccuracyArgs),
     Lesson(LessonArgs),
 }
 
@@ -72,15 +73,7 @@ pub struct WindowArgs {
     #[arg(long, value_name = "LESSON")]
     pub lesson: Option<String>,
     #[command(flatten)]
-    pub cylinders: CylinderArgs,
-    #[command(flatten)]
-    pub methods: MethodListArgs,
-    #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
+    pub settings: SettingArgs<Everything>,
 }
 
 /// Measure every parameter of the paper, with Δ and Λ set apart
@@ -90,16 +83,10 @@ pub struct WindowArgs {
     bspscope measure rings --cylinders polygons:10 -o rings.json\n\
     bspscope measure balls:3 --set gap-fraction=0.05 --format csv | head"))]
 pub struct MeasureArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     #[command(flatten)]
-    pub scene: SceneArgs,
-    #[command(flatten)]
-    pub methods: MethodListArgs,
-    #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
+    pub settings: SettingArgs<Everything>,
     #[command(flatten)]
     pub report: ReportArgs,
 }
@@ -113,23 +100,21 @@ pub struct MeasureArgs {
     bspscope compare rings --a method=sah-cut --b method=sah-cut,gap-fraction=0.05 --format json\n\
     bspscope compare balls --a method=midpoint --b method=sah --per-kind"))]
 pub struct CompareArgs {
-    #[command(flatten)]
-    pub scene: SceneArgs,
-    /// The first tree: method=NAME, and any of d-max, n-oilf, overlap, root-margin, first-axis and
-    /// the method's own settings, separated by commas
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
+    /// The first setup: method=NAME, and any other setting by the name of its option, a method's own
+    /// ones too, separated by commas
     #[arg(long, value_name = "SETTINGS", help_heading = "Tree")]
-    pub a: BuildSettings,
-    /// The second tree, likewise
+    pub a: Edits,
+    /// The second setup, likewise
     #[arg(long, value_name = "SETTINGS", help_heading = "Tree")]
-    pub b: BuildSettings,
+    pub b: Edits,
     /// Tell what rays did kind by kind, too: primary, shadow, reflected and refracted ones, all
     /// together, a ray on average, and the ray with the most
     #[arg(long, help_heading = "Output")]
     pub per_kind: bool,
     #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
+    pub settings: SettingArgs<Shared>,
     #[command(flatten)]
     pub report: ReportArgs,
 }
@@ -150,10 +135,7 @@ pub struct PaperArgs {
     #[arg(value_name = "SCENE", value_parser = paper_scenes())]
     pub scenes: Vec<&'static PaperScene>,
     #[command(flatten)]
-    pub picture: PictureArgs,
-    /// Threads; 0 takes as many as the machine has cores
-    #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Picture")]
-    pub threads: usize,
+    pub settings: SettingArgs<Reproduced>,
     #[command(flatten)]
     pub report: ReportArgs,
 }
@@ -171,13 +153,10 @@ pub struct ModelArgs {
     #[arg(required = true, value_name = "SCENE")]
     pub scenes: Vec<String>,
     #[command(flatten)]
-    pub cylinders: CylinderArgs,
+    pub settings: SettingArgs<Modelled>,
     /// How tests that hit are counted: every one, or as the paper's equation (1) has it
     #[arg(long, value_name = "HOW", value_parser = equation_names(), default_value = "corrected")]
     pub equation: Equation,
-    /// Width and height in pixels
-    #[arg(long, value_name = "WxH", value_parser = resolution, default_value = "192x192")]
-    pub resolution: [u32; 2],
     /// How often each tree is timed; the least time counts
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
     pub rounds: u32,
@@ -200,23 +179,26 @@ pub struct ModelArgs {
     bspscope sweep tetra --method sah-cut --d-max 8..24 --n-oilf 1,2,4 -o tetra.jsonl\n\
     bspscope sweep rings --shard 2/4 -o rings-2.csv"))]
 pub struct SweepArgs {
-    #[command(flatten)]
-    pub scene: SceneArgs,
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     /// Build methods, separated by commas [default: the paper's two]
-    #[arg(long, value_name = "METHODS", value_parser = method_names(), value_delimiter = ',', help_heading = "Tree")]
+    #[arg(long, value_name = "METHODS", value_parser = method_names(), value_delimiter = ',', help_heading = "Axes")]
     pub method: Vec<Method>,
-    /// Greatest depths: numbers, ranges such as 8..24, and auto, separated by commas
-    #[arg(long, value_name = "DEPTHS", value_parser = depths, default_value = "1..30", help_heading = "Tree")]
-    pub d_max: Depths,
-    /// Leaf sizes: numbers and ranges, separated by commas
-    #[arg(long, value_name = "SIZES", value_parser = leaf_sizes, default_value = "1,2,4,8", help_heading = "Tree")]
-    pub n_oilf: LeafSizes,
+    /// Maximum depths: numbers, ranges such as 8..24, and auto, separated by commas; the same as
+    /// --vary d-max=DEPTHS [default without --vary: 1..30]
+    #[arg(long, value_name = "DEPTHS", help_heading = "Axes")]
+    pub d_max: Option<String>,
+    /// Leaf sizes: numbers and ranges, separated by commas; the same as --vary n-oilf=SIZES [default
+    /// without --vary: 1,2,4,8]
+    #[arg(long, value_name = "SIZES", help_heading = "Axes")]
+    pub n_oilf: Option<String>,
+    /// Values of any setting, separated by commas, such as precision=f32,f64 or
+    /// root-margin=0,0.001; whole numbers also as ranges. May be given more than once: all
+    /// combinations are measured
+    #[arg(long, value_name = "NAME=VALUES", help_heading = "Axes")]
+    pub vary: Vec<String>,
     #[command(flatten)]
-    pub rules: RuleArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
+    pub settings: SettingArgs<Swept>,
     /// Measure only this part of the points: I/N, with I from 1 to N
     #[arg(long, value_name = "I/N", default_value = "1/1")]
     pub shard: Shard,
@@ -267,20 +249,10 @@ pub struct ChartArgs {
     bspscope render rings --show N_IT --rays shadow --scale log --range 0:500 -o tests.png\n\
     bspscope render tetra --method sah-cut --show T_PIXEL --blend 0.6 -o time.png"))]
 pub struct RenderArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     #[command(flatten)]
-    pub scene: SceneArgs,
-    /// Build method
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), default_value = "midpoint", help_heading = "Tree")]
-    pub method: Method,
-    #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
-    /// Samples a pixel, at least 1; the first lies where --sampling says
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..), help_heading = "Picture")]
-    pub samples: u32,
+    pub settings: SettingArgs<OneMethod>,
     #[command(flatten)]
     pub heat: HeatArgs,
     /// Picture file: .png is 8-bit sRGB, .exr is linear 32-bit float. A heatmap as .png has its
@@ -322,19 +294,13 @@ pub struct HeatArgs {
     bspscope probe teaching --pixel 100,80 --resolution 320x240 --method sah-cut\n\
     bspscope probe scenes/rings.nff --pixel 300,200 --format json -o pixel.json"))]
 pub struct ProbeArgs {
-    #[command(flatten)]
-    pub scene: SceneArgs,
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     /// Column and row of the pixel; 0,0 is the upper left
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true, help_heading = "Picture")]
     pub pixel: [i64; 2],
     #[command(flatten)]
-    pub methods: MethodListArgs,
-    #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
+    pub settings: SettingArgs<Everything>,
     /// Form of the record
     #[arg(long, value_enum, default_value_t = ListFormat::Text, help_heading = "Output")]
     pub format: ListFormat,
@@ -351,16 +317,10 @@ pub struct ProbeArgs {
 #[command(after_help = help("bspscope report balls -o balls.html\n\
     bspscope report scenes/tetra.nff --method sah-cut --d-max auto -o tetra.html"))]
 pub struct PageArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     #[command(flatten)]
-    pub scene: SceneArgs,
-    #[command(flatten)]
-    pub methods: MethodListArgs,
-    #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
+    pub settings: SettingArgs<Everything>,
     /// File for the page
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: PathBuf,
@@ -374,19 +334,13 @@ pub struct PageArgs {
 #[command(after_help = help("bspscope leaves balls -o leaves.ply\n\
     bspscope leaves rings --method sah-cut --only full -o full.obj"))]
 pub struct LeavesArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     #[command(flatten)]
-    pub scene: SceneArgs,
-    /// Build method
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), default_value = "midpoint", help_heading = "Tree")]
-    pub method: Method,
-    #[command(flatten)]
-    pub build: BuildArgs,
+    pub settings: SettingArgs<Built>,
     /// Only these leaves [default: all]
     #[arg(long, value_enum, value_name = "LEAVES")]
     pub only: Option<LeavesShown>,
-    /// Threads; 0 takes as many as the machine has cores
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub threads: usize,
     /// Form of the boxes; without it the extension of -o decides, or obj
     #[arg(long, value_name = "FORM", value_parser = leaf_writer_names(), help_heading = "Output")]
     pub format: Option<String>,
@@ -409,8 +363,10 @@ pub enum LeavesShown {
     bspscope generate rings --cylinders polygons:10 > rings.nff\n\
     bspscope generate model.glb -o model.nff"))]
 pub struct GenerateArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     #[command(flatten)]
-    pub scene: SceneArgs,
+    pub settings: SettingArgs<Loaded>,
     /// Scene file to write; '-' or nothing writes to standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
@@ -444,21 +400,14 @@ pub struct VerifyArgs {
     /// Scenes, files or generators [default: all generators]
     #[arg(value_name = "SCENE")]
     pub scenes: Vec<String>,
-    #[command(flatten)]
-    pub cylinders: CylinderArgs,
     /// Ask the question of a fault's file again, and nothing else
     #[arg(long, value_name = "FILE", conflicts_with = "scenes")]
     pub replay: Option<PathBuf>,
     /// Rays of every kind and scene that are compared
     #[arg(long, value_name = "N", default_value_t = 50_000, value_parser = clap::value_parser!(u32).range(1..))]
     pub rays: u32,
-    /// Build method; may be given more than once [default: all but none]
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), help_heading = "Tree")]
-    pub method: Vec<Method>,
     #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
+    pub settings: SettingArgs<Verified>,
 }
 
 /// Try trees at the extremes: tough rays, geometry, transforms and settings
@@ -472,17 +421,11 @@ pub struct VerifyArgs {
 pub struct StabilityArgs {
     /// Scene to try the cases on that apply to any [default: the built-in torture set]
     pub scene: Option<String>,
-    #[command(flatten)]
-    pub cylinders: CylinderArgs,
     /// Fewer rays and smaller pictures: seconds in place of minutes
     #[arg(long)]
     pub quick: bool,
-    /// Build method; may be given more than once [default: all but none]
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), help_heading = "Tree")]
-    pub method: Vec<Method>,
-    /// Threads; 0 takes as many as the machine has cores
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub threads: usize,
+    #[command(flatten)]
+    pub settings: SettingArgs<Extreme>,
     /// Form of the matrix
     #[arg(long, value_enum, default_value_t = ListFormat::Text, help_heading = "Output")]
     pub format: ListFormat,
@@ -497,40 +440,30 @@ pub struct StabilityArgs {
 /// resolution. The reference is f64 with exact shapes and secondary rays at least 8 deep. Choices that
 /// move only the time (method, D_MAX, N_OILF) stand apart.
 #[derive(Debug, Args)]
-#[command(after_help = help("bspscope trade rings\n\
-    bspscope trade balls --only precision --rounds 9\n\
-    bspscope trade balls:3 --resolution 256x256 --samples 4 --format csv -o trade.csv"))]
-pub struct TradeArgs {
+#[command(after_help = help("bspscope accuracy rings\n\
+    bspscope accuracy balls --only precision --rounds 9\n\
+    bspscope accuracy balls:3 --resolution 256x256 --samples 4 --format csv -o accuracy.csv"))]
+pub struct AccuracyArgs {
     /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
     pub scene: String,
-    /// Build method of the reference
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), default_value = "sah-cut", help_heading = "Tree")]
-    pub method: Method,
     #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
-    /// Samples a pixel of the reference
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..), help_heading = "Picture")]
-    pub samples: u32,
+    pub settings: SettingArgs<Reference>,
     /// Only this choice, alone; may be given more than once [default: all, alone and together]
-    #[arg(long, value_name = "CHOICE", value_parser = PossibleValuesParser::new(KNOBS.iter().map(|k| PossibleValue::new(k.name).help(k.about))))]
-    pub only: Vec<String>,
+    #[arg(long, value_name = "CHOICE", value_parser = knob_names())]
+    pub only: Vec<&'static Knob>,
     /// Rounds in which every choice is timed once
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
     pub rounds: u32,
     /// Form of the report
-    #[arg(long, value_enum, default_value_t = TradeFormat::Text, help_heading = "Output")]
-    pub format: TradeFormat,
+    #[arg(long, value_enum, default_value_t = AccuracyFormat::Text, help_heading = "Output")]
+    pub format: AccuracyFormat,
     /// Write to this file in place of standard output
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum TradeFormat {
+pub enum AccuracyFormat {
     Text,
     Json,
     Csv,
@@ -570,28 +503,6 @@ pub enum LessonCommand {
     },
 }
 
-#[derive(Debug, Args)]
-pub struct SceneArgs {
-    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
-    pub scene: String,
-    #[command(flatten)]
-    pub cylinders: CylinderArgs,
-}
-
-#[derive(Debug, PartialEq, Args)]
-pub struct CylinderArgs {
-    /// How cylinders and cones enter the scene: exact, or polygons:N for open prisms of N polygons
-    #[arg(long, value_name = "HOW", default_value_t = Cylinders::Exact, help_heading = "Scene")]
-    pub cylinders: Cylinders,
-}
-
-#[derive(Debug, Args)]
-pub struct MethodListArgs {
-    /// Build method; may be given more than once [default: the paper's two]
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), help_heading = "Tree")]
-    pub method: Vec<Method>,
-}
-
 /// The form of a report, and where it goes.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
@@ -602,106 +513,6 @@ pub struct ReportArgs {
     /// Write to this file in place of standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-}
-
-/// What a tree is built with.
-#[derive(Debug, PartialEq, Args)]
-#[command(next_help_heading = "Tree")]
-pub struct BuildArgs {
-    /// Greatest depth of a leaf, D_MAX, or 'auto'; the root has depth 0
-    #[arg(long, value_name = "N", default_value = "20")]
-    pub d_max: MaxDepth,
-    /// A cell with at most this many objects becomes a leaf, N_OILF
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub n_oilf: u32,
-    #[command(flatten)]
-    pub rules: RuleArgs,
-}
-
-/// What a tree is built with beside its limits.
-#[derive(Clone, Debug, PartialEq, Args)]
-#[command(next_help_heading = "Tree")]
-pub struct RuleArgs {
-    /// When an object belongs to a cell: paper, bounds or exact
-    #[arg(long, value_name = "RULE", default_value = OverlapRule::Paper.name())]
-    pub overlap: OverlapRule,
-    /// How far the root cell reaches beyond the scene's bounds on every side, a length
-    #[arg(
-        long,
-        value_name = "X",
-        default_value_t = 0.001,
-        allow_negative_numbers = true
-    )]
-    pub root_margin: f64,
-    /// The axis that methods in cyclic order split first: x, y or z
-    #[arg(long, value_name = "AXIS", default_value_t = Axis::X)]
-    pub first_axis: Axis,
-    /// A method's own setting (see 'bspscope methods'), for every chosen method that has it
-    #[arg(long, value_name = "NAME=VALUE", value_parser = constant)]
-    pub set: Vec<(String, f64)>,
-    /// The build stops with an error before it takes more than this many MiB
-    #[arg(long, value_name = "MIB", default_value_t = 4096)]
-    pub memory_limit: u64,
-}
-
-/// What rays are traced with.
-#[derive(Debug, PartialEq, Args)]
-#[command(next_help_heading = "Picture")]
-pub struct TraceArgs {
-    /// How deep secondary rays go, D_AREC; 0 traces none
-    #[arg(long, value_name = "N", default_value_t = 4)]
-    pub d_arec: u32,
-    /// A secondary ray that counts for less than this in every colour of its pixel is not traced
-    #[arg(long, value_name = "WEIGHT", value_parser = share, default_value = "0")]
-    pub cut_off: f64,
-    /// Numbers that rays are traced in: f32, f64, or auto for f32 where it can hold the scene
-    #[arg(long, value_name = "NUMBERS", value_parser = precision_names(), default_value = "f64")]
-    pub precision: PrecisionChoice,
-    /// Kernel of timed rendering: scalar for one ray after the other, as the paper timed; stream for
-    /// batches of rays in SIMD; packets for neighboring rays that traverse together in SIMD; auto for
-    /// packets where rays are coherent, stream elsewhere, scalar where the processor has no wide SIMD
-    #[arg(long, value_name = "KERNEL", value_parser = kernel_names(), default_value = "scalar")]
-    pub kernel: KernelChoice,
-    /// Where the first sample lies: in the pixel's centre, or on a lattice that spans the angle
-    #[arg(long, value_name = "WHERE", value_parser = sampling_names(), default_value = "center")]
-    pub sampling: Sampling,
-    /// Threads; 0 takes as many as the machine has cores
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub threads: usize,
-    #[command(flatten)]
-    pub camera: CameraArgs,
-}
-
-/// A camera in place of the scene's own; what is not given stays the scene's.
-#[derive(Debug, PartialEq, Args)]
-#[command(next_help_heading = "Camera")]
-pub struct CameraArgs {
-    /// The eye, in place of the scene's
-    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
-    pub from: Option<Vec3>,
-    /// The point that is looked at, in place of the scene's
-    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
-    pub at: Option<Vec3>,
-    /// Up, in place of the scene's
-    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
-    pub up: Option<Vec3>,
-    /// The full vertical angle of view, in place of the scene's
-    #[arg(long, value_name = "DEGREES")]
-    pub angle: Option<f64>,
-}
-
-#[derive(Debug, PartialEq, Args)]
-pub struct PictureArgs {
-    /// Width and height in pixels
-    #[arg(long, value_name = "WxH", value_parser = resolution, default_value = "512x512", help_heading = "Picture")]
-    pub resolution: [u32; 2],
-}
-
-impl WindowArgs {
-    /// Without any.
-    pub fn plain() -> Self {
-        Arguments::parse_from(["bspscope"]).window
-    }
 }
 
 /// Examples, the scenes that can be generated, and the files that can be read.
@@ -733,6 +544,10 @@ fn help(examples: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{SceneRequest, SceneSource};
+    use crate::setup::Setup;
+    use crate::structure::BuildSettings;
+    use crate::workspace::measure_command;
     use clap::CommandFactory;
 
     #[test]
@@ -740,90 +555,58 @@ mod tests {
         Arguments::command().debug_assert();
     }
 
+    /// The setups of a line of arguments of `measure`.
+    fn measured(words: &[String]) -> Vec<Setup> {
+        let Some(Command::Measure(args)) = Arguments::parse_from(words).command else {
+            panic!("not a measurement: {words:?}");
+        };
+        args.settings.setups(&args.scene).unwrap()
+    }
+
     #[test]
     fn the_defaults_are_those_of_the_library() {
-        use crate::structure::BuildSettings;
-        let arguments = Arguments::parse_from(["bspscope", "measure", "balls"]);
-        let Some(Command::Measure(args)) = arguments.command else {
-            panic!("not a measurement");
-        };
-        let methods = Method::of_the_paper();
-        assert_eq!(
-            crate::cli::resolve::builds(&methods, &args.build).unwrap(),
-            methods
-                .into_iter()
-                .map(BuildSettings::for_method)
-                .collect::<Vec<_>>()
-        );
-        let render = crate::cli::resolve::render(&args.trace, &args.picture);
-        assert_eq!(render, crate::trace::RenderSettings::default());
+        let setups = measured(&["bspscope", "measure", "balls"].map(String::from));
+        let expected = Method::of_the_paper().into_iter().map(|method| Setup {
+            build: BuildSettings::for_method(method),
+            ..Setup::default()
+        });
+        assert_eq!(setups, expected.collect::<Vec<_>>());
     }
 
     #[test]
     fn a_copied_command_measures_with_the_same_settings() {
-        use crate::cli::resolve;
-        use crate::scene::{CameraOverride, SceneSource};
-        use crate::trace::RenderSettings;
-        use crate::workspace::{PictureSettings, TreeSettings, measure_command};
-
-        let plain = TreeSettings {
-            cylinders: Cylinders::Exact,
-            build: BuildSettings::default(),
-            picture: PictureSettings::of(&RenderSettings::default()),
-        };
+        let mut plain = Setup::new(SceneRequest::parse("balls:3"));
+        plain.build = BuildSettings::for_method(Method::named("sah-cut").unwrap());
+        let mut all: Vec<Setup> = Method::all()
+            .map(|method| Setup {
+                build: BuildSettings::for_method(method),
+                ..plain.clone()
+            })
+            .collect();
+        for setting in plain.settings() {
+            all.extend(setting.examples().into_iter().map(|value| {
+                let mut setup = plain.clone();
+                setting.store(&mut setup, value);
+                setup
+            }));
+        }
+        assert!(all.len() > 40);
         let mut other = plain.clone();
-        other.cylinders = Cylinders::Polygons(10);
-        other.build = BuildSettings::for_method(Method::named("sah-cut").unwrap());
-        other.build.d_max = MaxDepth::Automatic;
-        other.build.n_oilf = 3;
-        other.build.root_margin = 1.0 / 3.0;
-        other.build.first_axis = Axis::Z;
-        other
-            .build
-            .constants
-            .insert("gap-fraction".into(), 0.1 + 0.2);
-        other.build.memory_limit = 123 << 20;
-        let picture = &mut other.picture;
-        picture.resolution = [640, 360];
-        (picture.d_arec, picture.cut_off, picture.threads) = (0, 0.01, 7);
-        picture.sampling = Sampling::Corner;
-        let moved = CameraOverride {
-            from: Some(Vec3::new(-1.0 / 3.0, -2e-9, 3e20)),
-            at: Some(Vec3::new(-0.5, 0.0, 7.0)),
-            up: Some(Vec3::new(0.0, -1.0, 0.0)),
-            angle: Some(12.3),
-        };
-        let mut all = vec![plain.clone(), other];
-        let with = |change: &dyn Fn(&mut TreeSettings)| {
-            let mut settings = plain.clone();
-            change(&mut settings);
-            settings
-        };
-        all.extend(Method::all().map(|m| with(&|s| s.build = BuildSettings::for_method(m))));
-        all.extend(OverlapRule::ALL.map(|rule| with(&|s| s.build.overlap = rule)));
-        all.extend(PrecisionChoice::ALL.map(|p| with(&|s| s.picture.precision = p)));
-        all.extend(KernelChoice::ALL.map(|kernel| with(&|s| s.picture.kernel = kernel)));
-        let sources = [
-            SceneSource::parse("balls:3"),
-            SceneSource::File("/not/there/it's -- a \"scene\" $HOME.nff".into()),
-        ];
-        for settings in &all {
-            for (source, camera) in sources.iter().zip([CameraOverride::default(), moved]) {
-                let line = measure_command(source, &camera, settings);
-                let words = shell_words::split(&line).unwrap();
-                let Some(Command::Measure(args)) = Arguments::parse_from(words).command else {
-                    panic!("not a measurement: {line}");
-                };
-                assert_eq!(SceneSource::parse(&args.scene.scene), *source, "{line}");
-                assert_eq!(args.scene.cylinders.cylinders, settings.cylinders, "{line}");
-                let builds = resolve::builds(&args.methods.method, &args.build).unwrap();
-                assert_eq!(builds, std::slice::from_ref(&settings.build), "{line}");
-                let render = resolve::render(&args.trace, &args.picture);
-                let expected = settings.picture.with(camera);
-                assert_eq!(render, expected, "{line}");
+        for setting in plain.settings() {
+            if setting.name != "method" {
+                setting.store(&mut other, setting.examples()[0]);
             }
         }
-        let line = measure_command(&sources[0], &CameraOverride::default(), &plain);
+        let file = "/not/there/it's -- a \"scene\" $HOME.nff";
+        other.scene.source = SceneSource::File(file.into());
+        all.push(other);
+        for setup in &all {
+            let line = measure_command(setup);
+            let words = shell_words::split(&line).unwrap();
+            assert_eq!(measured(&words), std::slice::from_ref(setup), "{line}");
+        }
+        plain.build = BuildSettings::default();
+        let line = measure_command(&plain);
         let expected = "bspscope measure balls:3 --method midpoint --resolution 512x512 --d-arec 4";
         assert_eq!(line, expected);
     }

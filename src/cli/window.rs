@@ -6,9 +6,7 @@ use super::{measure, output, resolve};
 use crate::files;
 use crate::present::export;
 use crate::present::report::{Report, write_summary};
-use crate::scene::{Scene, SceneRequest};
-use crate::structure::BuildSettings;
-use crate::trace::RenderSettings;
+use crate::setup::Setup;
 use crate::workspace::Workspace;
 use anyhow::{Context, Result, bail};
 use image::ImageFormat;
@@ -40,7 +38,7 @@ fn workspace(args: &WindowArgs) -> Result<Option<(PathBuf, Workspace)>> {
     let Some(path) = path.filter(|path| Workspace::is_path(path)) else {
         return Ok(None);
     };
-    if !is_plain(args) {
+    if !args.settings.is_empty() {
         bail!(
             "{}: a workspace has its own settings; open it without options",
             path.display()
@@ -58,44 +56,15 @@ fn workspace(args: &WindowArgs) -> Result<Option<(PathBuf, Workspace)>> {
     Ok(Some((path, workspace)))
 }
 
-/// Whether nothing was set.
-fn is_plain(args: &WindowArgs) -> bool {
-    let WindowArgs {
-        scene: _,
-        lesson: _,
-        cylinders,
-        methods,
-        build,
-        trace,
-        picture,
-    } = args;
-    let plain = WindowArgs::plain();
-    methods.method.is_empty()
-        && *cylinders == plain.cylinders
-        && *build == plain.build
-        && *trace == plain.trace
-        && *picture == plain.picture
-}
-
 /// Opens the window and waits until it is closed; where there can be none, says why.
 #[cfg(feature = "gui")]
 fn open(args: &WindowArgs, workspace: Option<(PathBuf, Workspace)>) -> Result<Option<String>> {
     use crate::gui::{GuiError, StartOptions};
-    use crate::scene::SceneSource;
-    use crate::setup::Setup;
 
     let mut start = StartOptions::default();
     // The window shows one method at a time.
-    let methods = resolve::methods(&args.methods.method);
-    start.setup = Setup {
-        scene: SceneRequest {
-            source: SceneSource::parse(scene_text(args)),
-            cylinders: args.cylinders.cylinders,
-        },
-        build: resolve::builds(&methods, &args.build)?.remove(0),
-        render: resolve::render(&args.trace, &args.picture),
-    };
-    start.last_session = args.scene.is_none() && args.lesson.is_none() && is_plain(args);
+    start.setup = args.settings.setup(scene_text(args))?;
+    start.last_session = args.scene.is_none() && args.lesson.is_none() && args.settings.is_empty();
     start.workspace = workspace;
     let lesson = args.lesson.as_deref().map(crate::lesson::Lesson::open);
     start.lesson = lesson.transpose()?;
@@ -119,40 +88,28 @@ fn scene_text(args: &WindowArgs) -> &str {
 
 /// Δ and Λ of the methods, and the picture in a file of its own.
 fn without_window(args: &WindowArgs) -> Result<Outcome> {
-    let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
-    let (request, scene) = resolve::scene(scene_text(args), &args.cylinders)?;
-    let settings = resolve::render(&args.trace, &args.picture);
-    summary(&request, &scene, builds, &settings)
+    summary(&args.settings.setups(scene_text(args))?)
 }
 
-/// The same of a workspace's trees; the second as the first was traced.
+/// The same of a workspace's setups.
 fn workspace_without_window(workspace: &Workspace) -> Result<Outcome> {
-    let request = SceneRequest {
-        source: workspace.scene.source.clone(),
-        cylinders: workspace.a.cylinders,
-    };
-    let scene = resolve::load_scene(&request)?;
-    let settings = workspace.a.picture.with(workspace.camera);
-    let trees = [Some(&workspace.a), workspace.b.as_ref()];
-    let builds = trees.into_iter().flatten().map(|t| t.build.clone());
-    summary(&request, &scene, builds.collect(), &settings)
+    let setups = [Some(&workspace.a), workspace.b.as_ref()];
+    summary(&setups.into_iter().flatten().cloned().collect::<Vec<_>>())
 }
 
-fn summary(
-    request: &SceneRequest,
-    scene: &Scene,
-    builds: Vec<BuildSettings>,
-    settings: &RenderSettings,
-) -> Result<Outcome> {
-    settings.view(scene)?;
+/// The summary of setups of one scene; all are rendered as the first.
+fn summary(setups: &[Setup]) -> Result<Outcome> {
+    let first = setups.first().context("there is at least one method")?;
+    let scene = &resolve::scene(&first.scene)?;
+    first.render.view(scene)?;
     let mut runs = Vec::new();
     let mut last = None;
-    for build in &builds {
-        let measured = measure::run_of(scene, build, settings)?;
+    for Setup { build, .. } in setups {
+        let measured = measure::run_of(scene, build, &first.render)?;
         runs.push(measured.measurement);
         last = Some(measured.picture);
     }
-    let report = Report::new(scene, request, runs);
+    let report = Report::new(scene, &first.scene, runs);
     output::write_to(None, |out| write_summary(&report, out))?;
 
     let picture = last.context("there is at least one method")?;

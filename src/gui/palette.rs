@@ -4,7 +4,7 @@
 use super::layout::Pane;
 use super::shortcuts::{Action, SHORTCUTS};
 use crate::lesson::LESSONS;
-use crate::measure::heat::HEATMAPS;
+use crate::measure::heat::heatmaps;
 use crate::present::overlay::COLORINGS;
 use crate::scene::SceneSource;
 use crate::scene::builtin::BUILTINS;
@@ -20,7 +20,7 @@ pub enum Command {
     Do(Action),
     Method(Method),
     Open(SceneSource),
-    /// Place in [`HEATMAPS`]; `None` for the picture alone.
+    /// Place in [`heatmaps`]; `None` for the picture alone.
     Heatmap(Option<usize>),
     /// Place in [`COLORINGS`].
     Color(usize),
@@ -186,7 +186,7 @@ fn entries(recent: &[SceneSource]) -> Vec<Entry> {
         plain(text, Command::Method(method))
     });
     let picture = plain("Heatmap: none".into(), Command::Heatmap(None));
-    let heatmaps = HEATMAPS.iter().enumerate().map(|(place, heatmap)| {
+    let heatmaps = heatmaps().iter().enumerate().map(|(place, heatmap)| {
         let text = format!("Heatmap: {} ({})", heatmap.name, heatmap.symbol);
         plain(text, Command::Heatmap(Some(place)))
     });

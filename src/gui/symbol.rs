@@ -1,6 +1,6 @@
 //! The paper's symbols with their explanation on hover, and numbers in groups.
 
-use crate::measure::{Measurement, PARAMETERS, Parameter};
+use crate::measure::{Measurement, Parameter, parameters};
 
 /// A symbol; on hover: name, meaning, formula, formula with the current numbers, class and table.
 pub fn symbol(ui: &mut egui::Ui, parameter: &'static Parameter, measurement: &Measurement) {
@@ -19,7 +19,7 @@ pub fn explain(ui: &mut egui::Ui, parameter: &Parameter, measurement: &Measureme
         ui.label(format!(
             "= {} = {}",
             with_numbers(parameter.formula, measurement),
-            parameter.format((parameter.value)(measurement))
+            parameter.format(parameter.value(measurement))
         ));
     }
     ui.separator();
@@ -35,12 +35,12 @@ fn with_numbers(formula: &str, measurement: &Measurement) -> String {
     let mut out = String::new();
     let mut rest = formula;
     while let Some(first) = rest.chars().next() {
-        let symbol = PARAMETERS
+        let symbol = parameters()
             .iter()
             .filter(|p| rest.starts_with(p.symbol))
             .max_by_key(|p| p.symbol.len());
         if let Some(parameter) = symbol {
-            out += &parameter.format((parameter.value)(measurement));
+            out += &parameter.format(parameter.value(measurement));
             rest = &rest[parameter.symbol.len()..];
         } else {
             out.push(first);

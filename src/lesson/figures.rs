@@ -1,8 +1,8 @@
 //! The figures that were measured for a step of a lesson, and their names in lessons.
 
 use crate::measure::accuracy::pixel_errors;
-use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter, Source, Whole};
-use crate::measure::{Class, Measurement, PARAMETERS, Parameter, differing_pixels};
+use crate::measure::heat::{Heatmap, RayFilter, Source, Whole, heatmaps};
+use crate::measure::{Class, Measurement, Parameter, differing_pixels, parameters};
 use crate::present::number::{grouped, significant};
 use crate::trace::{Picture, PixelTallies, Tally};
 
@@ -117,11 +117,15 @@ impl Name {
         let of_pixel = [("pixel.", RayFilter::All), ("ray.", RayFilter::Primary)];
         for (prefix, rays) in of_pixel {
             if let Some(symbol) = symbol.strip_prefix(prefix) {
-                let mut all = HEATMAPS.iter();
+                let mut all = heatmaps().iter();
                 let counted = |h: &&Heatmap| matches!(h.source, Source::Rays(_));
                 let heatmap = all.find(|h| h.symbol == symbol && counted(h));
                 let heatmap = heatmap.ok_or_else(|| {
-                    let known: Vec<_> = HEATMAPS.iter().filter(counted).map(|h| h.symbol).collect();
+                    let known: Vec<_> = heatmaps()
+                        .iter()
+                        .filter(counted)
+                        .map(|h| h.symbol)
+                        .collect();
                     format!(
                         "'{symbol}' is not counted per pixel; available: {}",
                         known.join(", ")
@@ -130,10 +134,10 @@ impl Name {
                 return Ok(Name::Pixel(side, heatmap, rays));
             }
         }
-        if let Some(parameter) = PARAMETERS.iter().find(|p| p.symbol == symbol) {
+        if let Some(parameter) = parameters().iter().find(|p| p.symbol == symbol) {
             return Ok(Name::Parameter(side, parameter));
         }
-        let mut sums = HEATMAPS
+        let mut sums = heatmaps()
             .iter()
             .filter(|h| !h.parameters(RayFilter::All).is_empty());
         let heatmap = sums.find(|h| h.symbol == symbol);
@@ -173,11 +177,11 @@ impl Name {
             Side::B => figures.b.as_ref(),
         };
         match *self {
-            Name::Parameter(side, parameter) => (parameter.value)(&of(side)?.measurement),
+            Name::Parameter(side, parameter) => parameter.value(&of(side)?.measurement),
             Name::Total(side, heatmap) => {
                 let measurement = &of(side)?.measurement;
                 let parameters = heatmap.parameters(RayFilter::All).iter();
-                let values = parameters.map(|s| (crate::measure::parameter(s).value)(measurement));
+                let values = parameters.map(|s| crate::measure::parameter(s).value(measurement));
                 values.sum()
             }
             Name::Pixel(side, heatmap, rays) => of_rays(of(side)?.pixel.as_ref()?, heatmap, rays),

@@ -2,25 +2,24 @@
 
 pub mod accuracy;
 mod comparison;
+mod counter;
 mod facts;
 pub mod heat;
 pub mod judge;
 mod measurement;
 pub mod model;
 pub mod paper;
-mod parameter;
-mod parameters;
-mod ray_figures;
 pub mod stability;
 pub mod sweep;
 mod verify;
 
 pub use comparison::{Change, Unequal, change, differing_pixels, unequal};
+pub use counter::{
+    COUNTERS, Class, Counter, DELTA, LAMBDA, Parameter, RayFigure, Table, Unit, parameter,
+    parameters, ray_figures,
+};
 pub use facts::{SceneFacts, TreeFacts};
 pub use measurement::{MeasureError, Measured, Measurement, Times, measure, measure_pixels};
-pub use parameter::{Class, Parameter, Table, Unit};
-pub use parameters::{DELTA, LAMBDA, PARAMETERS, parameter};
-pub use ray_figures::{RAY_FIGURES, RayFigure};
 pub use verify::{
     Answers, RaySample, Verification, answer, ask, compare, sample_rays, unsplit, verify_sample,
 };

@@ -2,10 +2,9 @@
 
 use super::Camera;
 use crate::geometry::Vec3;
-use serde::{Deserialize, Serialize};
 
 /// Replaces parts of the scene's own camera; `None` keeps the scene's value.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CameraOverride {
     /// The eye.
     pub from: Option<Vec3>,

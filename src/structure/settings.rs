@@ -16,6 +16,11 @@ impl Method {
     pub const fn new(info: &'static MethodInfo) -> Method {
         Method(info)
     }
+
+    /// What is known of it.
+    pub const fn info(self) -> &'static MethodInfo {
+        self.0
+    }
 }
 
 impl std::ops::Deref for Method {
@@ -307,49 +312,5 @@ impl BuildSettings {
             }
         }
         Ok(())
-    }
-}
-
-impl std::str::FromStr for BuildSettings {
-    type Err = String;
-
-    /// Reads settings such as `method=sah-cut,d-max=16,gap-fraction=0.1`: a method, and any of
-    /// `d-max`, `n-oilf`, `overlap`, `root-margin`, `first-axis` and the method's own constants.
-    fn from_str(text: &str) -> Result<Self, String> {
-        fn value<T>(text: &str) -> Result<T, String>
-        where
-            T: std::str::FromStr<Err: ToString>,
-        {
-            text.parse().map_err(|error: T::Err| error.to_string())
-        }
-        let pairs: Vec<(&str, &str)> = text
-            .split(',')
-            .map(|pair| {
-                pair.split_once('=')
-                    .map(|(name, value)| (name.trim(), value.trim()))
-                    .ok_or_else(|| format!("expected NAME=VALUE, found '{pair}'"))
-            })
-            .collect::<Result<_, _>>()?;
-        let method = pairs.iter().find(|(name, _)| *name == "method");
-        let (_, method) = method.ok_or("expected method=NAME among the settings")?;
-        let mut settings = BuildSettings::for_method(value(method)?);
-        for (name, text) in pairs {
-            match name {
-                "method" => {}
-                "d-max" => settings.d_max = value(text)?,
-                "n-oilf" => settings.n_oilf = value(text)?,
-                "overlap" => settings.overlap = value(text)?,
-                "root-margin" => settings.root_margin = value(text)?,
-                "first-axis" => settings.first_axis = value(text)?,
-                _ => {
-                    let number = text
-                        .parse()
-                        .map_err(|_| format!("{name}: expected a number, found '{text}'"))?;
-                    settings.constants.insert(name.to_owned(), number);
-                }
-            }
-        }
-        settings.check().map_err(|error| error.to_string())?;
-        Ok(settings)
     }
 }

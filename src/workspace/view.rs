@@ -2,7 +2,7 @@
 
 use super::names;
 use crate::geometry::Axis;
-use crate::measure::heat::{HEATMAPS, RayFilter};
+use crate::measure::heat::{RayFilter, heatmaps};
 use crate::measure::model::Region;
 use crate::present::overlay::{COLORINGS, COLORMAPS, HISTOGRAMS, Scale, Visited};
 use crate::scene::Camera;
@@ -239,7 +239,7 @@ fn known_histogram<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Erro
 }
 
 fn known_heatmap<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {
-    names::one_of(from, "heatmap", HEATMAPS.iter().map(|map| map.symbol)).map(Some)
+    names::one_of(from, "heatmap", heatmaps().iter().map(|map| map.symbol)).map(Some)
 }
 
 fn known_rays<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {

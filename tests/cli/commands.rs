@@ -1,7 +1,7 @@
 //! The command line as a user meets it: exit codes, outputs, files, and what goes to which stream.
 
 use crate::support::program::Program;
-use bspscope::measure::{DELTA, LAMBDA, PARAMETERS, Unit};
+use bspscope::measure::{DELTA, LAMBDA, Unit, parameters};
 use bspscope::structure::Method;
 use serde_json::Value;
 use std::io::Read;
@@ -35,15 +35,18 @@ fn wrong_use_is_told_with_exit_code_2() {
         assert!(!output.stderr.is_empty(), "{arguments}");
     }
     for (arguments, part) in [
-        ("measure balls:1 --resolution 0x16", "0 × 16"),
-        ("measure balls:1 --root-margin -1", "root margin is -1"),
+        ("measure balls:1 --resolution 0x16", "at least 1 pixel"),
+        ("measure balls:1 --root-margin -1", "a number of at least 0"),
         ("measure balls:1 --set gap-fraction=2", "gap-fraction is 2"),
         (
             "measure balls:1 --method midpoint --set gap-fraction=0.5",
             "--set gap-fraction",
         ),
         ("measure balls:99", "the size of balls must be from 0 to"),
-        ("measure tetra:5 --memory-limit 0", "memory limit of 0 MiB"),
+        (
+            "measure tetra:5 --memory-limit 0",
+            "--memory-limit: expected a whole number from 1",
+        ),
         ("render teaching -o picture.jpg", ".png or .exr"),
         ("render teaching --resolution 16x16 -o no/a.png", "no/a.png"),
         ("measure balls:1 --resolution 16x16 -o no/a.txt", "no/a.txt"),
@@ -87,11 +90,11 @@ fn json_has_every_symbol_and_sets_delta_and_lambda_apart() {
         let keys = |part: &str| -> Vec<String> {
             run[part].as_object().unwrap().keys().cloned().collect()
         };
-        let symbols: Vec<_> = PARAMETERS.iter().map(|p| p.symbol).collect();
+        let symbols: Vec<_> = parameters().iter().map(|p| p.symbol).collect();
         assert_eq!(keys("parameters"), symbols);
         assert_eq!(keys("delta"), DELTA);
         assert_eq!(keys("lambda"), LAMBDA);
-        for parameter in PARAMETERS {
+        for parameter in parameters() {
             let value = &run["parameters"][parameter.symbol];
             assert!(value.is_number(), "{}: {value}", parameter.symbol);
             let whole = matches!(parameter.unit, Unit::Count | Unit::Bytes);
@@ -269,8 +272,8 @@ fn every_form_has_every_symbol_for_every_method() {
     let csv = program.done(&format!("{measure} --format csv"));
     let mut csv = csv::Reader::from_reader(csv.as_bytes());
     let lines: Vec<csv::StringRecord> = csv.records().map(Result::unwrap).collect();
-    assert_eq!(lines.len(), 2 * PARAMETERS.len());
-    for parameter in PARAMETERS {
+    assert_eq!(lines.len(), 2 * parameters().len());
+    for parameter in parameters() {
         let symbol = parameter.symbol;
         assert!(
             text.lines().any(|l| l.starts_with(&format!(" {symbol} "))),
@@ -366,7 +369,7 @@ fn generated_files_measure_as_their_generator_does() {
                 .unwrap()
                 .iter()
                 .flat_map(|run| {
-                    PARAMETERS
+                    parameters()
                         .iter()
                         .filter(|p| p.unit == Unit::Count)
                         .map(|p| run["parameters"][p.symbol].clone())
@@ -417,7 +420,7 @@ fn a_grid_shows_no_value_where_a_parameter_does_not_apply() {
         assert!(row.contains(&"–"), "{row:?}");
     }
     assert!(
-        text.contains("grid: D_MAX and N_OILF do not apply"),
+        text.contains("grid: D_MAX 20 (does not apply), N_OILF 1 (does not apply)"),
         "{text}"
     );
 }

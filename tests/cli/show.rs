@@ -1,7 +1,7 @@
 //! `bspscope render --show` and `bspscope probe`, as a user meets them.
 
 use crate::support::program::Program;
-use bspscope::measure::heat::HEATMAPS;
+use bspscope::measure::heat::heatmaps;
 use exr::prelude::read_first_flat_layer_from_file;
 use image::GenericImageView;
 use std::path::Path;
@@ -27,7 +27,7 @@ fn channel(path: &Path) -> (String, Vec<f32>) {
 #[test]
 fn every_heatmap_is_written_with_its_legend() {
     let program = Program::new();
-    for heatmap in HEATMAPS {
+    for heatmap in heatmaps() {
         let symbol = heatmap.symbol;
         program.done(&format!(
             "render teaching {QUICK} --show {symbol} -o {symbol}.png"
@@ -188,7 +188,7 @@ fn what_cannot_be_shown_is_refused() {
         &program,
         &format!("render teaching {QUICK} --show N_NODE -o a.png"),
     );
-    for heatmap in HEATMAPS {
+    for heatmap in heatmaps() {
         assert!(errors.contains(heatmap.symbol), "{errors}");
     }
     for (arguments, part) in [

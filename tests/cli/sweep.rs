@@ -1,11 +1,11 @@
 //! `bspscope sweep`, `merge` and `model`, as a user meets them.
 
 use crate::support::program::Program;
-use bspscope::measure::{Class, PARAMETERS};
+use bspscope::measure::{Class, parameters};
 
 /// The cells of a file of rows, those that depend on the machine left empty.
 fn counts(program: &Program, name: &str) -> Vec<Vec<String>> {
-    let times: Vec<_> = PARAMETERS
+    let times: Vec<_> = parameters()
         .iter()
         .filter(|p| p.class == Class::T)
         .map(|p| p.symbol)

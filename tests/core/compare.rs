@@ -2,7 +2,7 @@
 
 use crate::support::scenes::{render_sized, scene, settings};
 use bspscope::geometry::Vec3;
-use bspscope::measure::{Measured, RAY_FIGURES, Unequal, measure, parameter, unequal};
+use bspscope::measure::{Measured, Unequal, measure, parameter, ray_figures, unequal};
 use bspscope::primitive::{Primitive, Sphere};
 use bspscope::progress::Progress;
 use bspscope::scene::{Sampling, Scene};
@@ -30,6 +30,7 @@ fn symbols(reasons: &[Unequal]) -> Vec<&'static str> {
         .iter()
         .map(|reason| match reason {
             Unequal::Parameter { symbol, .. } => *symbol,
+            Unequal::Setting { name, .. } => *name,
             Unequal::Camera => "camera",
             Unequal::Pixels { .. } => "pixels",
             Unequal::Size => "size",
@@ -60,7 +61,11 @@ fn unequal_parameters_are_named() {
     let moved = measured(&scene, "midpoint", |_, render| {
         render.sampling = Sampling::Corner;
     });
-    assert!(symbols(&reasons(&one, &moved)).contains(&"camera"));
+    assert!(symbols(&reasons(&one, &moved)).contains(&"sampling"));
+    let turned = measured(&scene, "midpoint", |_, render| {
+        render.camera.angle = Some(20.0);
+    });
+    assert!(symbols(&reasons(&one, &turned)).contains(&"camera"));
     let wider = measured(&scene, "midpoint", |_, render| render.width = 41);
     let found = reasons(&one, &wider);
     assert!(symbols(&found).contains(&"N_X") && symbols(&found).contains(&"size"));
@@ -93,7 +98,7 @@ fn one_object_moved_is_refused_with_the_pixels_that_show_it() {
 
 /// A figure of the rays of a kind.
 fn figure(measured: &Measured, key: &str, kind: RayKind) -> f64 {
-    let figure = RAY_FIGURES.iter().find(|figure| figure.key == key);
+    let figure = ray_figures().iter().find(|figure| figure.key == key);
     figure.unwrap().of(&measured.measurement, kind).unwrap()
 }
 
@@ -111,13 +116,13 @@ fn figures_of_all_kinds_of_rays_sum_to_the_papers() {
         let sum: f64 = RayKind::ALL.into_iter().map(|k| figure(&one, key, k)).sum();
         assert_eq!(
             Some(sum),
-            (parameter(symbol).value)(&one.measurement),
+            parameter(symbol).value(&one.measurement),
             "{symbol}"
         );
     }
     assert_eq!(
         Some(figure(&one, "tests", RayKind::Primary)),
-        (parameter("N_PRIT").value)(&one.measurement)
+        parameter("N_PRIT").value(&one.measurement)
     );
     for kind in [RayKind::Primary, RayKind::Shadow, RayKind::Reflected] {
         let of = |key: &str| figure(&one, key, kind);
@@ -138,7 +143,7 @@ fn figures_of_all_kinds_of_rays_sum_to_the_papers() {
         }
     }
     // No sphere of this scene refracts.
-    let none = RAY_FIGURES
+    let none = ray_figures()
         .iter()
         .map(|f| f.of(&one.measurement, RayKind::Refracted));
     assert!(none.flatten().all(|value| value == 0.0));

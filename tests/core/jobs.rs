@@ -124,7 +124,7 @@ fn a_request_goes_from_picture_to_complete_figures() {
     assert_eq!(every_pixel.len(), 1);
     assert_eq!(
         heatmap("N_NODES").and_then(|nodes| nodes.total(every_pixel[0], RayFilter::All)),
-        (parameter("N_NODES").value)(complete[0])
+        parameter("N_NODES").value(complete[0])
     );
     assert!(complete[0].rendering.is_some() && complete[0].counted.is_some());
 }

@@ -372,7 +372,7 @@ fn octree_and_grid_have_all_of_delta_and_lambda_and_may_be_compared() {
         let sides = [&midpoint, &other].map(|m| (&m.measurement, &m.picture));
         assert_eq!(unequal(sides[0], sides[1]), [], "{method}");
         for symbol in DELTA.iter().chain(&LAMBDA) {
-            let value = |m| (parameter(symbol).value)(m);
+            let value = |m| parameter(symbol).value(m);
             let values = [value(sides[0].0), value(sides[1].0)];
             assert!(values[1].is_some(), "{symbol} of {method}");
             assert!(change(parameter(symbol).unit, values[0], values[1]).is_some());

@@ -31,7 +31,7 @@ fn the_counts_of_all_pixels_sum_to_the_papers() {
         let settings = settings("sah-cut");
         let sum = terms_of(&scene, &settings).sum(None);
         let measured = measure(&scene, &settings, &render(&scene), &Progress::new()).unwrap();
-        let of = |symbol| (parameter(symbol).value)(&measured.measurement).unwrap();
+        let of = |symbol| parameter(symbol).value(&measured.measurement).unwrap();
         assert_eq!(sum.nodes as f64, of("N_NODES"), "{name}");
         assert_eq!(sum.rays as f64, of("N_PR") + of("N_SR") + of("N_SECR"));
         let tests: u64 = sum.hits.iter().chain(&sum.misses).sum();

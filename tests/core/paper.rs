@@ -2,7 +2,7 @@
 //! between its parameters.
 
 use crate::support::scenes::{self, render_sized, scene_path, settings, tree_by};
-use bspscope::measure::{Measurement, PARAMETERS, TreeFacts, measure, parameter};
+use bspscope::measure::{Measurement, TreeFacts, measure, parameter, parameters};
 use bspscope::progress::Progress;
 use bspscope::scene::{Cylinders, Sampling, Scene, SceneRequest, load};
 use bspscope::structure::Method;
@@ -35,7 +35,9 @@ fn measured(scene: &Scene, method: &str, size: u32, sampling: Sampling) -> Measu
 }
 
 fn value(m: &Measurement, symbol: &str) -> f64 {
-    (parameter(symbol).value)(m).unwrap_or_else(|| panic!("{symbol} has no value"))
+    parameter(symbol)
+        .value(m)
+        .unwrap_or_else(|| panic!("{symbol} has no value"))
 }
 
 #[test]
@@ -181,7 +183,7 @@ fn the_identities_between_the_parameters_hold() {
             let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs().max(b.abs());
             if method.structure == Structure::Grid {
                 for symbol in ["N_IN", "D_REACH", "D_MAX", "N_OILF", "N_INODES"] {
-                    assert_eq!((parameter(symbol).value)(&m), None, "{symbol}");
+                    assert_eq!(parameter(symbol).value(&m), None, "{symbol}");
                 }
                 assert_eq!(v("N_NODES"), v("N_VLS"));
             } else {
@@ -216,11 +218,11 @@ fn a_parameter_without_a_denominator_has_no_value() {
     parts.material_of.clear();
     let m = measured(&Scene::new(parts), "midpoint", 8, Sampling::Center);
     for symbol in ["N_RPRT", "N_ADL", "N_AOIFL", "R_BBSC"] {
-        assert_eq!((parameter(symbol).value)(&m), None, "{symbol}");
+        assert_eq!(parameter(symbol).value(&m), None, "{symbol}");
     }
     assert_eq!(value(&m, "N_LS"), 1.0);
     assert_eq!(value(&m, "N_HPR"), 0.0);
-    for p in PARAMETERS {
-        assert!((p.value)(&m).is_none_or(f64::is_finite), "{}", p.symbol);
+    for p in parameters() {
+        assert!(p.value(&m).is_none_or(f64::is_finite), "{}", p.symbol);
     }
 }

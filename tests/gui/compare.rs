@@ -6,7 +6,7 @@ use crate::harness::{
 };
 use crate::support::scenes::{render_sized, scene, settings, tree_by};
 use bspscope::measure::heat::{HeatImage, PixelCounts, RayFilter, heatmap};
-use bspscope::measure::{DELTA, Measured, RAY_FIGURES, change, measure, parameter};
+use bspscope::measure::{DELTA, Measured, change, measure, parameter, ray_figures};
 use bspscope::progress::Progress;
 use bspscope::trace::{RayKind, RenderSettings, render_counted, thread_pool};
 use egui::{Key, Modifiers};
@@ -79,7 +79,7 @@ fn three_columns_have_the_librarys_figures() {
     );
     for symbol in DELTA {
         let p = parameter(symbol);
-        let [of_a, of_b] = [&a, &b].map(|side| (p.value)(&side.measurement));
+        let [of_a, of_b] = [&a, &b].map(|side| p.value(&side.measurement));
         for text in [p.format(of_a), p.format(of_b)] {
             assert!(
                 window.query_all_by_label(&text).next().is_some(),
@@ -101,7 +101,7 @@ fn either_tree_comes_to_the_front_and_the_pixel_stays_picked() {
     wait_for(&mut window, "Pixel 24, 24 (");
     let leaves = |method| {
         let p = parameter("N_LS");
-        p.format((p.value)(&measured(method, &render()).measurement))
+        p.format(p.value(&measured(method, &render()).measurement))
     };
     assert!(has(&window, "gap-fraction"), "sah-cut is in front");
     press(&mut window, Modifiers::NONE, Key::J);
@@ -265,7 +265,7 @@ fn what_each_kind_of_ray_did_is_listed_on_request() {
     assert!(!has(&window, "nodes of a ray, most"));
     click(&mut window, "per kind of ray");
     let [a, b] = ["midpoint", "sah-cut"].map(|method| measured(method, &render()).measurement);
-    for figure in RAY_FIGURES {
+    for figure in ray_figures() {
         for kind in [RayKind::Primary, RayKind::Shadow] {
             let values = [&a, &b].map(|m| figure.of(m, kind));
             let change = change(figure.unit, values[0], values[1]).map(|c| c.to_string());

@@ -2,7 +2,7 @@
 
 use crate::harness::{SIZE, Window, finish, has, open, open_sized, over_picture, wait, wait_for};
 use crate::support::scenes::{render_sized, scene, tree_by};
-use bspscope::measure::heat::{HEATMAPS, HeatImage, Heatmap, PixelCounts, RayFilter, heatmap};
+use bspscope::measure::heat::{HeatImage, Heatmap, PixelCounts, RayFilter, heatmap, heatmaps};
 use bspscope::progress::Progress;
 use bspscope::scene::SceneRequest;
 use bspscope::trace::{render_counted, thread_pool};
@@ -78,8 +78,8 @@ fn every_heatmap_comes_up_by_list_and_by_key_with_symbol_and_unit() {
     let mut window = open(small());
     finish(&mut window);
     assert!(!has(&window, "Legend from"));
-    assert!(!HEATMAPS.is_empty());
-    for heatmap in HEATMAPS {
+    assert!(!heatmaps().is_empty());
+    for heatmap in heatmaps() {
         plain(&mut window, egui::Key::H);
         wait(&mut window, heatmap.symbol, |w| {
             has(w, &title(heatmap)) && has(w, "Legend from")
@@ -96,8 +96,8 @@ fn every_heatmap_comes_up_by_list_and_by_key_with_symbol_and_unit() {
         "the picture comes after the last"
     );
     press(&mut window, egui::Modifiers::SHIFT, egui::Key::H);
-    wait_for(&mut window, &title(HEATMAPS.last().unwrap()));
-    for heatmap in HEATMAPS {
+    wait_for(&mut window, &title(heatmaps().last().unwrap()));
+    for heatmap in heatmaps() {
         show(&mut window, heatmap.symbol);
         wait(&mut window, "its unit", |w| {
             has(w, "Legend from") && legend(w).ends_with(heatmap.unit)
@@ -255,7 +255,7 @@ fn without_counts_the_picture_stays_and_a_note_says_why() {
     start.setup.render.height = 2000;
     let mut window = open(start);
     // The picture is not there at once, and if it were, it would be too large to be counted.
-    choose(&mut window, "Show:", &title(&HEATMAPS[0]));
+    choose(&mut window, "Show:", &title(&heatmaps()[0]));
     assert!(has(&window, "counting …") || has(&window, "Only pictures of up to"));
     wait_for(&mut window, "Only pictures of up to 4 000 000 pixels");
     assert!(!has(&window, "Legend from"));
@@ -270,7 +270,7 @@ fn what_was_cancelled_before_it_was_counted_says_so() {
     start.setup.render.width = 1900;
     start.setup.render.height = 1900;
     let mut window = open(start);
-    choose(&mut window, "Show:", &title(&HEATMAPS[0]));
+    choose(&mut window, "Show:", &title(&heatmaps()[0]));
     assert!(has(&window, "counting …"));
     wait_for(&mut window, "balls:4 · midpoint");
     assert!(has(&window, "counting …"));

@@ -1,6 +1,6 @@
 //! What the picture pane shows of every pixel, as the user chose it.
 
-use crate::measure::heat::{HEATMAPS, Heatmap, RayFilter};
+use crate::measure::heat::{Heatmap, RayFilter, heatmaps};
 use crate::present::overlay::{COLORMAPS, HeatScale, Range, Scale};
 use std::collections::BTreeMap;
 
@@ -43,12 +43,12 @@ impl Choice {
     /// The heatmap, with its place in the registry.
     pub fn heatmap(&self) -> Option<(usize, &'static Heatmap)> {
         let place = self.heatmap?;
-        Some((place, &HEATMAPS[place]))
+        Some((place, &heatmaps()[place]))
     }
 
     /// Goes through the picture and all heatmaps in a circle.
     pub fn turn(&mut self, forward: bool) {
-        let all = HEATMAPS.len() + 1;
+        let all = heatmaps().len() + 1;
         let at = self.heatmap.map_or(0, |place| place + 1);
         let next = (at + if forward { 1 } else { all - 1 }) % all;
         self.heatmap = next.checked_sub(1);
@@ -137,15 +137,15 @@ mod tests {
     fn turning_meets_every_heatmap_once_and_the_picture() {
         let mut choice = Choice::default();
         let mut met = Vec::new();
-        for _ in 0..HEATMAPS.len() {
+        for _ in 0..heatmaps().len() {
             choice.turn(true);
             met.push(choice.heatmap.unwrap());
         }
-        assert_eq!(met, (0..HEATMAPS.len()).collect::<Vec<_>>());
+        assert_eq!(met, (0..heatmaps().len()).collect::<Vec<_>>());
         choice.turn(true);
         assert_eq!(choice.heatmap, None);
         choice.turn(false);
-        assert_eq!(choice.heatmap, Some(HEATMAPS.len() - 1));
+        assert_eq!(choice.heatmap, Some(heatmaps().len() - 1));
     }
 
     #[test]
@@ -158,7 +158,7 @@ mod tests {
         choice.set_rays(RayFilter::Shadow);
         assert_eq!(choice.range(), Range::Fixed { lo: 1.0, hi: 2.0 });
         assert_eq!(choice.rays(), RayFilter::Shadow);
-        let time = HEATMAPS.iter().position(|h| h.symbol == "T_PIXEL");
+        let time = heatmaps().iter().position(|h| h.symbol == "T_PIXEL");
         choice.heatmap = time;
         assert_eq!(choice.range(), Range::Automatic);
         assert_eq!(choice.rays(), RayFilter::All);

@@ -4,7 +4,7 @@
 use super::HeatView;
 use super::choice::Choice;
 use crate::gui::shortcuts::{Action, text, tip};
-use crate::measure::heat::{HEATMAPS, Heatmap};
+use crate::measure::heat::{Heatmap, heatmaps};
 use crate::present::overlay::{COLORMAPS, Scale};
 use egui::containers::menu::{MenuButton, MenuConfig};
 
@@ -166,7 +166,7 @@ fn what(ui: &mut egui::Ui, choice: &mut Choice) {
         .show_ui(ui, |ui| {
             ui.selectable_value(&mut choice.heatmap, None, "picture")
                 .on_hover_text("The traced picture alone");
-            for (place, heatmap) in HEATMAPS.iter().enumerate() {
+            for (place, heatmap) in heatmaps().iter().enumerate() {
                 let name = format!("{} · {}", heatmap.symbol, heatmap.name);
                 ui.selectable_value(&mut choice.heatmap, Some(place), name)
                     .on_hover_text(format!("{}\nIn {}", heatmap.meaning, heatmap.unit));

@@ -2,7 +2,7 @@
 
 use super::HeatView;
 use super::choice::Choice;
-use crate::measure::heat::{HEATMAPS, RayFilter};
+use crate::measure::heat::{RayFilter, heatmaps};
 use crate::present::overlay::{COLORMAPS, Scale};
 use crate::workspace::Heat;
 
@@ -32,7 +32,7 @@ impl HeatView {
             place(&kept.difference_colors).unwrap_or(default[1]),
         ];
         let mut choice = Choice::with_colors(colors);
-        choice.heatmap = HEATMAPS
+        choice.heatmap = heatmaps()
             .iter()
             .position(|map| Some(map.symbol) == kept.show.as_deref());
         choice.scale = Scale::named(&kept.scale).unwrap_or_default();

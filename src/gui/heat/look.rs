@@ -1,7 +1,7 @@
 //! A heatmap worked out for the screen: values, colours, histogram, order of expense.
 
 use crate::measure::heat::{
-    HEATMAPS, HeatImage, HeatStatistics, Heatmap, PixelCounts, RayFilter, Whole,
+    HeatImage, HeatStatistics, Heatmap, PixelCounts, RayFilter, Whole, heatmaps,
 };
 use crate::measure::parameter;
 use crate::present::number::{grouped, significant};
@@ -16,7 +16,7 @@ pub struct ValuesKey {
     pub number: u64,
     /// The picture whose values are taken away from it, for a difference.
     pub minus: Option<u64>,
-    /// Place in [`HEATMAPS`].
+    /// Place in [`heatmaps`].
     pub heatmap: usize,
     pub rays: RayFilter,
 }
@@ -113,7 +113,7 @@ impl Look {
     }
 
     pub fn heatmap(&self) -> &'static Heatmap {
-        &HEATMAPS[self.key.values.heatmap]
+        &heatmaps()[self.key.values.heatmap]
     }
 
     /// Symbol and name, and that it is a difference.

@@ -9,7 +9,7 @@ use crate::lesson::{
     Answer, Difference, Figures, Lesson, LessonError, Named, Prediction, SideFigures, Step,
     Subject, Verdict,
 };
-use crate::measure::heat::HEATMAPS;
+use crate::measure::heat::heatmaps;
 use crate::setup::Setup;
 
 /// A lesson and how far it is.
@@ -173,7 +173,7 @@ impl Running {
     fn look(&self, around: &mut Around<'_>) {
         let look = &self.step().subject.look;
         let told = look.heatmap.filter(|_| !self.asks());
-        let place = told.and_then(|symbol| HEATMAPS.iter().position(|h| h.symbol == symbol));
+        let place = told.and_then(|symbol| heatmaps().iter().position(|h| h.symbol == symbol));
         around.heat.show(place);
         if !look.panels.is_empty() {
             for panel in PANELS.iter().filter(|panel| panel.side == Side::Right) {

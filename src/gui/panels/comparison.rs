@@ -8,8 +8,8 @@ use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::{Current, State};
 use crate::gui::symbol::symbol;
 use crate::measure::{
-    DELTA, LAMBDA, Measurement, PARAMETERS, Parameter, RAY_FIGURES, Unequal, Unit, change,
-    parameter,
+    DELTA, LAMBDA, Measurement, Parameter, Unequal, Unit, change, parameter, parameters,
+    ray_figures,
 };
 use crate::trace::RayKind;
 
@@ -48,7 +48,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
     };
     let may_compare = verdict.is_some_and(|verdict| verdict.reasons.is_empty());
     let rows: Vec<&'static Parameter> = if state.comparing.all_parameters {
-        PARAMETERS.iter().collect()
+        parameters().iter().collect()
     } else {
         DELTA.iter().chain(&LAMBDA).map(|s| parameter(s)).collect()
     };
@@ -141,7 +141,7 @@ fn columns(ui: &mut egui::Ui, rows: &[&'static Parameter], [a, b]: [&Current; 2]
                 symbol(ui, p, &a.shown.measurement);
                 value(ui, p, a);
                 value(ui, p, b);
-                let [of_a, of_b] = [a, b].map(|side| (p.value)(&side.shown.measurement));
+                let [of_a, of_b] = [a, b].map(|side| p.value(&side.shown.measurement));
                 relation(ui, p.unit, of_a, of_b, may);
                 ui.end_row();
             }
@@ -162,8 +162,8 @@ fn of_kind(ui: &mut egui::Ui, kind: RayKind, both: [&Current; 2], may: bool) {
         .striped(true)
         .show(ui, |ui| {
             titles(ui);
-            for figure in RAY_FIGURES {
-                ui.label(figure.name).on_hover_text(figure.meaning);
+            for figure in ray_figures() {
+                ui.label(&figure.name).on_hover_text(&figure.meaning);
                 let [of_a, of_b] = [a, b].map(|m| figure.of(m, kind));
                 for value in [of_a, of_b] {
                     let text = value.map_or_else(none, |value| figure.unit.number(value));

@@ -28,7 +28,7 @@ fn is_provisional(parameter: &Parameter, current: &Current) -> bool {
 
 /// A value; one that can still change has an ellipsis and is in italics.
 pub(super) fn value(ui: &mut egui::Ui, parameter: &Parameter, current: &Current) {
-    let text = parameter.format((parameter.value)(&current.shown.measurement));
+    let text = parameter.format(parameter.value(&current.shown.measurement));
     let text = egui::RichText::new(text).monospace();
     if is_provisional(parameter, current) {
         ui.horizontal(|ui| {

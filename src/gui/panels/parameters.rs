@@ -4,7 +4,7 @@ use super::figures::{standing, value};
 use super::{Panel, Side};
 use crate::gui::state::State;
 use crate::gui::symbol::symbol;
-use crate::measure::{PARAMETERS, Table};
+use crate::measure::{Table, parameters};
 
 pub(super) const PANEL: Panel = Panel {
     title: "All parameters (Tables 1 to 3)",
@@ -26,7 +26,7 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
             .num_columns(3)
             .striped(true)
             .show(ui, |ui| {
-                for p in PARAMETERS.iter().filter(|p| p.table == table) {
+                for p in parameters().iter().filter(|p| p.table == table) {
                     symbol(ui, p, &current.shown.measurement);
                     ui.add(egui::Label::new(p.name).truncate());
                     value(ui, p, current);

@@ -182,7 +182,7 @@ impl Reproduction {
             let (symbol, printed) = (PROPERTIES[i], self.scene.properties[i]);
             let parameter = parameter(symbol);
             let [one, two] = [0, 1].map(|run| self.value(parameter, run));
-            let fractions = [0, 1].map(|run| (parameter.value)(self.runs[run].as_ref()?));
+            let fractions = [0, 1].map(|run| parameter.value(self.runs[run].as_ref()?));
             let ratio =
                 change(parameter.unit, fractions[0], fractions[1]).map(|change| match change {
                     Change::Ratio(ratio) => ratio * 100.0,
@@ -212,7 +212,7 @@ impl Reproduction {
 
     /// A value of a run in the unit of what is printed.
     fn value(&self, parameter: &Parameter, run: usize) -> Option<f64> {
-        let value = (parameter.value)(self.runs[run].as_ref()?)?;
+        let value = parameter.value(self.runs[run].as_ref()?)?;
         Some(match parameter.unit {
             Unit::Percent => value * 100.0,
             _ => value,

@@ -1,21 +1,23 @@
 //! Rows of a sweep as lines of text: CSV or JSON lines, one line a point, in the order of points.
 
-use crate::measure::{Class, PARAMETERS, Unit};
+use crate::measure::{Class, Unit, parameters};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
 /// What identifies a point beside its number. Times depend on the machine, keys do not.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
+    /// The names of the settings that the sweep varies, separated by spaces.
+    pub axes: String,
     /// The file or the generator, and how cylinders were taken.
     pub scene: String,
     pub method: String,
     /// As it was asked for: a number or `auto`.
     pub d_max: String,
     pub n_oilf: u32,
-    /// The tree's other settings, `name=value` each.
+    /// The structure's other settings, `name=value` each, separated by spaces.
     pub settings: String,
-    /// What the picture was traced with.
+    /// The settings of picture and camera, likewise.
     pub picture: String,
 }
 
@@ -27,7 +29,7 @@ pub struct Row {
     /// How many points the whole sweep has.
     pub points: usize,
     pub key: Key,
-    /// The values of all [`PARAMETERS`] in their order: fractions for shares, seconds for times.
+    /// The values of all [`parameters`] in their order: fractions for shares, seconds for times.
     pub values: Vec<Option<f64>>,
 }
 
@@ -46,10 +48,21 @@ pub enum RowError {
     #[error("line {line}: not a row of a sweep: {why}")]
     Line { line: usize, why: String },
     #[error(
-        "row {row} belongs to another sweep (other scene, settings, picture or order of points); \
-         choose another file, or the same sweep"
+        "row {row} belongs to another sweep ({why}); rows of different settings are not mixed: choose \
+         another file, or the same sweep"
     )]
-    Foreign { row: usize },
+    Foreign { row: usize, why: String },
+}
+
+impl RowError {
+    /// A row, from 1, that differs like this from the one that belongs in its place.
+    pub(super) fn foreign(row: usize, differences: &[String]) -> RowError {
+        let why = match differences {
+            [] => "another grid or order of points".to_owned(),
+            some => some.join("; "),
+        };
+        RowError::Foreign { row, why }
+    }
 }
 
 /// Why rows do not make one sweep.
@@ -57,14 +70,14 @@ pub enum RowError {
 pub enum MergeError {
     #[error("there are no rows")]
     Empty,
-    #[error("point {0} is of another sweep than the first row")]
-    Foreign(usize),
+    #[error("point {point} is of another sweep than the first row ({why})")]
+    Foreign { point: usize, why: String },
     #[error("point {0} is there twice with different counts")]
     Unequal(usize),
 }
 
-const TITLES: [&str; 8] = [
-    "point", "points", "scene", "method", "d_max", "n_oilf", "settings", "picture",
+const TITLES: [&str; 9] = [
+    "point", "points", "axes", "scene", "method", "d_max", "n_oilf", "settings", "picture",
 ];
 
 impl Form {
@@ -79,7 +92,7 @@ impl Form {
 }
 
 fn titles() -> impl Iterator<Item = &'static str> {
-    let symbols = PARAMETERS.iter().map(|p| p.symbol);
+    let symbols = parameters().iter().map(|p| p.symbol);
     TITLES.into_iter().chain(symbols)
 }
 
@@ -112,6 +125,7 @@ fn cells(row: &Row) -> impl Iterator<Item = Value> {
     let first = [
         json!(row.point),
         json!(row.points),
+        json!(key.axes),
         json!(key.scene),
         json!(key.method),
         json!(key.d_max),
@@ -119,7 +133,7 @@ fn cells(row: &Row) -> impl Iterator<Item = Value> {
         json!(key.settings),
         json!(key.picture),
     ];
-    let values = PARAMETERS
+    let values = parameters()
         .iter()
         .zip(&row.values)
         .map(|(p, value)| match (*value, p.unit) {
@@ -214,14 +228,15 @@ fn row(
         point: cell(0)?.parse().ok()?,
         points: cell(1)?.parse().ok()?,
         key: Key {
-            scene: cell(2)?,
-            method: cell(3)?,
-            d_max: cell(4)?,
-            n_oilf: cell(5)?.parse().ok()?,
-            settings: cell(6)?,
-            picture: cell(7)?,
+            axes: cell(2)?,
+            scene: cell(3)?,
+            method: cell(4)?,
+            d_max: cell(5)?,
+            n_oilf: cell(6)?.parse().ok()?,
+            settings: cell(7)?,
+            picture: cell(8)?,
         },
-        values: (0..PARAMETERS.len())
+        values: (0..parameters().len())
             .map(|place| number(TITLES.len() + place))
             .collect::<Option<_>>()?,
     })
@@ -234,13 +249,18 @@ fn row(
 /// No rows, rows of different sweeps, or a point with different counts.
 pub fn merge(mut rows: Vec<Row>) -> Result<(Vec<Row>, Vec<usize>), MergeError> {
     let first = rows.first().ok_or(MergeError::Empty)?;
-    let of_sweep = |row: &Row| (row.points, row.key.scene.clone(), row.key.picture.clone());
-    let sweep = of_sweep(first);
-    let foreign = rows
-        .iter()
-        .find(|row| of_sweep(row) != sweep || row.point >= sweep.0);
-    if let Some(row) = foreign {
-        return Err(MergeError::Foreign(row.point));
+    let points = first.points;
+    for row in &rows {
+        let mut differ = first.key.differences(&row.key);
+        if row.points != points || row.point >= points {
+            differ.push(format!("{points} points vs {}", row.points));
+        }
+        if !differ.is_empty() {
+            return Err(MergeError::Foreign {
+                point: row.point,
+                why: differ.join("; "),
+            });
+        }
     }
     rows.sort_by_key(|row| row.point);
     for pair in rows.windows(2) {
@@ -250,14 +270,14 @@ pub fn merge(mut rows: Vec<Row>) -> Result<(Vec<Row>, Vec<usize>), MergeError> {
     }
     rows.dedup_by_key(|row| row.point);
     let is_missing = |point: &usize| rows.binary_search_by_key(point, |row| row.point).is_err();
-    let missing = (0..sweep.0).filter(is_missing).collect();
+    let missing = (0..points).filter(is_missing).collect();
     Ok((rows, missing))
 }
 
 /// Whether two rows are of one point and agree in all that no machine changes.
 fn same_but_times(a: &Row, b: &Row) -> bool {
     a.key == b.key
-        && PARAMETERS
+        && parameters()
             .iter()
             .zip(a.values.iter().zip(&b.values))
             .filter(|(p, _)| p.class != Class::T)
@@ -269,20 +289,21 @@ mod tests {
     use super::*;
 
     fn row(point: usize, first: f64) -> Row {
-        let mut values = vec![None; PARAMETERS.len()];
+        let mut values = vec![None; parameters().len()];
         values[0] = Some(first);
-        let time = PARAMETERS.iter().position(|p| p.unit == Unit::Seconds);
+        let time = parameters().iter().position(|p| p.unit == Unit::Seconds);
         values[time.unwrap()] = Some(0.1 + 0.2);
         Row {
             point,
             points: 3,
             key: Key {
+                axes: "method d-max".into(),
                 scene: "a, \"b\"".into(),
                 method: "midpoint".into(),
                 d_max: "auto".into(),
                 n_oilf: 2,
                 settings: "overlap=paper".into(),
-                picture: "8x8".into(),
+                picture: "resolution=8x8".into(),
             },
             values,
         }
@@ -316,7 +337,9 @@ mod tests {
         let other = row(1, 5.0);
         assert_eq!(merge(vec![b.clone(), other]), Err(MergeError::Unequal(1)));
         let mut foreign = b;
-        foreign.key.picture = "9x9".into();
-        assert_eq!(merge(vec![a, foreign]), Err(MergeError::Foreign(1)));
+        foreign.key.picture = "resolution=9x9".into();
+        let why = "resolution: 8x8 vs 9x9".to_owned();
+        let expected = MergeError::Foreign { point: 1, why };
+        assert_eq!(merge(vec![a, foreign]), Err(expected));
     }
 }

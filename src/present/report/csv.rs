@@ -4,7 +4,7 @@ use super::content::Report;
 use super::exact::exact_value;
 use super::per_kind;
 use super::writer::Writer;
-use crate::measure::{DELTA, LAMBDA, PARAMETERS, Unit};
+use crate::measure::{DELTA, LAMBDA, Unit, parameters};
 use serde_json::Value;
 use std::io::{Result, Write};
 
@@ -21,7 +21,7 @@ fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
         "scene", "method", "symbol", "name", "set", "class", "unit", "value",
     ])?;
     for run in &report.runs {
-        for parameter in PARAMETERS {
+        for parameter in parameters() {
             let set = if DELTA.contains(&parameter.symbol) {
                 "delta"
             } else if LAMBDA.contains(&parameter.symbol) {
@@ -51,8 +51,8 @@ fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
         csv.write_record([
             report.scene.name.as_str(),
             method,
-            figure.key,
-            figure.name,
+            &figure.key,
+            &figure.name,
             line.kind.name(),
             "R",
             unit,

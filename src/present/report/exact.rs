@@ -5,7 +5,7 @@ use serde_json::Value;
 
 /// A parameter's value for machines, as [`exact`].
 pub fn exact_value(parameter: &Parameter, measurement: &Measurement) -> Value {
-    exact((parameter.value)(measurement), parameter.unit)
+    exact(parameter.value(measurement), parameter.unit)
 }
 
 /// A value for machines: whole numbers for what is counted, fractions for shares; null where there is

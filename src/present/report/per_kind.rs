@@ -4,7 +4,7 @@ use super::content::Report;
 use super::exact::exact;
 use super::grid::Grid;
 use super::sections::{NO_VALUE, value_titles};
-use crate::measure::{Change, RAY_FIGURES, RayFigure, change};
+use crate::measure::{Change, RayFigure, change, ray_figures};
 use crate::trace::RayKind;
 use serde_json::{Map, Value, json};
 
@@ -43,7 +43,7 @@ pub fn grids(report: &Report) -> Vec<Grid> {
                 .into_iter()
                 .chain(value_titles(report))
                 .collect(),
-            rows: RAY_FIGURES
+            rows: ray_figures()
                 .iter()
                 .map(|figure| row(report, figure, kind))
                 .collect(),
@@ -73,7 +73,7 @@ fn capitalised(word: &str) -> String {
 /// are not asked for.
 pub fn json(report: &Report) -> Option<Value> {
     let of_kind = |kind| -> Map<String, Value> {
-        let figures = RAY_FIGURES.iter().map(|figure| {
+        let figures = ray_figures().iter().map(|figure| {
             let (values, change) = values(report, figure, kind);
             let values: Vec<_> = values.into_iter().map(|v| exact(v, figure.unit)).collect();
             let value = json!({"values": values, "second_to_first": change.map(Change::value)});
@@ -98,7 +98,7 @@ pub struct Line {
 pub fn lines(report: &Report) -> Vec<Line> {
     let mut lines = Vec::new();
     for kind in kinds(report) {
-        for figure in RAY_FIGURES {
+        for figure in ray_figures() {
             let (values, change) = values(report, figure, kind);
             let line = |run, value| Line {
                 kind,

@@ -10,7 +10,7 @@ use crate::gui::state::State;
 use crate::gui::sweeping::Found;
 use crate::jobs::{End, Standing};
 use crate::measure::sweep::{Row, answers, rule_depth};
-use crate::measure::{Class, PARAMETERS, Parameter, parameter};
+use crate::measure::{Class, Parameter, parameter, parameters};
 use crate::structure::{MaxDepth, Method};
 use egui::vec2;
 
@@ -35,7 +35,7 @@ impl Default for SweepPane {
 /// What depends on the tree, and so is worth a curve.
 fn choices() -> impl Iterator<Item = &'static Parameter> {
     let depends = |p: &&Parameter| matches!(p.class, Class::C | Class::R | Class::T);
-    PARAMETERS.iter().filter(depends)
+    parameters().iter().filter(depends)
 }
 
 impl SweepPane {

@@ -1,0 +1,222 @@
+//! All counters. A counter is one entry.
+//!
+//! Readings of the paper: equation (1) is what its section 3 calls equation 2. `N_VFLS` is
+//! `N_VLS − N_VELS`; the printed N_TRLS and N_TRELS are defined nowhere. D_MDEPTH is `D_MAX`.
+//! Two printed ratios disagree with their own columns: tetra N_AOIFL 12.5 (5.62/4.48 = 125.4 %)
+//! and balls N_RPRT 63.3 (22.3/34.8 = 64.1 %). The printed N_AT and N_RPRT do not follow from trees
+//! that match the paper's to the integer; ours are counted and left as they are.
+
+use super::class::Class::{C, D, R, S, T};
+use super::class::Table::{Dynamic, Ours, Scene, Static};
+use super::class::Unit;
+use super::declaration::Counter;
+use super::declaration::Quantity::{Count, Ratio};
+use super::declaration::Value::{Measured, PixelTime, Rays};
+use crate::measure::heat::RayFilter::{All, Primary, Secondary, Shadow};
+use crate::trace::RayKind;
+
+/// Returns `a / b`; `None` if `b` is 0.
+fn ratio(a: f64, b: f64) -> Option<f64> {
+    (b != 0.0).then(|| a / b)
+}
+
+/// An entry consists of symbol, name, unit, meaning, value, and what the counter serves as.
+macro_rules! counters {
+    ($( $symbol:literal, $name:literal, $unit:ident, $meaning:literal, $value:expr
+        $(, $aspect:ident ( $($argument:expr),* ) )* ; )*) => {
+        /// All counters. Parameters come first, in the order of the paper's tables.
+        pub static COUNTERS: &[Counter] = &[$(
+            Counter::new($symbol, $name, Unit::$unit, $meaning, $value)
+                $( .$aspect($($argument),*) )*
+        ),*];
+    };
+}
+
+counters! {
+    // Table 1
+    "N_X", "width", Count, "Width of the picture in pixels.",
+        Measured(|m| Some(f64::from(m.render.width))), parameter(Scene, S);
+    "N_Y", "height", Count, "Height of the picture in pixels.",
+        Measured(|m| Some(f64::from(m.render.height))), parameter(Scene, S);
+    "N_O", "objects", Count, "Objects in the scene.",
+        Measured(|m| Some(m.scene.objects as f64)), parameter(Scene, S);
+    "N_L", "lights", Count, "Lights in the scene.",
+        Measured(|m| Some(m.scene.lights as f64)), parameter(Scene, S);
+    "S_COV", "screen coverage", Percent, "Share of the picture that objects cover.",
+        Rays(Primary, Ratio(|t| t.hits, |t| t.rays)), parameter(Scene, R),
+        formula("N_HPR / N_PR");
+    "D_COMPX", "depth complexity", Ratio,
+        "Objects that a primary ray meets on average, including hidden ones.",
+        Measured(|m| m.counted.as_ref().and_then(|c| {
+            ratio(c.objects_met as f64, c.tallies[RayKind::Primary as usize].rays as f64)
+        })),
+        parameter(Scene, D), formula("objects met by all primary rays / N_PR"),
+        heatmap(10, "objects per pixel", 1.0), of_depth_complexity();
+    "V_SCENE", "scene volume", Volume, "Volume of the tight box around all objects.",
+        Measured(|m| Some(m.scene.volume)), parameter(Scene, D);
+    "V_BB", "volume of object boxes", Volume, "Sum of the volumes of the objects' boxes.",
+        Measured(|m| Some(m.scene.object_boxes_volume)), parameter(Scene, S);
+    "R_BBSC", "object boxes to scene", Percent,
+        "Volume of the objects' boxes relative to the scene's box.",
+        Measured(|m| ratio(m.scene.object_boxes_volume, m.scene.volume)), parameter(Scene, S),
+        formula("V_BB / V_SCENE");
+    "D_AREC", "recursion depth", Count, "Maximum depth of secondary rays.",
+        Measured(|m| Some(f64::from(m.render.d_arec))), parameter(Scene, S);
+    "D_MAX", "maximum tree depth", Count,
+        "Maximum depth of a leaf; the root has depth 0.",
+        Measured(|m| Some(f64::from(m.depth_limit))), needs_planes(), parameter(Scene, S);
+    "N_OILF", "objects in a leaf to stop at", Count,
+        "A cell with at most this many objects becomes a leaf.",
+        Measured(|m| Some(f64::from(m.build.n_oilf))), needs_planes(), parameter(Scene, S);
+    // Table 2
+    "D_REACH", "depth reached", Count, "Greatest depth of any leaf.",
+        Measured(|m| Some(m.tree.depth_reached as f64)), needs_planes(), parameter(Static, C),
+        formula("≤ D_MAX");
+    "N_LS", "leaves", Count, "Leaves of the tree, including empty ones.",
+        Measured(|m| Some(m.tree.leaves as f64)), parameter(Static, C);
+    "N_IN", "inner nodes", Count, "Inner nodes of the tree.",
+        Measured(|m| Some(m.tree.inner_nodes as f64)), needs_planes(), parameter(Static, C),
+        formula("N_LS − 1");
+    "N_ELS", "empty leaves", Count, "Leaves without objects.",
+        Measured(|m| Some(m.tree.empty_leaves as f64)), parameter(Static, C);
+    "R_ETNLS", "empty leaf ratio", Percent, "Share of the leaves that are empty.",
+        Measured(|m| ratio(m.tree.empty_leaves as f64, m.tree.leaves as f64)),
+        parameter(Static, C), formula("N_ELS / N_LS");
+    "N_RO", "references", Count, "References of all leaves to objects.",
+        Measured(|m| Some(m.tree.references as f64)), parameter(Static, C);
+    "N_ADL", "mean duplication", Percent,
+        "References per object beyond the first, on average; no value without objects.",
+        Measured(|m| ratio(m.tree.references as f64, m.scene.objects as f64).map(|r| r - 1.0)),
+        parameter(Static, C), formula("N_RO / N_O − 1");
+    "N_AOIL", "references per leaf", Ratio, "Objects per leaf.",
+        Measured(|m| ratio(m.tree.references as f64, m.tree.leaves as f64)),
+        parameter(Static, C), formula("N_RO / N_LS");
+    "N_AOIFL", "references per full leaf", Ratio,
+        "Objects per leaf that is not empty; no value if all leaves are empty.",
+        Measured(|m| {
+            ratio(m.tree.references as f64, (m.tree.leaves - m.tree.empty_leaves) as f64)
+        }),
+        parameter(Static, C), formula("N_RO / (N_LS − N_ELS)");
+    "V_EMPTY", "empty volume", Volume, "Sum of the volumes of the empty leaves.",
+        Measured(|m| Some(m.tree.empty_volume)), parameter(Static, C);
+    "R_FVWV", "full volume ratio", Percent, "Share of the root cell's volume in full leaves.",
+        Measured(|m| ratio(m.tree.root_volume - m.tree.empty_volume, m.tree.root_volume)),
+        parameter(Static, C),
+        formula("(V_ROOT − V_EMPTY) / V_ROOT, with V_ROOT the volume of the root cell");
+    "T_CB", "build time", Seconds, "CPU time of building the tree.",
+        Measured(|m| Some(m.building.cpu.as_secs_f64())), parameter(Static, T);
+    // Table 3
+    "N_PR", "primary rays", Count, "Rays from the eye, one per pixel.",
+        Rays(Primary, Count(|t| t.rays)), parameter(Dynamic, D), formula("N_X · N_Y");
+    "N_PRIT", "tests of primary rays", Count, "Intersection tests of all primary rays.",
+        Rays(Primary, Count(|t| t.tests)), parameter(Dynamic, R);
+    "N_HPR", "primary hits", Count, "Primary rays that hit an object.",
+        Rays(Primary, Count(|t| t.hits)), parameter(Dynamic, D), formula("N_PR · S_COV");
+    "N_SR", "shadow rays", Count, "Rays from a surface to a light that it faces.",
+        Rays(Shadow, Count(|t| t.rays)), parameter(Dynamic, D);
+    "N_SRIT", "tests of shadow rays", Count, "Intersection tests of all shadow rays.",
+        Rays(Shadow, Count(|t| t.tests)), parameter(Dynamic, R);
+    "N_HSR", "blocked shadow rays", Count, "Shadow rays that hit an object before the light.",
+        Rays(Shadow, Count(|t| t.hits)), parameter(Dynamic, D);
+    "N_SECR", "secondary rays", Count, "Reflected and refracted rays.",
+        Rays(Secondary, Count(|t| t.rays)), parameter(Dynamic, D);
+    "N_SECRIT", "tests of secondary rays", Count, "Intersection tests of all secondary rays.",
+        Rays(Secondary, Count(|t| t.tests)), parameter(Dynamic, R);
+    "N_HSECR", "secondary hits", Count, "Secondary rays that hit an object.",
+        Rays(Secondary, Count(|t| t.hits)), parameter(Dynamic, R);
+    "N_RPRT", "tests per hit", Ratio,
+        "Intersection tests per hit, at least 1; no value without hits.",
+        Rays(All, Ratio(|t| t.tests, |t| t.hits)), parameter(Dynamic, R),
+        formula("(N_PRIT + N_SRIT + N_SECRIT) / (N_HPR + N_HSR + N_HSECR)"),
+        heatmap(7, "tests per hit", 0.1), per_kind(3, "tests_per_hit", "tests per hit");
+    "N_VLS", "visited leaves", Count, "Leaves that rays visit, including empty ones.",
+        Rays(All, Count(|t| t.leaves)), parameter(Dynamic, R),
+        heatmap(3, "leaves per pixel", 1.0),
+        per_kind(6, "leaves", "leaves"), of_single_rays(|m| m.leaves);
+    "N_VELS", "visited empty leaves", Count, "Empty leaves that rays visit.",
+        Rays(All, Count(|t| t.empty_leaves)), parameter(Dynamic, R),
+        heatmap(4, "empty leaves per pixel", 1.0),
+        per_kind(7, "empty_leaves", "empty leaves"), of_single_rays(|m| m.empty_leaves);
+    "N_VFLS", "visited full leaves", Count, "Leaves with objects that rays visit.",
+        Rays(All, Count(|t| t.leaves - t.empty_leaves)), parameter(Dynamic, R),
+        formula("N_VLS − N_VELS"),
+        heatmap(5, "full leaves per pixel", 1.0),
+        per_kind(8, "full_leaves", "full leaves"), of_single_rays(|m| m.full_leaves);
+    "N_INODES", "traversed inner nodes", Count, "Inner nodes that rays traverse.",
+        Rays(All, Count(|t| t.inner_nodes)), needs_planes(), parameter(Dynamic, R),
+        heatmap(2, "inner nodes per pixel", 1.0),
+        per_kind(5, "inner_nodes", "inner nodes"), of_single_rays(|m| m.inner_nodes);
+    "N_NODES", "traversed nodes", Count, "Inner nodes and leaves that rays traverse.",
+        Rays(All, Count(|t| t.inner_nodes + t.leaves)), parameter(Dynamic, R),
+        formula("N_INODES + N_VLS"),
+        heatmap(1, "nodes per pixel", 1.0),
+        per_kind(4, "nodes", "nodes"), of_single_rays(|m| m.nodes), mean_is("N_AT");
+    "N_AT", "nodes per ray", Ratio, "Nodes that a ray traverses on average.",
+        Rays(All, Ratio(|t| t.inner_nodes + t.leaves, |t| t.rays)), parameter(Dynamic, R),
+        formula("N_NODES / (N_PR + N_SR + N_SECR)");
+    "T_TR", "render time", Seconds,
+        "CPU time of rendering the picture with one sample per pixel, summed over all threads.",
+        Measured(|m| m.rendering.map(|r| r.cpu.as_secs_f64())), parameter(Dynamic, T);
+    // Beside the tables
+    "T_TT", "traversal time", Seconds,
+        "CPU time of taking the same rays through the tree to their known ends, without tests and \
+         shading.",
+        Measured(|m| m.counted.map(|c| c.traversal.as_secs_f64())), parameter(Ours, T);
+    "T_TT/T_TR", "traversal share", Percent, "Share of the render time spent on traversal.",
+        Measured(|m| {
+            ratio(m.counted?.traversal.as_secs_f64(), m.rendering?.cpu.as_secs_f64())
+        }),
+        parameter(Ours, T), formula("T_TT / T_TR");
+    "T_CB_WALL", "wall-clock build time", Seconds, "Wall-clock time of building the tree.",
+        Measured(|m| Some(m.building.wall.as_secs_f64())), parameter(Ours, T);
+    "T_TR_WALL", "wall-clock render time", Seconds,
+        "Wall-clock time of rendering the picture with all threads.",
+        Measured(|m| m.rendering.map(|r| r.wall.as_secs_f64())), parameter(Ours, T);
+    "N_BITS", "bits per number", Count, "Bits of the numbers that rays are traced with, 32 or 64.",
+        Measured(|m| Some(f64::from(m.precision.precision.bits()))), parameter(Ours, S);
+    "W_CUT", "minimum contribution", Ratio,
+        "A secondary ray that contributes less than this to every color of its pixel is not traced.",
+        Measured(|m| Some(m.render.min_contribution)), parameter(Ours, S);
+    "M_OBJ", "object memory", Bytes,
+        "Memory of the objects as prepared for intersection tests, in the precision used.",
+        Measured(|m| Some(m.object_bytes as f64)), parameter(Ours, C);
+    "M_TREE", "tree memory", Bytes, "Memory of nodes and references.",
+        Measured(|m| Some(m.tree.bytes as f64)), parameter(Ours, C);
+    // No parameters
+    "N_RAYS", "rays", Count, "Rays of all kinds, including primary rays.",
+        Rays(All, Count(|t| t.rays)),
+        heatmap(8, "rays per pixel", 1.0),
+        parts(&[(Primary, "N_PR"), (Shadow, "N_SR"), (Secondary, "N_SECR")]),
+        per_kind(1, "rays", "rays");
+    "N_HITS", "hits", Count, "Rays that hit an object; shadow rays before the light.",
+        Rays(All, Count(|t| t.hits)), per_kind(2, "hits", "hits");
+    "N_IT", "intersection tests", Count, "Intersection tests of rays with objects.",
+        Rays(All, Count(|t| t.tests)),
+        heatmap(6, "tests per pixel", 1.0),
+        parts(&[(Primary, "N_PRIT"), (Shadow, "N_SRIT"), (Secondary, "N_SECRIT")]),
+        per_kind(3, "tests", "tests"), of_single_rays(|m| m.tests);
+    // `T_TR` is measured over whole tiles, so that no parameter is the sum of these.
+    "T_PIXEL", "time", Seconds,
+        "Time of tracing and shading a pixel on one thread; the minimum of several runs.",
+        PixelTime, heatmap(9, "µs per pixel", 0.1);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_of_a_view_are_distinct() {
+        let mut heatmaps: Vec<_> = COUNTERS
+            .iter()
+            .filter_map(|c| Some(c.heatmap?.place))
+            .collect();
+        heatmaps.sort_unstable();
+        assert!(
+            (1..).zip(&heatmaps).all(|(i, place)| i == *place),
+            "{heatmaps:?}"
+        );
+        let symbols: std::collections::BTreeSet<_> = COUNTERS.iter().map(|c| c.symbol).collect();
+        assert_eq!(symbols.len(), COUNTERS.len());
+    }
+}

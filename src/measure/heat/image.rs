@@ -1,0 +1,71 @@
+//! The values of all pixels.
+
+/// The values of a heatmap, or the differences of two.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeatImage {
+    pub width: u32,
+    pub height: u32,
+    /// Row by row; NaN where a pixel has no value. Rounded beyond 2²⁴ only.
+    pub values: Vec<f32>,
+    /// The least difference that matters ([`Heatmap::grain`]).
+    pub grain: f64,
+}
+
+/// What there is to say of all values of a [`HeatImage`] together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeatStatistics {
+    pub lowest: f64,
+    pub highest: f64,
+    /// Over the pixels that have a value.
+    pub mean: f64,
+    /// How many pixels have a value; at least 1.
+    pub pixels: usize,
+}
+
+impl HeatImage {
+    /// The value of a pixel; `None` where it has none or lies outside.
+    pub fn get(&self, x: u32, y: u32) -> Option<f32> {
+        if x >= self.width || y >= self.height {
+            return None;
+        }
+        let value = self.values[y as usize * self.width as usize + x as usize];
+        (!value.is_nan()).then_some(value)
+    }
+
+    /// The values that there are.
+    pub fn present(&self) -> impl Iterator<Item = f64> + '_ {
+        let present = self.values.iter().filter(|value| !value.is_nan());
+        present.map(|&value| f64::from(value))
+    }
+
+    /// `None` where no pixel has a value.
+    pub fn statistics(&self) -> Option<HeatStatistics> {
+        let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
+        let (mut sum, mut pixels) = (0.0, 0);
+        for value in self.present() {
+            lowest = lowest.min(value);
+            highest = highest.max(value);
+            sum += value;
+            pixels += 1;
+        }
+        (pixels > 0).then(|| HeatStatistics {
+            lowest,
+            highest,
+            mean: sum / pixels as f64,
+            pixels,
+        })
+    }
+
+    /// Every pixel's value less that of `other`; no value where either has none. `None` for
+    /// pictures of different sizes.
+    pub fn difference(&self, other: &HeatImage) -> Option<HeatImage> {
+        if (self.width, self.height) != (other.width, other.height) {
+            return None;
+        }
+        let pairs = self.values.iter().zip(&other.values);
+        Some(HeatImage {
+            values: pairs.map(|(a, b)| a - b).collect(),
+            ..*self
+        })
+    }
+}
