@@ -1,5 +1,5 @@
-//! `bspscope sweep`: the parameters over a grid of settings, a row a point, to be broken off and gone
-//! on with at any time.
+//! `bspscope sweep`: measures every combination of settings, one row per combination. It can be
+//! interrupted and resumed at any time.
 
 use super::args::{ChartArgs, SweepArgs};
 use super::outcome::Outcome;
@@ -82,8 +82,8 @@ pub fn run(args: &SweepArgs) -> Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-/// The points that are asked for: methods vary first, leaf sizes and depths last. Without `--vary`
-/// these two have values of their own.
+/// Returns the points to measure: methods vary slowest, leaf sizes and depths fastest. These two
+/// have default values without `--vary`.
 fn plan(args: &SweepArgs) -> Result<Plan> {
     let wrong = |reason: String| anyhow!(reason);
     let mut axes = Vec::new();
@@ -113,28 +113,28 @@ fn plan(args: &SweepArgs) -> Result<Plan> {
     }
     for (i, axis) in axes.iter().enumerate() {
         if axes[..i].iter().any(|other| other.name == axis.name) {
-            bail!("{} is varied twice", axis.name);
+            bail!("--vary {}: this setting is varied twice", axis.name);
         }
         let has = |m: &Method| Setup::of_method(*m).setting(axis.name).is_ok();
         if !methods.iter().any(has) {
-            bail!("no chosen method has the setting {}", axis.name);
+            bail!("--vary {}: no chosen method has this setting", axis.name);
         }
     }
     let bases = args.settings.setups_for(&args.scene, &methods)?;
     Ok(Plan::new(&bases, &axes))
 }
 
-/// The form of a file of rows.
+/// Returns the format of a file of rows.
 pub fn form_of(path: &Path) -> Result<Form> {
     Form::for_path(path)
-        .with_context(|| format!("{}: rows are written as .csv or .jsonl", path.display()))
+        .with_context(|| format!("{}: expected the extension .csv or .jsonl", path.display()))
 }
 
-/// Refuses charts that cannot be written, before work is done for them.
+/// Rejects charts that cannot be written, before work is done for them.
 pub fn check_charts(args: &ChartArgs) -> Result<()> {
     for path in &args.chart {
         if !matches!(extension(path).as_deref(), Some("png" | "svg")) {
-            bail!("{}: charts are drawn as .png or .svg", path.display());
+            bail!("{}: expected the extension .png or .svg", path.display());
         }
         output::check_place(Some(path))?;
     }
@@ -145,7 +145,7 @@ fn extension(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_ascii_lowercase())
 }
 
-/// Draws the charts of rows, and tells which settings are best.
+/// Draws the charts of rows and prints the best settings.
 pub fn finish(rows: &[Row], args: &ChartArgs) -> Result<()> {
     let shown = args.show.0;
     for path in &args.chart {
