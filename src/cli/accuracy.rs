@@ -1,4 +1,4 @@
-//! `bspscope accuracy`: what accuracy costs, by time and error.
+//! `bspscope accuracy`: measures accuracy vs. time.
 
 use super::args::{AccuracyArgs, AccuracyFormat};
 use super::outcome::Outcome;
@@ -11,7 +11,7 @@ pub fn run(args: &AccuracyArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
     let setup = args.settings.setup(&args.scene)?;
     let scene = resolve::scene(&setup.scene)?;
-    // A wrong size is told before a tree is built for it.
+    // Report an invalid size before a tree is built for it.
     setup.render.view(&scene)?;
     let mut choices = choices(&reference(&setup), &scene);
     if !args.only.is_empty() {
@@ -22,7 +22,7 @@ pub fn run(args: &AccuracyArgs) -> Result<Outcome> {
             _ => false,
         });
     }
-    let stage = format!("{}: {} choices", scene.name(), choices.len());
+    let stage = format!("{}: measuring {} choices", scene.name(), choices.len());
     let found = bar::with_bar(&stage, |progress| {
         trade(&scene, choices, args.rounds, progress, |_, _| ())
     })?;

@@ -1,4 +1,4 @@
-//! `bspscope compare`: two trees of a scene beside each other, under equal conditions or not at all.
+//! `bspscope compare`: compares two trees of a scene, but only under equal conditions.
 
 use super::args::CompareArgs;
 use super::outcome::Outcome;

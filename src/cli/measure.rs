@@ -1,4 +1,4 @@
-//! `bspscope measure`: every parameter of the paper for a scene and some methods.
+//! `bspscope measure`: measures every parameter of the paper for a scene.
 
 use super::args::MeasureArgs;
 use super::outcome::Outcome;
@@ -20,7 +20,7 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome> {
         ..
     } = &setups[0];
     let scene = resolve::scene(request)?;
-    // A wrong size is told before a tree is built for it.
+    // Report an invalid size before a tree is built for it.
     render.view(&scene)?;
     let mut runs = Vec::new();
     for Setup { build, .. } in &setups {

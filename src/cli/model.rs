@@ -140,7 +140,8 @@ fn grid(found: &Found) -> Grid {
     }
 }
 
-/// A term's part of the time of the fastest tree: how often it is spent, and seconds of all together.
+/// A term's part of the time of the fastest tree: how often it is spent, and seconds of all
+/// together.
 fn parts(found: &Found) -> Vec<(Term, f64, f64)> {
     let counts = &found.fastest.terms;
     let coefficients = found.fit.coefficients.iter();

@@ -18,7 +18,7 @@ pub fn run(args: &ProbeArgs) -> Result<Outcome> {
         ..
     } = &setups[0];
     let scene = resolve::scene(request)?;
-    // A wrong size is told before a tree is built for it.
+    // Report an invalid size before a tree is built for it.
     render.view(&scene)?;
     let pixel = pixel_of(args.pixel, [render.width, render.height])?;
     let mut records = Vec::new();

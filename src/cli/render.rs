@@ -21,7 +21,7 @@ pub fn run(args: &RenderArgs) -> Result<Outcome> {
         render,
     } = args.settings.setup(&args.scene)?;
     let scene = resolve::scene(&request)?;
-    // A wrong size is told before a tree is built for it.
+    // Report an invalid size before a tree is built for it.
     render.view(&scene)?;
     let pool = thread_pool(render.threads)?;
     let tree = bar::with_bar(

@@ -1,4 +1,4 @@
-//! What the arguments come to: a scene, a writer.
+//! Resolves arguments to a scene and a writer.
 
 use super::bar;
 use crate::present::report::Writer;
@@ -8,7 +8,7 @@ use anyhow::{Result, bail};
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
-/// The scene of a request, loaded under a progress bar.
+/// Loads a scene, with a progress bar.
 pub fn scene(request: &SceneRequest) -> Result<Scene> {
     let stage = format!("{}: loading", request.source);
     match bar::with_bar(&stage, |progress| load(request, progress)) {
@@ -23,7 +23,7 @@ pub fn scene(request: &SceneRequest) -> Result<Scene> {
         {
             let names: Vec<_> = builtin::BUILTINS.iter().map(|b| b.name).collect();
             bail!(
-                "{}: no such file, and no generator of this name and size; generators are {}",
+                "{}: neither a file nor a generator with a valid size; the generators are {}",
                 path.display(),
                 names.join(", ")
             )
@@ -32,8 +32,8 @@ pub fn scene(request: &SceneRequest) -> Result<Scene> {
     }
 }
 
-/// Says on standard error what of a file is not as it was found; the whole load report is part of
-/// `measure`'s.
+/// Prints what was skipped, changed or defaulted in a file to standard error. The whole load report
+/// is part of the output of `measure`.
 fn tell(file: &str, scene: &Scene) {
     let mut out = std::io::stderr().lock();
     for note in scene.notes() {
@@ -44,7 +44,8 @@ fn tell(file: &str, scene: &Scene) {
     }
 }
 
-/// Whether a user who typed this meant a file: it has a folder or the extension of a scene file.
+/// Returns whether the argument looks like a file: it has a folder or the extension of a scene
+/// file.
 fn looks_like_a_file(path: &Path) -> bool {
     let extension = path.extension().map(|e| e.to_ascii_lowercase());
     path.components().count() > 1
@@ -55,7 +56,7 @@ fn looks_like_a_file(path: &Path) -> bool {
         })
 }
 
-/// The writer asked for by name, else by the file's extension, else the first.
+/// Returns the writer by name, else by the extension of the file, else the first.
 pub fn writer<R: ?Sized>(
     writers: &'static [Writer<R>],
     name: Option<&str>,

@@ -1,4 +1,4 @@
-//! Options made from [`SETTINGS`], and the setups that they come to.
+//! Options generated from [`SETTINGS`], and the setups that they resolve to.
 
 use super::values::{constant, method_names};
 use crate::scene::{SceneRequest, SceneSource};
@@ -10,27 +10,27 @@ use clap::error::Error;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use std::marker::PhantomData;
 
-/// What a command offers to set.
+/// The settings that a command offers.
 pub trait Offer {
-    /// Whether a setting is an option of the command.
+    /// Returns whether a setting is an option of the command.
     fn has(setting: &Setting) -> bool;
 
-    /// The methods that are used if none is chosen.
+    /// The default methods.
     fn methods() -> Methods;
 
-    /// The default of an option, if it is another than that of the setting.
+    /// Returns the default of an option, if it differs from that of the setting.
     fn default(_: &Setting) -> Option<&'static str> {
         None
     }
 }
 
-/// The methods that a command uses if none is chosen.
+/// The default methods of a command.
 pub enum Methods {
-    /// This one; the command takes one method.
+    /// One method; the command takes only one.
     One(&'static str),
-    /// The paper's two.
+    /// The two methods of the paper.
     Paper,
-    /// All but `none`.
+    /// All methods except `none`.
     AllButNone,
 }
 
@@ -39,11 +39,9 @@ impl Methods {
         match self {
             Methods::One(_) => "Build method",
             Methods::Paper => {
-                "Build method; may be given more than once [default: the paper's two]"
+                "Build method. Can be repeated [default: the two methods of the paper]"
             }
-            Methods::AllButNone => {
-                "Build method; may be given more than once [default: all but none]"
-            }
+            Methods::AllButNone => "Build method. Can be repeated [default: all except none]",
         }
     }
 
@@ -56,7 +54,8 @@ impl Methods {
     }
 }
 
-/// Declares what a command offers: which settings, which methods and, in brackets, other defaults.
+/// Declares what a command offers: its settings, its default methods and, in brackets, other
+/// defaults.
 macro_rules! offers {
     ($($(#[$about:meta])* $name:ident: |$setting:ident| $has:expr, $methods:expr, [$($option:literal = $default:literal),*];)+) => {
         $(
@@ -84,33 +83,33 @@ macro_rules! offers {
 }
 
 offers! {
-    /// Everything, with one or more methods.
+    /// All settings, with one or more methods.
     Everything: |_setting| true, Methods::Paper, [];
-    /// Everything, with one method.
+    /// All settings, with one method.
     OneMethod: |_setting| true, Methods::One("midpoint"), [];
-    /// All that the two sides of a comparison share unless told otherwise.
+    /// The settings that both sides of a comparison share by default.
     Shared: |setting| setting.group != Group::Structure, Methods::Paper, [];
-    /// Everything that is no axis of every sweep.
+    /// The settings that are not an axis of every sweep.
     Swept: |setting| !["method", "d-max", "n-oilf"].contains(&setting.name), Methods::Paper, [];
     /// The scene and the tree.
     Built: |setting| {
         matches!(setting.group, Group::Scene | Group::Structure) || setting.name == "threads"
     }, Methods::One("midpoint"), [];
-    /// The scene alone.
+    /// Only the scene.
     Loaded: |setting| setting.group == Group::Scene, Methods::Paper, [];
-    /// Everything that decides the answers of rays.
+    /// The settings that determine the hits of rays.
     Verified: |setting| {
         !["resolution", "samples-per-pixel"].contains(&setting.name)
     }, Methods::AllButNone, [];
-    /// What a matrix of extreme cases leaves open.
+    /// The settings that the extreme cases do not fix.
     Extreme: |setting| {
         ["cylinders", "method", "threads"].contains(&setting.name)
     }, Methods::AllButNone, [];
-    /// What the time model leaves open.
+    /// The settings that the time model does not fix.
     Modelled: |setting| {
         ["cylinders", "resolution"].contains(&setting.name)
     }, Methods::Paper, ["resolution" = "192x192"];
-    /// What the paper's experiment leaves open.
+    /// The settings that the paper's experiment does not fix.
     Reproduced: |setting| {
         ["resolution", "threads"].contains(&setting.name)
     }, Methods::Paper, [];
@@ -119,7 +118,7 @@ offers! {
         ["samples-per-pixel" = "8"];
 }
 
-/// The settings that a command was given.
+/// The settings given on the command line.
 #[derive(Clone, Debug)]
 pub struct SettingArgs<O> {
     given: Vec<(&'static str, String)>,
@@ -129,12 +128,12 @@ pub struct SettingArgs<O> {
 }
 
 impl<O: Offer> SettingArgs<O> {
-    /// Whether nothing was set.
+    /// Returns whether no setting was given.
     pub fn is_empty(&self) -> bool {
         self.given.is_empty() && self.methods.is_empty() && self.constants.is_empty()
     }
 
-    /// The methods that were chosen, or those that the command uses then.
+    /// Returns the chosen methods, or the default methods of the command.
     pub fn methods(&self) -> Vec<Method> {
         match self.methods.as_slice() {
             [] => O::methods().list(),
@@ -142,12 +141,12 @@ impl<O: Offer> SettingArgs<O> {
         }
     }
 
-    /// A setup of what was typed as the scene for every method.
+    /// Returns a setup per method for a scene argument.
     pub fn setups(&self, scene: &str) -> Result<Vec<Setup>> {
         self.setups_for(scene, &self.methods())
     }
 
-    /// The same for these methods.
+    /// Returns a setup for each of these methods.
     pub fn setups_for(&self, scene: &str, methods: &[Method]) -> Result<Vec<Setup>> {
         let mut setup = Setup::new(SceneRequest {
             source: SceneSource::parse(scene),
@@ -190,7 +189,7 @@ impl<O: Offer> SettingArgs<O> {
         methods.iter().map(of_method).collect()
     }
 
-    /// The setup of what was typed as the scene for the first method.
+    /// Returns the setup of the first method for a scene argument.
     pub fn setup(&self, scene: &str) -> Result<Setup> {
         Ok(self.setups(scene)?.remove(0))
     }
@@ -238,7 +237,7 @@ impl<O: Offer> FromArgMatches for SettingArgs<O> {
     }
 }
 
-/// Whether a command takes the constants of methods.
+/// Returns whether a command has the settings of build methods.
 fn sets_constants<O: Offer>() -> bool {
     SETTINGS.iter().any(|s| O::has(s) && s.name == "overlap")
 }
@@ -259,8 +258,8 @@ impl<O: Offer> Args for SettingArgs<O> {
                 .action(ArgAction::Append)
                 .help_heading(Group::Structure.title())
                 .help(
-                    "A method's own setting (see 'bspscope methods'), for every chosen method \
-                     that has it",
+                    "A setting of a build method (see 'bspscope methods'), for every chosen method \
+                     that has it. Can be repeated",
                 );
             command = command.arg(set);
         }
@@ -291,7 +290,7 @@ fn method_arg<O: Offer>() -> Arg {
         .help(about)
 }
 
-/// The option of a setting.
+/// Returns the option of a setting.
 fn option<O: Offer>(setting: &'static Setting) -> Arg {
     let plain = setting.value(&Setup::default()).to_string();
     let default = O::default(setting).map_or(plain, str::to_owned);

@@ -1,12 +1,11 @@
-//! `bspscope sweep`: the parameters over a grid of settings, a row a point, to be broken off and gone
-//! on with at any time.
+//! `bspscope sweep`: measures every combination of settings, one row per combination. It can be
+//! interrupted and resumed at any time.
 
 use super::args::{ChartArgs, SweepArgs};
 use super::outcome::Outcome;
 use super::{bar, output, resolve};
-use crate::measure::sweep::{
-    Axis, Form, Key, Plan, Point, Row, answers, done, header, line, read_rows,
-};
+use crate::jobs::Sweep;
+use crate::measure::sweep::{Axis, Form, Key, Plan, Row, answers, done, header, line, read_rows};
 use crate::present::chart::{Chart, png, svg};
 use crate::setup::Setup;
 use crate::structure::Method;
@@ -14,6 +13,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use std::fs::{self, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Width and height of charts in pixels.
 const CHART: (u32, u32) = (960, 600);
@@ -23,9 +23,8 @@ pub fn run(args: &SweepArgs) -> Result<Outcome> {
     output::check_place(Some(&args.output))?;
     check_charts(&args.charts)?;
     let plan = plan(args)?;
-    let first = &plan.points[0].setup;
-    let mut scene = resolve::scene(&first.scene)?;
-    let mut loaded = first.scene.clone();
+    let first = plan.points[0].setup.clone();
+    let scene = resolve::scene(&first.scene)?;
     for point in &plan.points {
         point.setup.render.view(&scene)?;
         point.setup.build.check()?;
@@ -54,36 +53,25 @@ pub fn run(args: &SweepArgs) -> Result<Outcome> {
     if complete == 0 {
         file.write_all(header(form).as_bytes()).with_context(name)?;
     }
-    for (i, (point, _)) in points.iter().enumerate().skip(at) {
-        let Point { setup, key } = &plan.points[*point];
-        if setup.scene != loaded {
-            scene = resolve::scene(&setup.scene)?;
-            loaded = setup.scene.clone();
-        }
-        let mut stage = format!(
-            "point {} of {}: {}, D_MAX {}, N_OILF {}",
-            i + 1,
-            points.len(),
-            key.method,
-            key.d_max,
-            key.n_oilf
-        );
-        let varied = key.varied();
-        if !varied.is_empty() {
-            stage += &format!(", {varied}");
-        }
-        let row = bar::with_bar(&stage, |progress| plan.row(&scene, *point, progress))?;
-        // One call a row, so that what a stop leaves is whole rows and at most one torn one.
+    let points = points[at..].iter().map(|(number, _)| *number);
+    let job = Sweep {
+        points: points.collect(),
+        scene: (first.scene.clone(), Arc::new(scene)),
+        plan: Arc::new(plan),
+    };
+    bar::follow(job, |row| {
+        // One call per row, so that an interruption leaves whole rows and at most one torn row.
         file.write_all(line(&row, form).as_bytes())
             .with_context(name)?;
         rows.push(row);
-    }
+        Ok(())
+    })?;
     finish(&rows, &args.charts)?;
     Ok(Outcome::Done)
 }
 
-/// The points that are asked for: methods vary first, leaf sizes and depths last. Without `--vary`
-/// these two have values of their own.
+/// Returns the points to measure: methods vary slowest, leaf sizes and depths fastest. These two
+/// have default values without `--vary`.
 fn plan(args: &SweepArgs) -> Result<Plan> {
     let wrong = |reason: String| anyhow!(reason);
     let mut axes = Vec::new();
@@ -113,28 +101,28 @@ fn plan(args: &SweepArgs) -> Result<Plan> {
     }
     for (i, axis) in axes.iter().enumerate() {
         if axes[..i].iter().any(|other| other.name == axis.name) {
-            bail!("{} is varied twice", axis.name);
+            bail!("--vary {}: this setting is varied twice", axis.name);
         }
         let has = |m: &Method| Setup::of_method(*m).setting(axis.name).is_ok();
         if !methods.iter().any(has) {
-            bail!("no chosen method has the setting {}", axis.name);
+            bail!("--vary {}: no chosen method has this setting", axis.name);
         }
     }
     let bases = args.settings.setups_for(&args.scene, &methods)?;
     Ok(Plan::new(&bases, &axes))
 }
 
-/// The form of a file of rows.
+/// Returns the format of a file of rows.
 pub fn form_of(path: &Path) -> Result<Form> {
     Form::for_path(path)
-        .with_context(|| format!("{}: rows are written as .csv or .jsonl", path.display()))
+        .with_context(|| format!("{}: expected the extension .csv or .jsonl", path.display()))
 }
 
-/// Refuses charts that cannot be written, before work is done for them.
+/// Rejects charts that cannot be written, before work is done for them.
 pub fn check_charts(args: &ChartArgs) -> Result<()> {
     for path in &args.chart {
         if !matches!(extension(path).as_deref(), Some("png" | "svg")) {
-            bail!("{}: charts are drawn as .png or .svg", path.display());
+            bail!("{}: expected the extension .png or .svg", path.display());
         }
         output::check_place(Some(path))?;
     }
@@ -145,7 +133,7 @@ fn extension(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_ascii_lowercase())
 }
 
-/// Draws the charts of rows, and tells which settings are best.
+/// Draws the charts of rows and prints the best settings.
 pub fn finish(rows: &[Row], args: &ChartArgs) -> Result<()> {
     let shown = args.show.0;
     for path in &args.chart {

@@ -1,4 +1,4 @@
-//! What the text of an argument stands for: names of registries, lists of numbers, points.
+//! Parses the values of arguments: names in registries, numbers, points.
 
 use crate::measure::accuracy::{KNOBS, Knob};
 use crate::measure::heat::{Heatmap, RayFilter, heatmap, heatmaps};
@@ -11,7 +11,7 @@ use crate::present::report::WRITERS;
 use crate::structure::Method;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-/// A parameter, chosen by its symbol.
+/// A parameter, given by its symbol.
 #[derive(Clone, Copy)]
 pub struct ByParameter(pub &'static Parameter);
 
@@ -21,7 +21,7 @@ impl std::fmt::Debug for ByParameter {
     }
 }
 
-/// A heatmap, chosen by its symbol.
+/// A heatmap, given by its symbol.
 #[derive(Clone, Copy)]
 pub struct ByHeatmap(pub &'static Heatmap);
 
@@ -31,7 +31,7 @@ impl std::fmt::Debug for ByHeatmap {
     }
 }
 
-/// A colour map, chosen by its name.
+/// A color map, given by its name.
 #[derive(Clone, Copy)]
 pub struct ByColormap(pub &'static Colormap);
 
@@ -105,7 +105,7 @@ pub fn colormap_names() -> impl TypedValueParser<Value = ByColormap> {
             .iter()
             .map(|map| PossibleValue::new(map.name).help(map.about)),
     )
-    .try_map(|name| colormap(&name).map(ByColormap).ok_or("no such colours"))
+    .try_map(|name| colormap(&name).map(ByColormap).ok_or("no such color map"))
 }
 
 pub fn range(text: &str) -> Result<Range, String> {
@@ -113,7 +113,7 @@ pub fn range(text: &str) -> Result<Range, String> {
         .and_then(|(lo, hi)| Some((lo.parse().ok()?, hi.parse().ok()?)))
         .filter(|(lo, hi): &(f64, f64)| lo < hi && lo.is_finite() && hi.is_finite())
         .map(|(lo, hi)| Range::Fixed { lo, hi })
-        .ok_or_else(|| "expected the lowest and a higher value, such as 0:200".into())
+        .ok_or_else(|| "expected a lower and a higher value, such as 0:200".into())
 }
 
 pub fn share(text: &str) -> Result<f64, String> {

@@ -1,9 +1,8 @@
-//! `bspscope [SCENE]`: the window, or the same job without one.
+//! `bspscope [SCENE]`: opens the window, or measures the scene on the terminal without a display.
 
 use super::args::WindowArgs;
 use super::outcome::Outcome;
 use super::{measure, output, resolve};
-use crate::files;
 use crate::present::export;
 use crate::present::report::{Report, write_summary};
 use crate::setup::Setup;
@@ -13,26 +12,47 @@ use image::ImageFormat;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// What is shown where no scene was asked for.
+/// The default scene.
 const FIRST_SCENE: &str = "balls";
 
 pub fn run(args: &WindowArgs) -> Result<Outcome> {
+    check_picture(args.output.as_deref())?;
     let workspace = workspace(args)?;
     let Some(why) = open(args, workspace.clone())? else {
         return Ok(Outcome::Done);
     };
-    // Without a standard error stream there is nobody to tell.
+    // Standard error may be closed.
     let _ = writeln!(
         std::io::stderr(),
-        "bspscope: {why}; measuring, and rendering to a file, without it"
+        "bspscope: {why}; measuring the scene instead{}",
+        match args.output {
+            Some(_) => "",
+            None => " (to save the picture, add -o FILE.png)",
+        }
     );
-    match workspace {
-        Some((_, workspace)) => workspace_without_window(&workspace),
-        None => without_window(args),
-    }
+    let setups = match workspace {
+        Some((_, workspace)) => [Some(workspace.a), workspace.b]
+            .into_iter()
+            .flatten()
+            .collect(),
+        None => args.settings.setups(scene_text(args))?,
+    };
+    summary(&setups, args.output.as_deref())
 }
 
-/// The workspace asked for, if it is one.
+/// Rejects a picture file that cannot be written, before work is done for it.
+fn check_picture(file: Option<&Path>) -> Result<()> {
+    if let Some(path) = file
+        && path
+            .extension()
+            .is_none_or(|e| !e.eq_ignore_ascii_case("png"))
+    {
+        bail!("{}: expected the extension .png", path.display());
+    }
+    output::check_place(file)
+}
+
+/// Reads the workspace to open, if the argument is one.
 fn workspace(args: &WindowArgs) -> Result<Option<(PathBuf, Workspace)>> {
     let path = args.scene.as_deref().map(Path::new);
     let Some(path) = path.filter(|path| Workspace::is_path(path)) else {
@@ -48,7 +68,7 @@ fn workspace(args: &WindowArgs) -> Result<Option<(PathBuf, Workspace)>> {
     let workspace = Workspace::read(&path)?;
     if let Some(scene) = workspace.missing_scene() {
         bail!(
-            "{}: its scene is not there: {}",
+            "{}: the scene of this workspace does not exist: {}",
             path.display(),
             scene.display()
         );
@@ -56,7 +76,7 @@ fn workspace(args: &WindowArgs) -> Result<Option<(PathBuf, Workspace)>> {
     Ok(Some((path, workspace)))
 }
 
-/// Opens the window and waits until it is closed; where there can be none, says why.
+/// Opens the window and waits until it is closed. Returns the reason if there can be no window.
 #[cfg(feature = "gui")]
 fn open(args: &WindowArgs, workspace: Option<(PathBuf, Workspace)>) -> Result<Option<String>> {
     use crate::gui::{GuiError, StartOptions};
@@ -81,24 +101,14 @@ fn open(_: &WindowArgs, _: Option<(PathBuf, Workspace)>) -> Result<Option<String
     Ok(Some("this build has no window".into()))
 }
 
-/// The scene asked for, or the first one.
+/// Returns the scene argument, or the default scene.
 fn scene_text(args: &WindowArgs) -> &str {
     args.scene.as_deref().unwrap_or(FIRST_SCENE)
 }
 
-/// Δ and Λ of the methods, and the picture in a file of its own.
-fn without_window(args: &WindowArgs) -> Result<Outcome> {
-    summary(&args.settings.setups(scene_text(args))?)
-}
-
-/// The same of a workspace's setups.
-fn workspace_without_window(workspace: &Workspace) -> Result<Outcome> {
-    let setups = [Some(&workspace.a), workspace.b.as_ref()];
-    summary(&setups.into_iter().flatten().cloned().collect::<Vec<_>>())
-}
-
-/// The summary of setups of one scene; all are rendered as the first.
-fn summary(setups: &[Setup]) -> Result<Outcome> {
+/// Prints Δ and Λ of setups of one scene, all rendered like the first, and writes the picture of
+/// the last to a file, if there is one.
+fn summary(setups: &[Setup], file: Option<&Path>) -> Result<Outcome> {
     let first = setups.first().context("there is at least one method")?;
     let scene = &resolve::scene(&first.scene)?;
     first.render.view(scene)?;
@@ -112,11 +122,11 @@ fn summary(setups: &[Setup]) -> Result<Outcome> {
     let report = Report::new(scene, &first.scene, runs);
     output::write_to(None, |out| write_summary(&report, out))?;
 
-    let picture = last.context("there is at least one method")?;
-    let bytes = export::encoded(&picture, ImageFormat::Png)?;
-    let (path, mut file) = output::create_free(&files::stem(scene.name()), "png")?;
-    file.write_all(&bytes)
-        .with_context(|| path.display().to_string())?;
-    output::write_to(None, |out| writeln!(out, "Picture: {}", path.display()))?;
+    if let Some(file) = file {
+        let picture = last.context("there is at least one method")?;
+        let bytes = export::encoded(&picture, ImageFormat::Png)?;
+        output::write_file(file, |out| out.write_all(&bytes))?;
+        output::write_to(None, |out| writeln!(out, "Picture: {}", file.display()))?;
+    }
     Ok(Outcome::Done)
 }

@@ -1,4 +1,4 @@
-//! What a step of a lesson looks at: a scene, one or two trees of it, and a picture.
+//! The subject of a step of a lesson: a scene, one or two trees, and a picture.
 
 use crate::setup::Setup;
 
@@ -6,27 +6,27 @@ use crate::setup::Setup;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subject {
     pub a: Setup,
-    /// The second setup, where two are compared.
+    /// The second setup, if two are compared.
     pub b: Option<Setup>,
     /// The pixel whose rays are followed: column and row.
     pub pixel: Option<[u32; 2]>,
     pub look: Look,
 }
 
-/// What is brought into view. Names are those that the window shows.
+/// What the window shows. Names are those in the window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Look {
-    /// Symbol of the heatmap that comes with the answer.
+    /// Symbol of the heatmap to show with the answer.
     pub heatmap: Option<&'static str>,
-    /// How two pictures share the pane.
+    /// How two pictures are shown.
     pub view: Option<Named>,
-    /// Panes that come to the front of their tabs.
+    /// Panes to bring to the front.
     pub panes: Vec<Named>,
-    /// Panels that are unfolded; all others are folded.
+    /// Panels to unfold; all others are folded.
     pub panels: Vec<Named>,
 }
 
-/// A name with the line of the file where it stands, from 1.
+/// A name with its line in the file, counted from 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named {
     pub line: usize,

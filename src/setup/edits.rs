@@ -3,17 +3,17 @@
 use super::{Setting, Setup, setting};
 use crate::structure::Method;
 
-/// Settings by name with the text of their values, in the order in which they stand.
+/// Settings by name with the text of their values, in their original order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Edits(Vec<(String, String)>);
 
 impl Edits {
-    /// Reads pairs `NAME=VALUE`, separated by commas: any setting and any constant of the method,
-    /// which must be among them. Points are written with semicolons or not at all: a part without
-    /// `=` belongs to the value before it.
+    /// Parses pairs `NAME=VALUE`, separated by commas: any settings and constants of the method.
+    /// The method must be among them. A part without `=` belongs to the previous value, as in
+    /// `from=0,-4,1.5`.
     ///
     /// # Errors
-    /// What is wrong, in a sentence.
+    /// One sentence on what is wrong.
     pub fn parse(text: &str) -> Result<Edits, String> {
         let mut pairs: Vec<(String, String)> = Vec::new();
         for part in text.split(',') {
@@ -38,11 +38,11 @@ impl Edits {
         self.0.push((name.into(), value.into()));
     }
 
-    /// A setup with these settings and the others as they were. The method comes first, whatever the
-    /// order: another one resets its constants.
+    /// Returns a setup with these settings changed. The method is applied first, because it resets
+    /// the constants.
     ///
     /// # Errors
-    /// What is wrong, in a sentence.
+    /// One sentence on what is wrong.
     pub fn apply(&self, setup: &Setup) -> Result<Setup, String> {
         let mut setup = setup.clone();
         let is_method = |(name, _): &&(String, String)| name == "method";
@@ -66,7 +66,7 @@ impl std::str::FromStr for Edits {
 }
 
 impl Setup {
-    /// All settings as text that [`Edits::parse`] reads.
+    /// Returns all settings as text that [`Edits::parse`] reads.
     pub fn to_text(&self) -> String {
         let pairs = self
             .settings()
@@ -74,7 +74,7 @@ impl Setup {
         pairs.collect::<Vec<_>>().join(",")
     }
 
-    /// Everything that is not at its default, as `NAME VALUE`, separated by commas.
+    /// Returns everything that differs from its default, as `NAME VALUE`, separated by commas.
     pub fn differences(&self) -> Vec<(Setting, String)> {
         let differ = self.settings().filter(|s| !s.is_default(self));
         differ.map(|s| (s, s.text(self))).collect()

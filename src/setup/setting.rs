@@ -1,4 +1,4 @@
-//! What a setting is: its names, what it means, which values it takes, and how values are written.
+//! Settings: their names, descriptions, allowed values, and how values are written.
 
 use super::Setup;
 use crate::geometry::Vec3;
@@ -6,8 +6,8 @@ use crate::scene::Cylinders;
 use crate::structure::MaxDepth;
 use crate::structure::split::Constant;
 
-/// A setting of the experiment. Every face of the program is made from it: options, widgets, files,
-/// axes of sweeps, lines in reports.
+/// A setting of the experiment. Options, widgets, files, sweep axes and report lines are generated
+/// from it.
 #[derive(Clone, Copy)]
 pub struct Setting {
     /// Name on the command line and in files, such as `d-max`.
@@ -22,14 +22,14 @@ pub struct Setting {
     /// What it does: help and tooltip.
     pub about: &'static str,
     pub kind: Kind,
-    /// What a change makes necessary to do again.
+    /// What a change invalidates.
     pub affects: Affects,
     pub get: fn(&Setting, &Setup) -> Value,
     /// Stores a value of this setting's kind.
     pub set: fn(&Setting, &mut Setup, Value),
 }
 
-/// Where a setting stands among others.
+/// The group in which a setting is listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
     Scene,
@@ -39,7 +39,7 @@ pub enum Group {
 }
 
 impl Group {
-    /// The heading in the command line's help.
+    /// Returns the heading in `--help`.
     pub const fn title(self) -> &'static str {
         match self {
             Group::Scene => "Scene",
@@ -50,24 +50,24 @@ impl Group {
     }
 }
 
-/// What a change of a setting makes necessary to do again; later ones need the earlier ones' results.
+/// What a change of a setting invalidates. Each entry also invalidates all later ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Affects {
     /// The scene must be loaded again.
     Scene,
     /// The tree must be built again.
     Structure,
-    /// Another picture results.
+    /// The picture changes.
     Image,
-    /// The same results take another time.
+    /// Only times change.
     Time,
 }
 
-/// The values that a setting can have.
+/// The allowed values of a setting.
 #[derive(Clone, Copy)]
 pub enum Kind {
     Number(Range),
-    /// One of some names.
+    /// One of several names.
     Choice(fn() -> Vec<Choice>),
     /// 0 or 1.
     Switch,
@@ -81,18 +81,18 @@ pub enum Kind {
     Cylinders,
 }
 
-/// The numbers that a setting can have, both ends included.
+/// A range of allowed numbers, including both ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
     pub lowest: f64,
     pub highest: f64,
-    /// Whether only whole numbers are allowed.
+    /// Whether only integers are allowed.
     pub whole: bool,
-    /// Such as `MiB`; empty for a plain number.
+    /// Unit, such as `MiB`; empty for a number without a unit.
     pub unit: &'static str,
 }
 
-/// One of the names that a setting can have.
+/// One of several named values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Choice {
     pub name: &'static str,
@@ -101,7 +101,7 @@ pub struct Choice {
     pub about: &'static str,
 }
 
-/// A setting's value.
+/// The value of a setting.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
     Number(f64),
@@ -111,7 +111,7 @@ pub enum Value {
     Point(Vec3),
     Depth(MaxDepth),
     Cylinders(Cylinders),
-    /// The scene's own.
+    /// The value of the scene.
     Own,
 }
 
@@ -119,7 +119,7 @@ pub enum Value {
 const OWN: &str = "scene";
 
 impl Setting {
-    /// The setting for a build method's own constant.
+    /// Returns the setting for a constant of a build method.
     pub const fn of_constant(constant: &'static Constant) -> Setting {
         let is_switch = constant.step == 1.0 && constant.lowest == 0.0 && constant.highest == 1.0;
         Setting {
@@ -164,28 +164,28 @@ impl Setting {
         }
     }
 
-    /// Whether it goes by this name.
+    /// Returns whether this is a name or alias of the setting.
     pub fn is_called(&self, name: &str) -> bool {
         self.name == name || self.aliases.contains(&name)
     }
 
-    /// The symbol where there is one, else the name in the window in lower case.
+    /// Returns the symbol if there is one, else the label in lower case.
     pub fn word(&self) -> String {
         self.symbol
             .map_or_else(|| self.label.to_lowercase(), str::to_owned)
     }
 
-    /// The value in a setup.
+    /// Returns the value in a setup.
     pub fn value(&self, setup: &Setup) -> Value {
         (self.get)(self, setup)
     }
 
-    /// The value in a setup, as text that [`Setting::parse`] reads.
+    /// Returns the value in a setup as text that [`Setting::parse`] reads.
     pub fn text(&self, setup: &Setup) -> String {
         self.value(setup).to_string()
     }
 
-    /// Stores a value.
+    /// Stores a value in a setup.
     ///
     /// # Panics
     /// If the value is of another kind.
@@ -193,30 +193,30 @@ impl Setting {
         (self.set)(self, setup, value);
     }
 
-    /// The value with the setup's method and everything else at its default.
+    /// Returns the default value for the method of a setup.
     pub fn default(&self, setup: &Setup) -> Value {
         let mut plain = Setup::default();
         plain.build.method = setup.build.method;
         self.value(&plain)
     }
 
-    /// Whether the value in a setup is the default.
+    /// Returns whether the value in a setup is the default.
     pub fn is_default(&self, setup: &Setup) -> bool {
         self.value(setup) == self.default(setup)
     }
 
-    /// Reads a value.
+    /// Parses an allowed value.
     ///
     /// # Errors
-    /// What is expected.
+    /// What was expected.
     pub fn parse(&self, text: &str) -> Result<Value, String> {
         self.check(self.read(text)?)
     }
 
-    /// Reads what has the form of a value, whether it is allowed or not.
+    /// Parses a value of the right form, whether it is allowed or not.
     ///
     /// # Errors
-    /// What is expected.
+    /// What was expected.
     pub fn read(&self, text: &str) -> Result<Value, String> {
         let text = text.trim();
         let value = match self.kind {
@@ -243,10 +243,10 @@ impl Setting {
         value.ok_or_else(|| format!("expected {}, found '{text}'", self.expected()))
     }
 
-    /// A value of this setting's kind that is allowed.
+    /// Checks that a value is allowed.
     ///
     /// # Errors
-    /// What is expected.
+    /// What was expected.
     pub fn check(&self, value: Value) -> Result<Value, String> {
         let is_allowed = match (self.kind, value) {
             (Kind::Number(range) | Kind::Angle(range), Value::Number(number)) => {
@@ -263,7 +263,7 @@ impl Setting {
         }
     }
 
-    /// The allowed values in words.
+    /// Describes the allowed values.
     pub fn expected(&self) -> String {
         match self.kind {
             Kind::Number(range) => range.in_words(),
@@ -280,11 +280,11 @@ impl Setting {
         }
     }
 
-    /// Reads values separated by commas, for an axis of a sweep: `f32,f64`; of whole numbers and
-    /// depths also ranges such as `8..24`. Points are separated by semicolons.
+    /// Parses values separated by commas, for an axis of a sweep: `f32,f64`. Integers and depths
+    /// can also be ranges such as `8..24`. Points are separated by semicolons.
     ///
     /// # Errors
-    /// What is expected, or a value that is there twice.
+    /// What was expected, or a value that occurs twice.
     pub fn parse_list(&self, text: &str) -> Result<Vec<Value>, String> {
         let separator = if matches!(self.kind, Kind::Point) {
             ';'
@@ -299,7 +299,7 @@ impl Setting {
             };
             for value in new {
                 if values.contains(&value) {
-                    return Err(format!("{value} is there twice"));
+                    return Err(format!("{value} occurs twice"));
                 }
                 values.push(value);
             }
@@ -307,7 +307,7 @@ impl Setting {
         Ok(values)
     }
 
-    /// Some values other than the default, for tests that walk all settings.
+    /// Returns some values other than the default, for tests over all settings.
     pub fn examples(&self) -> Vec<Value> {
         let default = self.default(&Setup::default());
         let values = match self.kind {
@@ -350,7 +350,7 @@ impl Setting {
     }
 
     fn parse_range(&self, from: &str, to: &str) -> Result<Vec<Value>, String> {
-        /// Longer ranges are a typing mistake.
+        /// Longer ranges are probably typing errors.
         const LONGEST: u32 = 10_000;
         let ends = from.trim().parse::<u32>().ok().zip(to.trim().parse().ok());
         let (from, to) = ends
@@ -364,17 +364,13 @@ impl Setting {
 }
 
 impl Range {
-    /// Whether a number lies in the range.
+    /// Returns whether a number is in the range.
     pub fn contains(&self, number: f64) -> bool {
         (self.lowest..=self.highest).contains(&number) && !(self.whole && number.fract() != 0.0)
     }
 
     fn in_words(&self) -> String {
-        let number = if self.whole {
-            "a whole number"
-        } else {
-            "a number"
-        };
+        let number = if self.whole { "an integer" } else { "a number" };
         if self.highest == f64::MAX {
             format!("{number} of at least {}", self.lowest)
         } else {
@@ -392,10 +388,10 @@ fn point(text: &str) -> Option<Vec3> {
 }
 
 impl Value {
-    /// The number of [`Value::Number`].
+    /// Returns the number of [`Value::Number`].
     ///
     /// # Panics
-    /// If it is another kind of value.
+    /// If this is another kind of value.
     pub fn number(self) -> f64 {
         match self {
             Value::Number(number) => number,
@@ -403,10 +399,10 @@ impl Value {
         }
     }
 
-    /// The name of [`Value::Choice`].
+    /// Returns the name of [`Value::Choice`].
     ///
     /// # Panics
-    /// If it is another kind of value.
+    /// If this is another kind of value.
     pub fn choice(self) -> &'static str {
         match self {
             Value::Choice(name) => name,

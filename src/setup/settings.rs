@@ -120,7 +120,7 @@ pub static SETTINGS: &[Setting] = &[
         symbol: None,
         label: "Memory limit",
         group: Group::Structure,
-        about: "The build stops with an error before it takes more than this",
+        about: "The build stops with an error before it uses more memory than this",
         kind: whole(1.0, 1e9, "MiB"),
         affects: Affects::Structure,
         get: |_, setup| Value::Number((setup.build.memory_limit >> 20) as f64),
@@ -239,7 +239,7 @@ pub static SETTINGS: &[Setting] = &[
         symbol: None,
         label: "Eye",
         group: Group::Camera,
-        about: "The eye, in place of the scene's",
+        about: "Position of the eye, instead of the scene's",
         kind: Kind::Point,
         affects: Affects::Image,
         get: |_, setup| of_point(setup.render.camera.from),
@@ -251,7 +251,7 @@ pub static SETTINGS: &[Setting] = &[
         symbol: None,
         label: "Looking at",
         group: Group::Camera,
-        about: "The point that the camera looks at, in place of the scene's",
+        about: "The point that the camera looks at, instead of the scene's",
         kind: Kind::Point,
         affects: Affects::Image,
         get: |_, setup| of_point(setup.render.camera.at),
@@ -263,7 +263,7 @@ pub static SETTINGS: &[Setting] = &[
         symbol: None,
         label: "Up",
         group: Group::Camera,
-        about: "The direction that is up, in place of the scene's",
+        about: "The up direction, instead of the scene's",
         kind: Kind::Point,
         affects: Affects::Image,
         get: |_, setup| of_point(setup.render.camera.up),
@@ -275,7 +275,7 @@ pub static SETTINGS: &[Setting] = &[
         symbol: None,
         label: "Angle of view",
         group: Group::Camera,
-        about: "The full vertical angle of view in degrees, in place of the scene's",
+        about: "The full vertical angle of view in degrees, instead of the scene's",
         kind: Kind::Angle(Range {
             lowest: 1e-6,
             highest: 179.999_999,
@@ -390,8 +390,8 @@ fn axes() -> Vec<Choice> {
 fn overlaps() -> Vec<Choice> {
     let about = |rule| match rule {
         OverlapRule::Paper => {
-            "As the paper's figures show for the method: midpoint takes spheres exactly and all \
-             others by bounds, sah-cut all by bounds"
+            "As in the paper: midpoint tests spheres exactly and all others by their bounds, sah-cut \
+             tests all by their bounds"
         }
         OverlapRule::Bounds => "When its bounding box touches the cell",
         OverlapRule::Exact => "When it shares a point with the cell",
@@ -414,7 +414,9 @@ fn precisions() -> Vec<Choice> {
     let about = |precision| match precision {
         PrecisionChoice::F32 => "Single precision",
         PrecisionChoice::F64 => "Double precision",
-        PrecisionChoice::Auto => "f32 where it can hold the scene as the camera sees it, else f64",
+        PrecisionChoice::Auto => {
+            "f32 if it can represent the scene as the camera sees it, else f64"
+        }
     };
     let all = PrecisionChoice::ALL;
     all.map(|precision| choice(precision.name(), about(precision)))
@@ -424,7 +426,7 @@ fn precisions() -> Vec<Choice> {
 fn kernels() -> Vec<Choice> {
     let about = |kernel| match kernel {
         KernelChoice::Scalar => {
-            "One ray after the other, through exactly the nodes that are counted, as in the paper"
+            "One ray after the other, as in the paper, through exactly the nodes that are counted"
         }
         KernelChoice::Stream => "SIMD streams of rays, each with its own traversal",
         KernelChoice::Packets => "SIMD packets of rays that traverse together",

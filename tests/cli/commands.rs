@@ -45,7 +45,7 @@ fn wrong_use_is_told_with_exit_code_2() {
         ("measure balls:99", "the size of balls must be from 0 to"),
         (
             "measure tetra:5 --memory-limit 0",
-            "--memory-limit: expected a whole number from 1",
+            "--memory-limit: expected an integer from 1",
         ),
         ("render teaching -o picture.jpg", ".png or .exr"),
         ("render teaching --resolution 16x16 -o no/a.png", "no/a.png"),
@@ -457,11 +457,11 @@ fn verify_checks_every_kind_of_ray() {
 }
 
 #[test]
-fn without_a_display_it_measures_and_writes_the_picture() {
+fn without_a_display_it_measures_and_writes_a_picture_only_if_asked() {
     let program = Program::new();
     program.write("balls-1.png", "what the user had");
-    for name in ["balls-1-1.png", "balls-1-2.png"] {
-        let output = program.run("balls:1");
+    for command in ["balls:1", "balls:1 -o picture.png"] {
+        let output = program.run(command);
         let errors = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(0), "{errors}");
         assert_eq!(errors.lines().count(), 1, "{errors}");
@@ -472,12 +472,21 @@ fn without_a_display_it_measures_and_writes_the_picture() {
         for method in Method::of_the_paper() {
             assert!(text.contains(method.name), "{text}");
         }
-        assert!(text.contains(name), "{text}");
-        let picture = image::open(program.path().join(name)).unwrap();
-        assert_eq!((picture.width(), picture.height()), (512, 512));
+        let path = program.path().join("picture.png");
+        if command == "balls:1" {
+            assert!(errors.contains("-o FILE.png"), "{errors}");
+            let files = std::fs::read_dir(program.path()).unwrap();
+            assert_eq!(files.count(), 1, "it writes no file unasked");
+        } else {
+            assert!(text.contains("picture.png"), "{text}");
+            let picture = image::open(path).unwrap();
+            assert_eq!((picture.width(), picture.height()), (512, 512));
+        }
     }
     let kept = std::fs::read_to_string(program.path().join("balls-1.png")).unwrap();
     assert_eq!(kept, "what the user had");
+    let refused = program.run("balls:1 -o picture.gif");
+    assert_eq!(refused.status.code(), Some(2));
 }
 
 #[test]
@@ -665,4 +674,40 @@ fn the_papers_tables_come_in_every_form() {
     assert!(latex.contains("N\\_LS &  & 96056 & 96056 & = &"), "{latex}");
     // clap's own message takes several lines.
     assert_eq!(program.run("paper teaching").status.code(), Some(2));
+}
+
+#[test]
+fn every_setting_is_an_option_with_help() {
+    let help = Program::new().done("measure --help");
+    for setting in bspscope::setup::SETTINGS {
+        assert!(help.contains(&format!("--{} <", setting.name)), "{help}");
+    }
+    let program = Program::new();
+    // Names of earlier versions.
+    let old = "--cut-off 0.5 --kernel lanes --resolution 8x8 --method midpoint --format json";
+    let report = program.json(&format!("measure tetra:1 {old}"));
+    let settings = &report["runs"][0]["settings"];
+    assert_eq!(settings["min_contribution"], 0.5);
+    assert_eq!(settings["kernel"]["asked"], "stream");
+    program.done("trade tetra:1 --only cut-off --resolution 8x8 --samples 1 --rounds 1");
+}
+
+#[test]
+fn any_setting_can_differ_between_the_sides_of_a_comparison() {
+    let program = Program::new();
+    let sides = "--a method=sah-cut,kernel=stream,threads=1 --b method=sah-cut,gap-fraction=0.1";
+    let text = program.done(&format!("compare tetra:2 {sides} --resolution 8x8"));
+    assert!(
+        text.contains("kernel stream") && text.contains("kernel scalar"),
+        "{text}"
+    );
+    let sides = "--a method=sah-cut,precision=f32 --b method=sah-cut";
+    let arguments = format!("compare tetra:2 {sides} --resolution 8x8");
+    let output = program.run(&arguments);
+    assert_eq!(output.status.code(), Some(1));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        text.contains("precision is f32 in A and f64 in B"),
+        "{text}"
+    );
 }
