@@ -36,7 +36,7 @@
 //! | [`present::report`] | reports as text, JSON, CSV, Markdown, LaTeX and HTML | a line in [`present::report::WRITERS`] |
 //! | [`present::export`] | pictures, heatmaps with legends, leaf boxes, the whole report | a line in [`present::export::LEAF_WRITERS`] |
 //! | [`lesson`] | guided tours in plain text, and whether what they state is true | a line in [`lesson::LESSONS`] |
-//! | [`workspace`] | the state of a session as a file; settings as a command | a field with a default |
+//! | [`workspace`] | the state of a session as a file | a field with a default |
 //! | [`cli`], `gui` | the two user interfaces; neither imports the other, except to open the window | |
 //!
 //! # Data flow
