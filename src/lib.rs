@@ -1,51 +1,51 @@
-//! bspscope: see, measure and compare the BSP trees that make ray tracing fast.
+//! bspscope: shows, measures and compares the acceleration structures that make ray tracing fast.
 //!
 //! The method is that of V. Havran and J. Žára, "Evaluation of BSP properties for ray-tracing": a
-//! tree is judged by a septet Δ of counts, which no machine changes, and a triplet Λ of times,
-//! under equal conditions, on the same image.
+//! tree is judged by a septet Δ of counts, which are the same on every machine, and a triplet Λ of
+//! times, under equal conditions and for the same image.
 //!
-//! # The way through
+//! # Overview
 //!
-//! Read the folders in this order; each imports only from those before it.
+//! Read the modules in this order: each imports only from those above it.
 //!
-//! | module | what it owns | one new entry is |
+//! | module | what it owns | to add an entry |
 //! |---|---|---|
 //! | [`geometry`] | vectors, boxes, axes, rays | |
-//! | [`progress`] | how long tasks tell how far they are and are told to stop | |
-//! | [`files`] | files written whole or not at all, and their fingerprints | |
-//! | [`primitive`] | sphere, triangle, polygon, cylinder and cone: bounds, overlap with a cell, intersection in `f64` or on objects packed in `f32` | a variant of [`primitive::Primitive`] |
-//! | [`scene`] | objects, materials, lights, camera; what the scene requires | |
-//! | [`scene::format`] | readers and writers of files: NFF, OBJ, PLY, glTF, STL; the load report | a line in [`scene::format::FORMATS`] |
-//! | [`scene::builtin`] | generated scenes | a line in [`scene::builtin::BUILTINS`] |
-//! | [`structure`] | 8-byte nodes, the one build driver, voxels of grids, moments of the build, validation | |
-//! | [`structure::split`] | where a method splits a cell | a line in [`structure::split::SPLIT_RULES`] |
-//! | [`trace`] | traversal of trees and grids in two precisions, timed and counting kernels, plain or in lanes of vectors, shading, passes over a picture, visits of nodes | |
-//! | [`setup`] | the whole experiment: scene, structure, render settings, camera | |
-//! | [`measure`] | counters, which serve as the parameters of the paper's Tables 1 to 3, as heatmaps and as figures of each kind of ray; trees against testing every object | an entry of [`measure::COUNTERS`] |
-//! | [`measure::model`] | the time model of equation (1): by regression and in place; where the time of a picture goes | |
-//! | [`measure::sweep`] | the parameters over a grid of settings: points, rows, shards | |
+//! | [`progress`] | progress and cancellation of long tasks | |
+//! | [`files`] | atomic file writes, checksums | |
+//! | [`primitive`] | sphere, triangle, polygon, cylinder and cone: bounds, overlap with a cell, intersection in `f64` and in packed `f32` | a variant of [`primitive::Primitive`] |
+//! | [`scene`] | objects, materials, lights, camera; the features that a scene requires | |
+//! | [`scene::format`] | readers and writers: NFF, OBJ, PLY, glTF, STL; the load report | a line in [`scene::format::FORMATS`] |
+//! | [`scene::builtin`] | scene generators | a line in [`scene::builtin::BUILTINS`] |
+//! | [`structure`] | 8-byte nodes, the build driver, voxels of grids, moments of the build, validation | |
+//! | [`structure::split`] | build methods: where a cell is split | a line in [`structure::split::SPLIT_RULES`] |
+//! | [`trace`] | traversal of trees and grids in two precisions; timed and counting kernels, scalar and SIMD; shading, rendering, recorded rays | |
+//! | [`setup`] | the whole experiment: scene, structure, render settings, camera | a field and an entry of [`setup::SETTINGS`] |
+//! | [`measure`] | counters, which serve as the parameters of the paper's Tables 1 to 3, as heatmaps and as counts per kind of ray; Δ and Λ; verification against testing every object | an entry of [`measure::COUNTERS`] |
+//! | [`measure::model`] | the time model of equation (1), by regression and in place; where the rendering time goes | |
+//! | [`measure::sweep`] | the parameters for every combination of settings: points, rows, shards | |
 //! | [`measure::paper`] | the paper's printed tables, and its experiment repeated | |
-//! | [`measure::judge`] | exact arithmetic: why two answers about a ray differ | |
-//! | [`measure::stability`] | trees at the extremes | an entry of [`measure::stability::CASES`] |
-//! | [`measure::accuracy`] | what accuracy costs: time and error of every choice | a line in [`measure::accuracy::KNOBS`] |
-//! | [`measure::heat`] | heatmaps: what each pixel costs | |
-//! | [`jobs`] | work in the background and the one scheduler: progress, pause, cancel, partial results | a file with one [`jobs::Job`] |
+//! | [`measure::judge`] | exact arithmetic: why two hits differ | |
+//! | [`measure::stability`] | tests with extreme inputs | an entry of [`measure::stability::CASES`] |
+//! | [`measure::accuracy`] | accuracy vs. time: error and rendering time of each setting | a line in [`measure::accuracy::KNOBS`] |
+//! | [`measure::heat`] | heatmaps: the cost of each pixel | |
+//! | [`jobs`] | background jobs and their scheduler: progress, pause, cancel, partial results | a file with one [`jobs::Job`] |
 //! | [`present::number`] [`present::words`] | numbers and results as text | |
 //! | [`present::chart`] | charts of a sweep | |
-//! | [`present::overlay`] | leaf cells, the selection, ray paths and heatmaps as plain colours and lines; histograms of leaves and rays | a line in [`present::overlay::COLORINGS`], [`present::overlay::COLORMAPS`] or [`present::overlay::HISTOGRAMS`] |
-//! | [`present::report`] | text, JSON, CSV, Markdown, LaTeX; the page of HTML | a line in [`present::report::WRITERS`] |
-//! | [`present::export`] | pictures, heatmaps with legends, leaf boxes, the report put together | a line in [`present::export::LEAF_WRITERS`] |
-//! | [`lesson`] | guided tours in plain text: what they look at, ask and tell; whether it holds | a line in [`lesson::LESSONS`] |
-//! | [`workspace`] | what was looked at and how, as a file; settings as a command | a field with a default |
-//! | [`cli`], `gui` | the two faces; they never import each other but to start the window | |
+//! | [`present::overlay`] | leaf cells, selection, ray paths and heatmaps as plain colors and lines; histograms | a line in [`present::overlay::COLORINGS`], [`present::overlay::COLORMAPS`] or [`present::overlay::HISTOGRAMS`] |
+//! | [`present::report`] | reports as text, JSON, CSV, Markdown, LaTeX and HTML | a line in [`present::report::WRITERS`] |
+//! | [`present::export`] | pictures, heatmaps with legends, leaf boxes, the whole report | a line in [`present::export::LEAF_WRITERS`] |
+//! | [`lesson`] | guided tours in plain text, and whether what they state is true | a line in [`lesson::LESSONS`] |
+//! | [`workspace`] | the state of a session as a file; settings as a command | a field with a default |
+//! | [`cli`], `gui` | the two user interfaces; neither imports the other, except to open the window | |
 //!
-//! # The one data flow
+//! # Data flow
 //!
 //! ```text
-//! file or generator ─▶ Scene ─▶ Tree ─▶ timed pass    ─▶ picture, T_TR
-//!                                    └▶ counted pass  ─▶ tallies, T_TT
-//!                       facts of scene and tree, times, tallies ─▶ Measurement
-//!                       Measurement ─▶ parameters() ─▶ Δ, Λ ─▶ reports and panels
+//! file or generator ─▶ Scene ─▶ Tree ─▶ timed rendering   ─▶ picture, T_TR
+//!                                    └▶ counted rendering ─▶ tallies, T_TT
+//!                  facts on scene and tree, times, tallies ─▶ Measurement
+//!                  Measurement ─▶ COUNTERS ─▶ Δ, Λ ─▶ reports and panels
 //! ```
 //!
 //! # From another program
@@ -71,7 +71,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-// Module comments lead developers into private modules too.
+// Module docs also link to private modules.
 #![allow(rustdoc::private_intra_doc_links)]
 
 pub mod cli;

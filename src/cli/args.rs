@@ -1,13 +1,16 @@
-//! The arguments as they are typed; [`super::resolve`] makes settings of them.
+//! The raw arguments. Options for settings are generated from the list of settings
+//! ([`super::setting_args`]).
 
-use super::values::{
-    ByColormap, ByHeatmap, ByParameter, Depths, LeafSizes, colormap_names, constant, depths,
-    equation_names, filter_names, heatmap_names, kernel_names, leaf_sizes, leaf_writer_names,
-    method_names, paper_scenes, parameter_names, pixel, point, precision_names, range, resolution,
-    sampling_names, scale_names, share, writer_names,
+use super::setting_args::{
+    Built, Everything, Extreme, Loaded, Modelled, OneMethod, Reference, Reproduced, SettingArgs,
+    Shared, Swept, Verified,
 };
-use crate::geometry::{Axis, Vec3};
-use crate::measure::accuracy::KNOBS;
+use super::values::{
+    ByColormap, ByHeatmap, ByParameter, colormap_names, equation_names, filter_names,
+    heatmap_names, knob_names, leaf_writer_names, method_names, paper_scenes, parameter_names,
+    pixel, range, scale_names, share, writer_names,
+};
+use crate::measure::accuracy::Knob;
 use crate::measure::heat::RayFilter;
 use crate::measure::model::Equation;
 use crate::measure::paper::PaperScene;
@@ -15,17 +18,15 @@ use crate::measure::sweep::Shard;
 use crate::present::overlay::{Range, Scale};
 use crate::scene::builtin::BUILTINS;
 use crate::scene::format::FORMATS;
-use crate::scene::{Cylinders, Sampling};
-use crate::structure::{BuildSettings, MaxDepth, Method, OverlapRule};
-use crate::trace::{KernelChoice, PrecisionChoice};
-use clap::builder::{PossibleValue, PossibleValuesParser};
+use crate::setup::Edits;
+use crate::structure::Method;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
-/// See, measure and compare the BSP trees that make ray tracing fast.
+/// Show, measure and compare the acceleration structures that make ray tracing fast
 ///
-/// Without a command it opens the window. Without a display it measures the scene with both of the
-/// paper's methods instead and writes the picture to a file.
+/// Without a command, opens the window. Without a display, measures the scene with both methods of
+/// the paper and prints the result.
 #[derive(Debug, Parser)]
 #[command(
     name = "bspscope",
@@ -58,88 +59,77 @@ pub enum Command {
     Methods(MethodsArgs),
     Verify(VerifyArgs),
     Stability(StabilityArgs),
-    Trade(TradeArgs),
+    #[command(alias = "trade")]
+    Accuracy(AccuracyArgs),
     Lesson(LessonArgs),
 }
 
-/// Open the window; the same as no command
+/// Open the window (the default command)
 #[derive(Debug, Args)]
 pub struct WindowArgs {
     /// What to open: a scene file, a generator with an optional size (NAME or NAME:SIZE), or a
-    /// workspace (.bspscope) [default: where the last session ended]
+    /// workspace (.bspscope) [default: continue the last session]
     pub scene: Option<String>,
-    /// Open with a lesson: its name (see 'bspscope lesson list'), or a file
+    /// Open a lesson: a name (see 'bspscope lesson list') or a file
     #[arg(long, value_name = "LESSON")]
     pub lesson: Option<String>,
     #[command(flatten)]
-    pub cylinders: CylinderArgs,
-    #[command(flatten)]
-    pub methods: MethodListArgs,
-    #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
+    pub settings: SettingArgs<Everything>,
+    /// Without a display: also write the picture to this file (.png)
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: Option<PathBuf>,
 }
 
-/// Measure every parameter of the paper, with Δ and Λ set apart
+/// Measure every parameter of the paper, with Δ and Λ listed separately
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope measure balls\n\
     bspscope measure scenes/tetra.nff --method midpoint --method sah-cut --d-max auto\n\
     bspscope measure rings --cylinders polygons:10 -o rings.json\n\
     bspscope measure balls:3 --set gap-fraction=0.05 --format csv | head"))]
 pub struct MeasureArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     #[command(flatten)]
-    pub scene: SceneArgs,
-    #[command(flatten)]
-    pub methods: MethodListArgs,
-    #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
+    pub settings: SettingArgs<Everything>,
     #[command(flatten)]
     pub report: ReportArgs,
 }
 
-/// Compare two trees of a scene, if they may be compared
+/// Compare two trees of a scene under equal conditions
 ///
-/// Parameters of class S and D must be equal, and so must the images; if not, says which differ,
-/// with exit code 1. Else all parameters of both, with the second relative to the first.
+/// The parameters of classes S and D and the images must be equal. If they are, prints all
+/// parameters of both trees, with the second relative to the first. If not, prints what differs
+/// and exits with code 1.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope compare balls --a method=midpoint --b method=sah-cut\n\
     bspscope compare rings --a method=sah-cut --b method=sah-cut,gap-fraction=0.05 --format json\n\
     bspscope compare balls --a method=midpoint --b method=sah --per-kind"))]
 pub struct CompareArgs {
-    #[command(flatten)]
-    pub scene: SceneArgs,
-    /// The first tree: method=NAME, and any of d-max, n-oilf, overlap, root-margin, first-axis and
-    /// the method's own settings, separated by commas
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
+    /// The first setup: method=NAME and any other settings, by the names of their options and of
+    /// the settings of methods, separated by commas
     #[arg(long, value_name = "SETTINGS", help_heading = "Tree")]
-    pub a: BuildSettings,
-    /// The second tree, likewise
+    pub a: Edits,
+    /// The second setup, in the same form
     #[arg(long, value_name = "SETTINGS", help_heading = "Tree")]
-    pub b: BuildSettings,
-    /// Tell what rays did kind by kind, too: primary, shadow, reflected and refracted ones, all
-    /// together, a ray on average, and the ray with the most
+    pub b: Edits,
+    /// Also print the counts per kind of ray (primary, shadow, reflected, refracted): the total,
+    /// the average per ray, and the maximum
     #[arg(long, help_heading = "Output")]
     pub per_kind: bool,
     #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
+    pub settings: SettingArgs<Shared>,
     #[command(flatten)]
     pub report: ReportArgs,
 }
 
-/// Repeat the paper's experiment: its Tables 4, 5 and 6, printed beside computed
+/// Repeat the paper's experiment: its Tables 4, 5 and 6 next to our results
 ///
-/// Every cell is marked: equal after rounding, same direction (from method 1 to method 2), or
-/// differs; what is known of the difference is said. Conditions are the paper's: cylinders as 10
-/// polygons, D_MAX 20, N_OILF 1, D_AREC of Table 4, 512 x 512 pixels. Exit code 1 if the two methods
-/// gave different images.
+/// Marks every cell as equal after rounding, same direction (from method 1 to method 2), or
+/// different, and explains known differences. The conditions are those of the paper: cylinders as
+/// 10 polygons, D_MAX 20, N_OILF 1, D_AREC of Table 4, 512 x 512 pixels. Exits with code 1 if the
+/// images of the two methods differ.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  bspscope paper\n  bspscope paper balls rings tetra --format json\n  \
@@ -150,116 +140,112 @@ pub struct PaperArgs {
     #[arg(value_name = "SCENE", value_parser = paper_scenes())]
     pub scenes: Vec<&'static PaperScene>,
     #[command(flatten)]
-    pub picture: PictureArgs,
-    /// Threads; 0 takes as many as the machine has cores
-    #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Picture")]
-    pub threads: usize,
+    pub settings: SettingArgs<Reproduced>,
     #[command(flatten)]
     pub report: ReportArgs,
 }
 
-/// Find what tests and traversal take: the times of the paper's equation (1)
+/// Find how long nodes and tests take: the times in the paper's equation (1)
 ///
-/// By regression over a set of trees (the paper's methods, depths around the automatic one, two leaf
-/// sizes), with 95 % confidence intervals, and by timing in place. The times are tested on trees
-/// that were left out of the fit.
+/// Finds them by regression over a set of trees (the paper's methods, depths around the automatic
+/// one, two leaf sizes), with 95 % confidence intervals, and by timing in place. Tests the result
+/// on trees that were not part of the fit.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope model balls\n\
     bspscope model balls rings tetra --cylinders polygons:10 --equation printed --format json"))]
 pub struct ModelArgs {
-    /// Scenes, files or generators
+    /// Scene files or generators
     #[arg(required = true, value_name = "SCENE")]
     pub scenes: Vec<String>,
     #[command(flatten)]
-    pub cylinders: CylinderArgs,
-    /// How tests that hit are counted: every one, or as the paper's equation (1) has it
+    pub settings: SettingArgs<Modelled>,
+    /// How to count tests that hit: all of them, or as printed in the paper's equation (1)
     #[arg(long, value_name = "HOW", value_parser = equation_names(), default_value = "corrected")]
     pub equation: Equation,
-    /// Width and height in pixels
-    #[arg(long, value_name = "WxH", value_parser = resolution, default_value = "192x192")]
-    pub resolution: [u32; 2],
-    /// How often each tree is timed; the least time counts
+    /// How often to time each tree; the shortest time is used
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
     pub rounds: u32,
-    /// Form of the result
+    /// Output format
     #[arg(long, value_enum, default_value_t = ListFormat::Text, help_heading = "Output")]
     pub format: ListFormat,
-    /// Write to this file in place of standard output
+    /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: Option<PathBuf>,
 }
 
-/// Measure a scene over a grid of build methods, depths and leaf sizes
+/// Measure a scene for every combination of settings
 ///
-/// Every point is measured once and becomes a row of the file, in the order of the grid: methods,
-/// leaf sizes, depths. Run again, a sweep that was broken off goes on after the last whole row; rows
-/// that are there stay as they are, with their times. What no machine changes is the same in every
-/// run. In the end the best settings are told, beside the automatic rule 1.2 log2 N + 2.
+/// Every combination is measured once and becomes one row of the file. An interrupted sweep resumes
+/// after the last complete row; existing rows are kept, with their times. Counts are the same in
+/// every run. At the end, prints the best settings, compared with the automatic rule
+/// D_MAX = 1.2 log2 N + 2.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope sweep balls -o balls.csv --chart balls.svg\n\
     bspscope sweep tetra --method sah-cut --d-max 8..24 --n-oilf 1,2,4 -o tetra.jsonl\n\
     bspscope sweep rings --shard 2/4 -o rings-2.csv"))]
 pub struct SweepArgs {
-    #[command(flatten)]
-    pub scene: SceneArgs,
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     /// Build methods, separated by commas [default: the paper's two]
-    #[arg(long, value_name = "METHODS", value_parser = method_names(), value_delimiter = ',', help_heading = "Tree")]
+    #[arg(long, value_name = "METHODS", value_parser = method_names(), value_delimiter = ',', help_heading = "Axes")]
     pub method: Vec<Method>,
-    /// Greatest depths: numbers, ranges such as 8..24, and auto, separated by commas
-    #[arg(long, value_name = "DEPTHS", value_parser = depths, default_value = "1..30", help_heading = "Tree")]
-    pub d_max: Depths,
-    /// Leaf sizes: numbers and ranges, separated by commas
-    #[arg(long, value_name = "SIZES", value_parser = leaf_sizes, default_value = "1,2,4,8", help_heading = "Tree")]
-    pub n_oilf: LeafSizes,
+    /// Maximum depths: numbers, ranges such as 8..24, and auto, separated by commas. The same as
+    /// --vary d-max=DEPTHS [default without --vary: 1..30]
+    #[arg(long, value_name = "DEPTHS", help_heading = "Axes")]
+    pub d_max: Option<String>,
+    /// Leaf sizes: numbers and ranges, separated by commas. The same as --vary n-oilf=SIZES
+    /// [default without --vary: 1,2,4,8]
+    #[arg(long, value_name = "SIZES", help_heading = "Axes")]
+    pub n_oilf: Option<String>,
+    /// Vary any setting: values separated by commas, such as precision=f32,f64 or
+    /// root-margin=0,0.001; integers also as ranges. Can be repeated to measure all combinations
+    #[arg(long, value_name = "NAME=VALUES", help_heading = "Axes")]
+    pub vary: Vec<String>,
     #[command(flatten)]
-    pub rules: RuleArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
-    /// Measure only this part of the points: I/N, with I from 1 to N
+    pub settings: SettingArgs<Swept>,
+    /// Measure only one part of the rows: I/N, with I from 1 to N
     #[arg(long, value_name = "I/N", default_value = "1/1")]
     pub shard: Shard,
-    /// File for the rows: .csv, or .jsonl for JSON lines
+    /// Write the rows to this file: .csv, or .jsonl for JSON lines
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: PathBuf,
     #[command(flatten)]
     pub charts: ChartArgs,
 }
 
-/// Put the parts of a sweep together
+/// Merge the parts of a sweep
 ///
-/// Parts are the files of its shards, in any order. Of a point that is there twice the first is
-/// kept; its counts must be equal. Exit code 1 if points are missing; what is there is written.
+/// The parts are the files of its shards, in any order. If a row occurs twice, the first is kept;
+/// the counts of both must be equal. Exits with code 1 if rows are missing, after writing the rest.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  bspscope merge rings-1.csv rings-2.csv -o rings.csv\n  \
     bspscope merge rings.csv -o rings.jsonl --show N_AT --chart rings.png"
 )]
 pub struct MergeArgs {
-    /// Files of rows: .csv or .jsonl
+    /// Files to merge: .csv or .jsonl
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// File for the rows: .csv, or .jsonl for JSON lines
+    /// Write the rows to this file: .csv, or .jsonl for JSON lines
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: PathBuf,
     #[command(flatten)]
     pub charts: ChartArgs,
 }
 
-/// What is told and drawn of a sweep.
+/// Charts and summary of a sweep.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 pub struct ChartArgs {
-    /// Draw the rows: .png or .svg; may be given more than once
+    /// Draw a chart: .png or .svg. Can be repeated
     #[arg(long, value_name = "FILE")]
     pub chart: Vec<PathBuf>,
-    /// The parameter that is drawn, and by whose least value settings are best
+    /// The parameter to draw and to minimize
     #[arg(long, value_name = "SYMBOL", value_parser = parameter_names(), default_value = "T_TR")]
     pub show: ByParameter,
 }
 
-/// Render the picture, or a heatmap of what its pixels cost, to a PNG or OpenEXR file
+/// Render the picture, or a heatmap of the cost of its pixels, to a PNG or OpenEXR file
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope render balls -o balls.png\n\
     bspscope render teaching --resolution 1280x960 --samples 16 -o teaching.exr\n\
@@ -267,130 +253,104 @@ pub struct ChartArgs {
     bspscope render rings --show N_IT --rays shadow --scale log --range 0:500 -o tests.png\n\
     bspscope render tetra --method sah-cut --show T_PIXEL --blend 0.6 -o time.png"))]
 pub struct RenderArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     #[command(flatten)]
-    pub scene: SceneArgs,
-    /// Build method
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), default_value = "midpoint", help_heading = "Tree")]
-    pub method: Method,
-    #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
-    /// Samples a pixel, at least 1; the first lies where --sampling says
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..), help_heading = "Picture")]
-    pub samples: u32,
+    pub settings: SettingArgs<OneMethod>,
     #[command(flatten)]
     pub heat: HeatArgs,
-    /// Picture file: .png is 8-bit sRGB, .exr is linear 32-bit float. A heatmap as .png has its
-    /// legend, as .exr the raw values in one channel named after the symbol, NaN without a value
+    /// Write to this file: .png (8-bit sRGB) or .exr (linear 32-bit float). A heatmap as .png has a
+    /// legend; as .exr it has the raw values in one channel named after the symbol, NaN for no
+    /// value
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: PathBuf,
 }
 
-/// A heatmap in place of the picture.
+/// A heatmap instead of the picture.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Heatmap")]
 pub struct HeatArgs {
-    /// What is shown of every pixel
+    /// Show a heatmap of this count per pixel
     #[arg(long, value_name = "SYMBOL", value_parser = heatmap_names(), ignore_case = true)]
     pub show: Option<ByHeatmap>,
-    /// The rays that are looked at
+    /// The rays to include
     #[arg(long, value_name = "KIND", value_parser = filter_names(), default_value = "all", requires = "show")]
     pub rays: RayFilter,
-    /// How values spread over the colours [default: linear]
+    /// Scale of the colors [default: linear]
     #[arg(long, value_name = "SCALE", value_parser = scale_names(), requires = "show")]
     pub scale: Option<Scale>,
-    /// Values that the colours span, so that pictures can be compared [default: lowest to highest]
+    /// Range of the colors, to make pictures comparable [default: lowest to highest value]
     #[arg(long, value_name = "LO:HI", value_parser = range, requires = "show", allow_hyphen_values = true)]
     pub range: Option<Range>,
-    /// Colours; colour-blind people can read all of them [default: viridis]
+    /// Color map; all are suitable for color-blind people [default: viridis]
     #[arg(long, value_name = "NAME", value_parser = colormap_names(), requires = "show")]
     pub colors: Option<ByColormap>,
-    /// How much the colours hide of the picture below them, 0 to 1 [default: 1]
+    /// Opacity of the heatmap over the picture, from 0 to 1 [default: 1]
     #[arg(long, value_name = "SHARE", value_parser = share, requires = "show")]
     pub blend: Option<f64>,
 }
 
-/// Tell everything that the rays of one pixel did in the tree
+/// Print everything that the rays of one pixel did in the tree
 ///
-/// The whole tree of rays; of every ray, in order, every inner node with its plane, every leaf with
-/// its tests, what was hit, and why the walk went on or ended.
+/// Prints the whole tree of rays. For each ray, prints in order every inner node with its plane,
+/// every leaf with its tests, the hit, and why traversal continued or ended.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope probe balls --pixel 256,256\n\
     bspscope probe teaching --pixel 100,80 --resolution 320x240 --method sah-cut\n\
     bspscope probe scenes/rings.nff --pixel 300,200 --format json -o pixel.json"))]
 pub struct ProbeArgs {
-    #[command(flatten)]
-    pub scene: SceneArgs,
-    /// Column and row of the pixel; 0,0 is the upper left
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
+    /// Column and row of the pixel; 0,0 is the upper left pixel
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true, help_heading = "Picture")]
     pub pixel: [i64; 2],
     #[command(flatten)]
-    pub methods: MethodListArgs,
-    #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
-    /// Form of the record
+    pub settings: SettingArgs<Everything>,
+    /// Output format
     #[arg(long, value_enum, default_value_t = ListFormat::Text, help_heading = "Output")]
     pub format: ListFormat,
-    /// Write to this file in place of standard output
+    /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: Option<PathBuf>,
 }
 
 /// Measure, and write pictures, tables, settings and machine as one HTML file
 ///
-/// The page refers to nothing outside of it: it can be sent, kept and printed. With two methods the
-/// second stands relative to the first.
+/// The page is self-contained: it can be sent, archived and printed. With two methods, the second
+/// is also shown relative to the first.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope report balls -o balls.html\n\
     bspscope report scenes/tetra.nff --method sah-cut --d-max auto -o tetra.html"))]
 pub struct PageArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     #[command(flatten)]
-    pub scene: SceneArgs,
-    #[command(flatten)]
-    pub methods: MethodListArgs,
-    #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
-    /// File for the page
+    pub settings: SettingArgs<Everything>,
+    /// Write the page to this file
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: PathBuf,
 }
 
-/// Write the boxes of a tree's leaves for other programs: OBJ or PLY
+/// Write the leaf boxes of a tree as OBJ or PLY, for other programs
 ///
-/// Every leaf is a box of 6 faces in the scene's units, outward faces counter-clockwise; node, depth
-/// and number of objects stand in the names of OBJ's objects and as properties of PLY's faces.
+/// Every leaf is a box of 6 faces in the scene's units, counter-clockwise when seen from outside.
+/// Node, depth and number of objects are in the names of the objects (OBJ) or properties of the
+/// faces (PLY).
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope leaves balls -o leaves.ply\n\
     bspscope leaves rings --method sah-cut --only full -o full.obj"))]
 pub struct LeavesArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     #[command(flatten)]
-    pub scene: SceneArgs,
-    /// Build method
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), default_value = "midpoint", help_heading = "Tree")]
-    pub method: Method,
-    #[command(flatten)]
-    pub build: BuildArgs,
-    /// Only these leaves [default: all]
+    pub settings: SettingArgs<Built>,
+    /// Which leaves to write [default: all]
     #[arg(long, value_enum, value_name = "LEAVES")]
     pub only: Option<LeavesShown>,
-    /// Threads; 0 takes as many as the machine has cores
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub threads: usize,
-    /// Form of the boxes; without it the extension of -o decides, or obj
+    /// Output format [default: by the extension of -o, or obj]
     #[arg(long, value_name = "FORM", value_parser = leaf_writer_names(), help_heading = "Output")]
     pub format: Option<String>,
-    /// Write to this file in place of standard output
+    /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: Option<PathBuf>,
 }
@@ -403,15 +363,17 @@ pub enum LeavesShown {
     Empty,
 }
 
-/// Write a scene, generated or read, as a scene file (NFF)
+/// Write a scene, generated or read, as an NFF file
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope generate balls:4 -o balls.nff\n\
     bspscope generate rings --cylinders polygons:10 > rings.nff\n\
     bspscope generate model.glb -o model.nff"))]
 pub struct GenerateArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
     #[command(flatten)]
-    pub scene: SceneArgs,
-    /// Scene file to write; '-' or nothing writes to standard output
+    pub settings: SettingArgs<Loaded>,
+    /// Write to this file [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 }
@@ -420,7 +382,7 @@ pub struct GenerateArgs {
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  bspscope methods\n  bspscope methods --format json")]
 pub struct MethodsArgs {
-    /// Form of the list
+    /// Output format
     #[arg(long, value_enum, default_value_t = ListFormat::Text)]
     pub format: ListFormat,
 }
@@ -431,114 +393,92 @@ pub enum ListFormat {
     Json,
 }
 
-/// Check trees, and their hits ray for ray against testing every object
+/// Check trees, and compare their hits with testing every object
 ///
-/// Where an answer differs, exact arithmetic says why: a tie (both are exactly right) or a fault.
-/// Exit code 1 if a tree is not valid or there is a fault; the first faults are written to
-/// fault.json, fault-1.json and so on, with as few objects as show them.
+/// If two hits differ, exact arithmetic decides whether it is a tie (both are exactly right) or a
+/// fault. Exits with code 1 if a tree is invalid or there is a fault. The first faults are written
+/// to fault.json, fault-1.json and so on, each with as few objects as needed to reproduce it.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope verify\n\
     bspscope verify teaching scenes/balls.nff --rays 10000 --method sah-cut\n\
     bspscope verify --replay fault.json"))]
 pub struct VerifyArgs {
-    /// Scenes, files or generators [default: all generators]
+    /// Scene files or generators [default: all generators]
     #[arg(value_name = "SCENE")]
     pub scenes: Vec<String>,
-    #[command(flatten)]
-    pub cylinders: CylinderArgs,
-    /// Ask the question of a fault's file again, and nothing else
+    /// Repeat the fault in this file, and nothing else
     #[arg(long, value_name = "FILE", conflicts_with = "scenes")]
     pub replay: Option<PathBuf>,
-    /// Rays of every kind and scene that are compared
+    /// Number of rays to compare, per scene and kind
     #[arg(long, value_name = "N", default_value_t = 50_000, value_parser = clap::value_parser!(u32).range(1..))]
     pub rays: u32,
-    /// Build method; may be given more than once [default: all but none]
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), help_heading = "Tree")]
-    pub method: Vec<Method>,
     #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
+    pub settings: SettingArgs<Verified>,
 }
 
-/// Try trees at the extremes: tough rays, geometry, transforms and settings
+/// Test trees with extreme rays, geometry, transformations and settings
 ///
-/// A matrix of cases by methods and precisions, each a pass, a failure with its reason, or not
-/// representable in that precision. Exit code 1 if anything fails.
+/// Prints a table of cases by methods and precisions. Each entry is a pass, a failure with its
+/// reason, or not representable in that precision. Exits with code 1 if any case fails.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope stability\n\
     bspscope stability --quick --format json -o stability.json\n\
     bspscope stability scenes/rings.nff --method sah-cut"))]
 pub struct StabilityArgs {
-    /// Scene to try the cases on that apply to any [default: the built-in torture set]
+    /// Scene for the cases that apply to any scene [default: the built-in test scenes]
     pub scene: Option<String>,
-    #[command(flatten)]
-    pub cylinders: CylinderArgs,
-    /// Fewer rays and smaller pictures: seconds in place of minutes
+    /// Use fewer rays and smaller pictures: takes seconds instead of minutes
     #[arg(long)]
     pub quick: bool,
-    /// Build method; may be given more than once [default: all but none]
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), help_heading = "Tree")]
-    pub method: Vec<Method>,
-    /// Threads; 0 takes as many as the machine has cores
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub threads: usize,
-    /// Form of the matrix
+    #[command(flatten)]
+    pub settings: SettingArgs<Extreme>,
+    /// Output format
     #[arg(long, value_enum, default_value_t = ListFormat::Text, help_heading = "Output")]
     pub format: ListFormat,
-    /// Write to this file in place of standard output
+    /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: Option<PathBuf>,
 }
 
-/// Tell what accuracy costs: choices that buy speed with it, by time and error
+/// Measure accuracy vs. time: rendering time and error of each setting
 ///
-/// Every choice alone, and all together: precision, samples, D_AREC, cut-off, polygons a cylinder,
-/// resolution. The reference is f64 with exact shapes and secondary rays at least 8 deep. Choices that
-/// move only the time (method, D_MAX, N_OILF) stand apart.
+/// Varies each setting alone and all together: precision, samples, D_AREC, minimum contribution,
+/// polygons per cylinder, resolution. The reference uses f64, exact shapes and secondary rays at
+/// least 8 deep. Settings that change only the time (method, D_MAX, N_OILF) are listed separately.
 #[derive(Debug, Args)]
-#[command(after_help = help("bspscope trade rings\n\
-    bspscope trade balls --only precision --rounds 9\n\
-    bspscope trade balls:3 --resolution 256x256 --samples 4 --format csv -o trade.csv"))]
-pub struct TradeArgs {
+#[command(after_help = help("bspscope accuracy rings\n\
+    bspscope accuracy balls --only precision --rounds 9\n\
+    bspscope accuracy balls:3 --resolution 256x256 --samples 4 --format csv -o accuracy.csv"))]
+pub struct AccuracyArgs {
     /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
     pub scene: String,
-    /// Build method of the reference
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), default_value = "sah-cut", help_heading = "Tree")]
-    pub method: Method,
     #[command(flatten)]
-    pub build: BuildArgs,
-    #[command(flatten)]
-    pub trace: TraceArgs,
-    #[command(flatten)]
-    pub picture: PictureArgs,
-    /// Samples a pixel of the reference
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..), help_heading = "Picture")]
-    pub samples: u32,
-    /// Only this choice, alone; may be given more than once [default: all, alone and together]
-    #[arg(long, value_name = "CHOICE", value_parser = PossibleValuesParser::new(KNOBS.iter().map(|k| PossibleValue::new(k.name).help(k.about))))]
-    pub only: Vec<String>,
-    /// Rounds in which every choice is timed once
+    pub settings: SettingArgs<Reference>,
+    /// Vary only this setting, alone. Can be repeated [default: all, alone and together]
+    #[arg(long, value_name = "CHOICE", value_parser = knob_names())]
+    pub only: Vec<&'static Knob>,
+    /// Number of rounds; every choice is timed once per round
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
     pub rounds: u32,
-    /// Form of the report
-    #[arg(long, value_enum, default_value_t = TradeFormat::Text, help_heading = "Output")]
-    pub format: TradeFormat,
-    /// Write to this file in place of standard output
+    /// Output format
+    #[arg(long, value_enum, default_value_t = AccuracyFormat::Text, help_heading = "Output")]
+    pub format: AccuracyFormat,
+    /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum TradeFormat {
+pub enum AccuracyFormat {
     Text,
     Json,
     Csv,
 }
 
-/// List, check and print the lessons: guided tours that ask for a prediction, then tell
+/// List, check and print the lessons
 ///
-/// They are taken in the window; Ctrl+J there lists them.
+/// Lessons are guided tours that ask for a prediction before they show the figures. Open them in
+/// the window: Ctrl+J lists them.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Examples:\n  bspscope lesson list\n  bspscope lesson check\n  \
@@ -553,16 +493,17 @@ pub struct LessonArgs {
 pub enum LessonCommand {
     /// List the lessons that come with the program
     List,
-    /// Measure what lessons look at, and check that what they say holds
+    /// Measure the steps of lessons and check that what they state is true
     ///
-    /// Everything expected is a count, the same on every machine. What does not hold is told with
-    /// file, line and reason, with exit code 1; a file that is no lesson has exit code 2.
+    /// All conditions are on counts, which are the same on every machine. Prints conditions that do
+    /// not hold with file, line and reason and exits with code 1; exits with code 2 if a file is
+    /// not a lesson.
     Check {
         /// Names of lessons, or files [default: all that come with the program]
         #[arg(value_name = "LESSON")]
         lessons: Vec<String>,
     },
-    /// Print a lesson with its figures and answers as they are on this machine, in Markdown
+    /// Print a lesson as Markdown, with the figures and answers of this machine
     Show {
         /// Name of a lesson, or a file
         #[arg(value_name = "LESSON")]
@@ -570,141 +511,19 @@ pub enum LessonCommand {
     },
 }
 
-#[derive(Debug, Args)]
-pub struct SceneArgs {
-    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
-    pub scene: String,
-    #[command(flatten)]
-    pub cylinders: CylinderArgs,
-}
-
-#[derive(Debug, PartialEq, Args)]
-pub struct CylinderArgs {
-    /// How cylinders and cones enter the scene: exact, or polygons:N for open prisms of N polygons
-    #[arg(long, value_name = "HOW", default_value_t = Cylinders::Exact, help_heading = "Scene")]
-    pub cylinders: Cylinders,
-}
-
-#[derive(Debug, Args)]
-pub struct MethodListArgs {
-    /// Build method; may be given more than once [default: the paper's two]
-    #[arg(long, value_name = "METHOD", value_parser = method_names(), help_heading = "Tree")]
-    pub method: Vec<Method>,
-}
-
-/// The form of a report, and where it goes.
+/// Output format and file of a report.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 pub struct ReportArgs {
-    /// Form of the report; without it the extension of -o decides, or text
+    /// Output format [default: by the extension of -o, or text]
     #[arg(long, value_name = "FORM", value_parser = writer_names())]
     pub format: Option<String>,
-    /// Write to this file in place of standard output
+    /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 }
 
-/// What a tree is built with.
-#[derive(Debug, PartialEq, Args)]
-#[command(next_help_heading = "Tree")]
-pub struct BuildArgs {
-    /// Greatest depth of a leaf, D_MAX, or 'auto'; the root has depth 0
-    #[arg(long, value_name = "N", default_value = "20")]
-    pub d_max: MaxDepth,
-    /// A cell with at most this many objects becomes a leaf, N_OILF
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub n_oilf: u32,
-    #[command(flatten)]
-    pub rules: RuleArgs,
-}
-
-/// What a tree is built with beside its limits.
-#[derive(Clone, Debug, PartialEq, Args)]
-#[command(next_help_heading = "Tree")]
-pub struct RuleArgs {
-    /// When an object belongs to a cell: paper, bounds or exact
-    #[arg(long, value_name = "RULE", default_value = OverlapRule::Paper.name())]
-    pub overlap: OverlapRule,
-    /// How far the root cell reaches beyond the scene's bounds on every side, a length
-    #[arg(
-        long,
-        value_name = "X",
-        default_value_t = 0.001,
-        allow_negative_numbers = true
-    )]
-    pub root_margin: f64,
-    /// The axis that methods in cyclic order split first: x, y or z
-    #[arg(long, value_name = "AXIS", default_value_t = Axis::X)]
-    pub first_axis: Axis,
-    /// A method's own setting (see 'bspscope methods'), for every chosen method that has it
-    #[arg(long, value_name = "NAME=VALUE", value_parser = constant)]
-    pub set: Vec<(String, f64)>,
-    /// The build stops with an error before it takes more than this many MiB
-    #[arg(long, value_name = "MIB", default_value_t = 4096)]
-    pub memory_limit: u64,
-}
-
-/// What rays are traced with.
-#[derive(Debug, PartialEq, Args)]
-#[command(next_help_heading = "Picture")]
-pub struct TraceArgs {
-    /// How deep secondary rays go, D_AREC; 0 traces none
-    #[arg(long, value_name = "N", default_value_t = 4)]
-    pub d_arec: u32,
-    /// A secondary ray that counts for less than this in every colour of its pixel is not traced
-    #[arg(long, value_name = "WEIGHT", value_parser = share, default_value = "0")]
-    pub cut_off: f64,
-    /// Numbers that rays are traced in: f32, f64, or auto for f32 where it can hold the scene
-    #[arg(long, value_name = "NUMBERS", value_parser = precision_names(), default_value = "f64")]
-    pub precision: PrecisionChoice,
-    /// Kernel of timed rendering: scalar for one ray after the other, as the paper timed; stream for
-    /// batches of rays in SIMD; packets for neighboring rays that traverse together in SIMD; auto for
-    /// packets where rays are coherent, stream elsewhere, scalar where the processor has no wide SIMD
-    #[arg(long, value_name = "KERNEL", value_parser = kernel_names(), default_value = "scalar")]
-    pub kernel: KernelChoice,
-    /// Where the first sample lies: in the pixel's centre, or on a lattice that spans the angle
-    #[arg(long, value_name = "WHERE", value_parser = sampling_names(), default_value = "center")]
-    pub sampling: Sampling,
-    /// Threads; 0 takes as many as the machine has cores
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub threads: usize,
-    #[command(flatten)]
-    pub camera: CameraArgs,
-}
-
-/// A camera in place of the scene's own; what is not given stays the scene's.
-#[derive(Debug, PartialEq, Args)]
-#[command(next_help_heading = "Camera")]
-pub struct CameraArgs {
-    /// The eye, in place of the scene's
-    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
-    pub from: Option<Vec3>,
-    /// The point that is looked at, in place of the scene's
-    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
-    pub at: Option<Vec3>,
-    /// Up, in place of the scene's
-    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
-    pub up: Option<Vec3>,
-    /// The full vertical angle of view, in place of the scene's
-    #[arg(long, value_name = "DEGREES")]
-    pub angle: Option<f64>,
-}
-
-#[derive(Debug, PartialEq, Args)]
-pub struct PictureArgs {
-    /// Width and height in pixels
-    #[arg(long, value_name = "WxH", value_parser = resolution, default_value = "512x512", help_heading = "Picture")]
-    pub resolution: [u32; 2],
-}
-
-impl WindowArgs {
-    /// Without any.
-    pub fn plain() -> Self {
-        Arguments::parse_from(["bspscope"]).window
-    }
-}
-
-/// Examples, the scenes that can be generated, and the files that can be read.
+/// Returns the examples, generators and file formats for the end of a help text.
 fn help(examples: &str) -> String {
     let mut text = "Examples:".to_owned();
     for example in examples.lines() {
@@ -714,7 +533,7 @@ fn help(examples: &str) -> String {
     for builtin in BUILTINS {
         let sizes = &builtin.sizes;
         text += &format!(
-            "\n  {} (sizes {} to {}; {} without one)\n      {}",
+            "\n  {} (sizes {} to {}, default {})\n      {}",
             builtin.name,
             sizes.start(),
             sizes.end(),
@@ -722,7 +541,7 @@ fn help(examples: &str) -> String {
             builtin.about
         );
     }
-    text += "\n\nScene files, told by their content where the extension does not fit:";
+    text += "\n\nScene files, recognized by content or extension:";
     for format in FORMATS {
         let extensions = format.extensions.join(", .");
         text += &format!("\n  .{extensions}\n      {}", format.about);
@@ -733,6 +552,10 @@ fn help(examples: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{SceneRequest, SceneSource};
+    use crate::setup::Setup;
+    use crate::structure::BuildSettings;
+    use crate::workspace::measure_command;
     use clap::CommandFactory;
 
     #[test]
@@ -740,90 +563,58 @@ mod tests {
         Arguments::command().debug_assert();
     }
 
+    /// The setups of a line of arguments of `measure`.
+    fn measured(words: &[String]) -> Vec<Setup> {
+        let Some(Command::Measure(args)) = Arguments::parse_from(words).command else {
+            panic!("not a measurement: {words:?}");
+        };
+        args.settings.setups(&args.scene).unwrap()
+    }
+
     #[test]
     fn the_defaults_are_those_of_the_library() {
-        use crate::structure::BuildSettings;
-        let arguments = Arguments::parse_from(["bspscope", "measure", "balls"]);
-        let Some(Command::Measure(args)) = arguments.command else {
-            panic!("not a measurement");
-        };
-        let methods = Method::of_the_paper();
-        assert_eq!(
-            crate::cli::resolve::builds(&methods, &args.build).unwrap(),
-            methods
-                .into_iter()
-                .map(BuildSettings::for_method)
-                .collect::<Vec<_>>()
-        );
-        let render = crate::cli::resolve::render(&args.trace, &args.picture);
-        assert_eq!(render, crate::trace::RenderSettings::default());
+        let setups = measured(&["bspscope", "measure", "balls"].map(String::from));
+        let expected = Method::of_the_paper().into_iter().map(|method| Setup {
+            build: BuildSettings::for_method(method),
+            ..Setup::default()
+        });
+        assert_eq!(setups, expected.collect::<Vec<_>>());
     }
 
     #[test]
     fn a_copied_command_measures_with_the_same_settings() {
-        use crate::cli::resolve;
-        use crate::scene::{CameraOverride, SceneSource};
-        use crate::trace::RenderSettings;
-        use crate::workspace::{PictureSettings, TreeSettings, measure_command};
-
-        let plain = TreeSettings {
-            cylinders: Cylinders::Exact,
-            build: BuildSettings::default(),
-            picture: PictureSettings::of(&RenderSettings::default()),
-        };
+        let mut plain = Setup::new(SceneRequest::parse("balls:3"));
+        plain.build = BuildSettings::for_method(Method::named("sah-cut").unwrap());
+        let mut all: Vec<Setup> = Method::all()
+            .map(|method| Setup {
+                build: BuildSettings::for_method(method),
+                ..plain.clone()
+            })
+            .collect();
+        for setting in plain.settings() {
+            all.extend(setting.examples().into_iter().map(|value| {
+                let mut setup = plain.clone();
+                setting.store(&mut setup, value);
+                setup
+            }));
+        }
+        assert!(all.len() > 40);
         let mut other = plain.clone();
-        other.cylinders = Cylinders::Polygons(10);
-        other.build = BuildSettings::for_method(Method::named("sah-cut").unwrap());
-        other.build.d_max = MaxDepth::Automatic;
-        other.build.n_oilf = 3;
-        other.build.root_margin = 1.0 / 3.0;
-        other.build.first_axis = Axis::Z;
-        other
-            .build
-            .constants
-            .insert("gap-fraction".into(), 0.1 + 0.2);
-        other.build.memory_limit = 123 << 20;
-        let picture = &mut other.picture;
-        picture.resolution = [640, 360];
-        (picture.d_arec, picture.cut_off, picture.threads) = (0, 0.01, 7);
-        picture.sampling = Sampling::Corner;
-        let moved = CameraOverride {
-            from: Some(Vec3::new(-1.0 / 3.0, -2e-9, 3e20)),
-            at: Some(Vec3::new(-0.5, 0.0, 7.0)),
-            up: Some(Vec3::new(0.0, -1.0, 0.0)),
-            angle: Some(12.3),
-        };
-        let mut all = vec![plain.clone(), other];
-        let with = |change: &dyn Fn(&mut TreeSettings)| {
-            let mut settings = plain.clone();
-            change(&mut settings);
-            settings
-        };
-        all.extend(Method::all().map(|m| with(&|s| s.build = BuildSettings::for_method(m))));
-        all.extend(OverlapRule::ALL.map(|rule| with(&|s| s.build.overlap = rule)));
-        all.extend(PrecisionChoice::ALL.map(|p| with(&|s| s.picture.precision = p)));
-        all.extend(KernelChoice::ALL.map(|kernel| with(&|s| s.picture.kernel = kernel)));
-        let sources = [
-            SceneSource::parse("balls:3"),
-            SceneSource::File("/not/there/it's -- a \"scene\" $HOME.nff".into()),
-        ];
-        for settings in &all {
-            for (source, camera) in sources.iter().zip([CameraOverride::default(), moved]) {
-                let line = measure_command(source, &camera, settings);
-                let words = shell_words::split(&line).unwrap();
-                let Some(Command::Measure(args)) = Arguments::parse_from(words).command else {
-                    panic!("not a measurement: {line}");
-                };
-                assert_eq!(SceneSource::parse(&args.scene.scene), *source, "{line}");
-                assert_eq!(args.scene.cylinders.cylinders, settings.cylinders, "{line}");
-                let builds = resolve::builds(&args.methods.method, &args.build).unwrap();
-                assert_eq!(builds, std::slice::from_ref(&settings.build), "{line}");
-                let render = resolve::render(&args.trace, &args.picture);
-                let expected = settings.picture.with(camera);
-                assert_eq!(render, expected, "{line}");
+        for setting in plain.settings() {
+            if setting.name != "method" {
+                setting.store(&mut other, setting.examples()[0]);
             }
         }
-        let line = measure_command(&sources[0], &CameraOverride::default(), &plain);
+        let file = "/not/there/it's -- a \"scene\" $HOME.nff";
+        other.scene.source = SceneSource::File(file.into());
+        all.push(other);
+        for setup in &all {
+            let line = measure_command(setup);
+            let words = shell_words::split(&line).unwrap();
+            assert_eq!(measured(&words), std::slice::from_ref(setup), "{line}");
+        }
+        plain.build = BuildSettings::default();
+        let line = measure_command(&plain);
         let expected = "bspscope measure balls:3 --method midpoint --resolution 512x512 --d-arec 4";
         assert_eq!(line, expected);
     }

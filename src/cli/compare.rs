@@ -1,19 +1,28 @@
-//! `bspscope compare`: two trees of a scene beside each other, under equal conditions or not at all.
+//! `bspscope compare`: compares two trees of a scene, but only under equal conditions.
 
 use super::args::CompareArgs;
 use super::outcome::Outcome;
 use super::{measure, output, resolve};
 use crate::measure::unequal;
 use crate::present::report::Report;
-use anyhow::Result;
+use crate::setup::Edits;
+use anyhow::{Result, anyhow};
 
 pub fn run(args: &CompareArgs) -> Result<Outcome> {
     output::check_place(args.report.output.as_deref())?;
-    let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(&args.trace, &args.picture);
-    render.view(&scene)?;
-    let a = measure::run_of(&scene, &args.a, &render)?;
-    let b = measure::run_of(&scene, &args.b, &render)?;
+    let shared = args.settings.setup(&args.scene)?;
+    let of_side = |edits: &Edits| edits.apply(&shared).map_err(|reason| anyhow!(reason));
+    let (of_a, of_b) = (of_side(&args.a)?, of_side(&args.b)?);
+    let scene = resolve::scene(&of_a.scene)?;
+    let other = match of_a.scene == of_b.scene {
+        true => None,
+        false => Some(resolve::scene(&of_b.scene)?),
+    };
+    let scene_of_b = other.as_ref().unwrap_or(&scene);
+    of_a.render.view(&scene)?;
+    of_b.render.view(scene_of_b)?;
+    let a = measure::run_of(&scene, &of_a.build, &of_a.render)?;
+    let b = measure::run_of(scene_of_b, &of_b.build, &of_b.render)?;
     let reasons = unequal((&a.measurement, &a.picture), (&b.measurement, &b.picture));
     if !reasons.is_empty() {
         output::write_to(None, |out| {
@@ -26,7 +35,7 @@ pub fn run(args: &CompareArgs) -> Result<Outcome> {
     }
     let report = Report {
         per_kind: args.per_kind,
-        ..Report::new(&scene, &request, vec![a.measurement, b.measurement])
+        ..Report::new(&scene, &of_a.scene, vec![a.measurement, b.measurement])
     };
     output::write_report(&report, &args.report)?;
     Ok(Outcome::Done)

@@ -10,7 +10,7 @@ use std::path::Path;
 pub fn run(args: &GenerateArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
     let write = writer(args.output.as_deref())?;
-    let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
+    let scene = resolve::scene(&args.settings.setup(&args.scene)?.scene)?;
     output::write_to(args.output.as_deref(), |out| write(scene.parts(), out))?;
     Ok(Outcome::Done)
 }

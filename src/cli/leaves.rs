@@ -5,15 +5,20 @@ use super::outcome::Outcome;
 use super::{bar, output, resolve};
 use crate::present::export::{LEAF_WRITERS, LeafCells};
 use crate::present::overlay::Filter;
+use crate::setup::Setup;
 use crate::structure::build;
 use crate::trace::thread_pool;
 use anyhow::Result;
 
 pub fn run(args: &LeavesArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
-    let settings = resolve::builds(&[args.method], &args.build)?.remove(0);
-    let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let pool = thread_pool(args.threads)?;
+    let Setup {
+        scene: request,
+        build: settings,
+        render,
+    } = args.settings.setup(&args.scene)?;
+    let scene = resolve::scene(&request)?;
+    let pool = thread_pool(render.threads)?;
     let stage = format!("{}: building the tree", scene.name());
     let tree = bar::with_bar(&stage, |progress| {
         pool.install(|| build(&scene, &settings, progress))

@@ -1,4 +1,4 @@
-//! `bspscope measure`: every parameter of the paper for a scene and some methods.
+//! `bspscope measure`: measures every parameter of the paper for a scene.
 
 use super::args::MeasureArgs;
 use super::outcome::Outcome;
@@ -6,22 +6,27 @@ use super::{bar, output, resolve};
 use crate::measure::{Measured, measure};
 use crate::present::report::Report;
 use crate::scene::Scene;
+use crate::setup::Setup;
 use crate::structure::BuildSettings;
 use crate::trace::RenderSettings;
 use anyhow::Result;
 
 pub fn run(args: &MeasureArgs) -> Result<Outcome> {
     output::check_place(args.report.output.as_deref())?;
-    let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
-    let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(&args.trace, &args.picture);
-    // A wrong size is told before a tree is built for it.
+    let setups = args.settings.setups(&args.scene)?;
+    let Setup {
+        scene: request,
+        render,
+        ..
+    } = &setups[0];
+    let scene = resolve::scene(request)?;
+    // Report an invalid size before a tree is built for it.
     render.view(&scene)?;
     let mut runs = Vec::new();
-    for build in &builds {
-        runs.push(run_of(&scene, build, &render)?.measurement);
+    for Setup { build, .. } in &setups {
+        runs.push(run_of(&scene, build, render)?.measurement);
     }
-    let report = Report::new(&scene, &request, runs);
+    let report = Report::new(&scene, request, runs);
     output::write_report(&report, &args.report)?;
     Ok(Outcome::Done)
 }

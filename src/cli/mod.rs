@@ -23,6 +23,7 @@ mod probe;
 mod render;
 mod report;
 mod resolve;
+mod setting_args;
 mod stability;
 mod sweep;
 mod values;
@@ -55,7 +56,7 @@ pub fn main() -> ExitCode {
         Some(Command::Methods(args)) => methods::run(args),
         Some(Command::Verify(args)) => verify::run(args),
         Some(Command::Stability(args)) => stability::run(args),
-        Some(Command::Trade(args)) => accuracy::run(args),
+        Some(Command::Accuracy(args)) => accuracy::run(args),
         Some(Command::Lesson(args)) => lesson::run(args),
     };
     match outcome {

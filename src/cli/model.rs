@@ -29,14 +29,12 @@ pub fn run(args: &ModelArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
     let mut all = Vec::new();
     for source in &args.scenes {
-        let (_, scene) = resolve::scene(source, &args.cylinders)?;
-        let [width, height] = args.resolution;
+        let setup = args.settings.setup(source)?;
+        let scene = resolve::scene(&setup.scene)?;
         // One thread: others would compete for caches and memory.
         let render = RenderSettings {
-            width,
-            height,
             threads: 1,
-            ..RenderSettings::for_camera(*scene.camera())
+            ..setup.render
         };
         render.view(&scene)?;
         all.push(found(&scene, &render, args.rounds, args.equation)?);
@@ -142,7 +140,8 @@ fn grid(found: &Found) -> Grid {
     }
 }
 
-/// A term's part of the time of the fastest tree: how often it is spent, and seconds of all together.
+/// A term's part of the time of the fastest tree: how often it is spent, and seconds of all
+/// together.
 fn parts(found: &Found) -> Vec<(Term, f64, f64)> {
     let counts = &found.fastest.terms;
     let coefficients = found.fit.coefficients.iter();

@@ -9,9 +9,10 @@ use anyhow::Result;
 
 pub fn run(args: &PaperArgs) -> Result<Outcome> {
     output::check_place(args.report.output.as_deref())?;
+    let render = args.settings.setup("")?.render;
     let conditions = Conditions {
-        resolution: args.picture.resolution,
-        threads: args.threads,
+        resolution: [render.width, render.height],
+        threads: render.threads,
     };
     let scenes: Vec<&'static PaperScene> = if args.scenes.is_empty() {
         SCENES.iter().collect()

@@ -4,28 +4,36 @@ use super::args::{ListFormat, ProbeArgs};
 use super::outcome::Outcome;
 use super::{bar, output, resolve};
 use crate::present::report::pixel::{PixelReport, write_json, write_text};
+use crate::setup::Setup;
 use crate::structure::build;
 use crate::trace::record_pixel;
 use anyhow::{Result, bail};
 
 pub fn run(args: &ProbeArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
-    let builds = resolve::builds(&resolve::methods(&args.methods.method), &args.build)?;
-    let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(&args.trace, &args.picture);
-    // A wrong size is told before a tree is built for it.
+    let setups = args.settings.setups(&args.scene)?;
+    let Setup {
+        scene: request,
+        render,
+        ..
+    } = &setups[0];
+    let scene = resolve::scene(request)?;
+    // Report an invalid size before a tree is built for it.
     render.view(&scene)?;
-    let pixel = pixel_of(args.pixel, args.picture.resolution)?;
+    let pixel = pixel_of(args.pixel, [render.width, render.height])?;
     let mut records = Vec::new();
-    for settings in &builds {
+    for Setup {
+        build: settings, ..
+    } in &setups
+    {
         let stage = format!("{}, {}: building", scene.name(), settings.method.name);
         let tree = bar::with_bar(&stage, |progress| build(&scene, settings, progress))?;
-        let record = record_pixel(&scene, &tree, &render, pixel)?;
+        let record = record_pixel(&scene, &tree, render, pixel)?;
         records.push((settings.method, record));
     }
     let report = PixelReport {
         scene: &scene,
-        render,
+        render: *render,
         records,
     };
     output::write_to(args.output.as_deref(), |out| match args.format {

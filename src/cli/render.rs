@@ -4,8 +4,9 @@ use super::args::RenderArgs;
 use super::outcome::Outcome;
 use super::{bar, heat, output, picture, resolve};
 use crate::present::export;
+use crate::setup::Setup;
 use crate::structure::build;
-use crate::trace::{RenderSettings, thread_pool};
+use crate::trace::thread_pool;
 use anyhow::{Result, bail};
 use image::ImageFormat;
 use std::path::Path;
@@ -14,13 +15,13 @@ pub fn run(args: &RenderArgs) -> Result<Outcome> {
     let format = format_of(&args.output)?;
     heat::check(&args.heat, format)?;
     output::check_place(Some(&args.output))?;
-    let settings = resolve::builds(&[args.method], &args.build)?.remove(0);
-    let (_, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = RenderSettings {
-        samples: args.samples,
-        ..resolve::render(&args.trace, &args.picture)
-    };
-    // A wrong size is told before a tree is built for it.
+    let Setup {
+        scene: request,
+        build: settings,
+        render,
+    } = args.settings.setup(&args.scene)?;
+    let scene = resolve::scene(&request)?;
+    // Report an invalid size before a tree is built for it.
     render.view(&scene)?;
     let pool = thread_pool(render.threads)?;
     let tree = bar::with_bar(

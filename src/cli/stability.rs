@@ -5,23 +5,21 @@ use super::outcome::Outcome;
 use super::{bar, output, resolve};
 use crate::measure::stability::{self, Cell};
 use crate::present::report::plain_table;
-use crate::structure::Method;
 use crate::trace::thread_pool;
 use anyhow::Result;
 use std::io::{self, Write};
 
 pub fn run(args: &StabilityArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
+    let setup = args
+        .settings
+        .setup(args.scene.as_deref().unwrap_or_default())?;
     let scene = match &args.scene {
-        Some(text) => Some(resolve::scene(text, &args.cylinders)?.1),
+        Some(_) => Some(resolve::scene(&setup.scene)?),
         None => None,
     };
-    let methods: Vec<Method> = if args.method.is_empty() {
-        Method::all().filter(|m| m.name != "none").collect()
-    } else {
-        args.method.clone()
-    };
-    let pool = thread_pool(args.threads)?;
+    let methods = args.settings.methods();
+    let pool = thread_pool(setup.render.threads)?;
     let cells = bar::with_bar("running extreme cases", |progress| {
         stability::run(scene.as_ref(), &methods, args.quick, &pool, progress)
     })?;

@@ -1,13 +1,16 @@
-//! `bspscope sweep`: the parameters over a grid of settings, a row a point, to be broken off and gone
-//! on with at any time.
+//! `bspscope sweep`: measures every combination of settings, one row per combination. It can be
+//! interrupted and resumed at any time.
 
-use super::args::{BuildArgs, ChartArgs, SweepArgs};
+use super::args::{ChartArgs, SweepArgs};
 use super::outcome::Outcome;
 use super::{bar, output, resolve};
-use crate::measure::sweep::{Form, Key, Plan, Row, answers, done, header, line, read_rows};
+use crate::measure::sweep::{
+    Axis, Form, Key, Plan, Point, Row, answers, done, header, line, read_rows,
+};
 use crate::present::chart::{Chart, png, svg};
-use crate::structure::{BuildSettings, MaxDepth};
-use anyhow::{Context, Result, bail};
+use crate::setup::Setup;
+use crate::structure::Method;
+use anyhow::{Context, Result, anyhow, bail};
 use std::fs::{self, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::Path;
@@ -19,11 +22,14 @@ pub fn run(args: &SweepArgs) -> Result<Outcome> {
     let form = form_of(&args.output)?;
     output::check_place(Some(&args.output))?;
     check_charts(&args.charts)?;
-    let bases = bases(args)?;
-    let (request, scene) = resolve::scene(&args.scene.scene, &args.scene.cylinders)?;
-    let render = resolve::render(&args.trace, &args.picture);
-    render.view(&scene)?;
-    let plan = Plan::new(&request, &bases, &args.d_max.0, &args.n_oilf.0, &render);
+    let plan = plan(args)?;
+    let first = &plan.points[0].setup;
+    let mut scene = resolve::scene(&first.scene)?;
+    let mut loaded = first.scene.clone();
+    for point in &plan.points {
+        point.setup.render.view(&scene)?;
+        point.setup.build.check()?;
+    }
     let points: Vec<(usize, Key)> = (plan.points.iter().enumerate())
         .filter(|(number, _)| args.shard.contains(*number))
         .map(|(number, point)| (number, point.key.clone()))
@@ -49,15 +55,23 @@ pub fn run(args: &SweepArgs) -> Result<Outcome> {
         file.write_all(header(form).as_bytes()).with_context(name)?;
     }
     for (i, (point, _)) in points.iter().enumerate().skip(at) {
-        let build = &plan.points[*point].build;
-        let stage = format!(
+        let Point { setup, key } = &plan.points[*point];
+        if setup.scene != loaded {
+            scene = resolve::scene(&setup.scene)?;
+            loaded = setup.scene.clone();
+        }
+        let mut stage = format!(
             "point {} of {}: {}, D_MAX {}, N_OILF {}",
             i + 1,
             points.len(),
-            build.method.name,
-            build.d_max,
-            build.n_oilf
+            key.method,
+            key.d_max,
+            key.n_oilf
         );
+        let varied = key.varied();
+        if !varied.is_empty() {
+            stage += &format!(", {varied}");
+        }
         let row = bar::with_bar(&stage, |progress| plan.row(&scene, *point, progress))?;
         // One call a row, so that what a stop leaves is whole rows and at most one torn one.
         file.write_all(line(&row, form).as_bytes())
@@ -68,27 +82,59 @@ pub fn run(args: &SweepArgs) -> Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-/// The settings of every method, but for depth and leaf size.
-fn bases(args: &SweepArgs) -> Result<Vec<BuildSettings>> {
-    let build = BuildArgs {
-        d_max: MaxDepth::Automatic,
-        n_oilf: 1,
-        rules: args.rules.clone(),
-    };
-    resolve::builds(&resolve::methods(&args.method), &build)
+/// Returns the points to measure: methods vary slowest, leaf sizes and depths fastest. These two
+/// have default values without `--vary`.
+fn plan(args: &SweepArgs) -> Result<Plan> {
+    let wrong = |reason: String| anyhow!(reason);
+    let mut axes = Vec::new();
+    for text in &args.vary {
+        axes.push(Axis::parse(text).map_err(wrong)?);
+    }
+    let usual = |values: &'static str| args.vary.is_empty().then_some(values);
+    for (name, asked, usual) in [
+        ("n-oilf", &args.n_oilf, usual("1,2,4,8")),
+        ("d-max", &args.d_max, usual("1..30")),
+    ] {
+        if let Some(values) = asked.as_deref().or(usual) {
+            axes.push(Axis::of(name, values).map_err(wrong)?);
+        }
+    }
+    let is_method = |axis: &Axis| axis.name == "method";
+    let mut methods = args.method.clone();
+    for axis in axes.extract_if(.., |axis| is_method(axis)) {
+        let named = axis
+            .values
+            .into_iter()
+            .map(|value| Method::named(value.choice()));
+        methods.extend(named.collect::<Result<Vec<_>, _>>()?);
+    }
+    if methods.is_empty() {
+        methods = Method::of_the_paper();
+    }
+    for (i, axis) in axes.iter().enumerate() {
+        if axes[..i].iter().any(|other| other.name == axis.name) {
+            bail!("--vary {}: this setting is varied twice", axis.name);
+        }
+        let has = |m: &Method| Setup::of_method(*m).setting(axis.name).is_ok();
+        if !methods.iter().any(has) {
+            bail!("--vary {}: no chosen method has this setting", axis.name);
+        }
+    }
+    let bases = args.settings.setups_for(&args.scene, &methods)?;
+    Ok(Plan::new(&bases, &axes))
 }
 
-/// The form of a file of rows.
+/// Returns the format of a file of rows.
 pub fn form_of(path: &Path) -> Result<Form> {
     Form::for_path(path)
-        .with_context(|| format!("{}: rows are written as .csv or .jsonl", path.display()))
+        .with_context(|| format!("{}: expected the extension .csv or .jsonl", path.display()))
 }
 
-/// Refuses charts that cannot be written, before work is done for them.
+/// Rejects charts that cannot be written, before work is done for them.
 pub fn check_charts(args: &ChartArgs) -> Result<()> {
     for path in &args.chart {
         if !matches!(extension(path).as_deref(), Some("png" | "svg")) {
-            bail!("{}: charts are drawn as .png or .svg", path.display());
+            bail!("{}: expected the extension .png or .svg", path.display());
         }
         output::check_place(Some(path))?;
     }
@@ -99,7 +145,7 @@ fn extension(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_ascii_lowercase())
 }
 
-/// Draws the charts of rows, and tells which settings are best.
+/// Draws the charts of rows and prints the best settings.
 pub fn finish(rows: &[Row], args: &ChartArgs) -> Result<()> {
     let shown = args.show.0;
     for path in &args.chart {

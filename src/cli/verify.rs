@@ -1,6 +1,6 @@
 //! `bspscope verify`: checks that trees are valid and give the same hits as testing every object.
 
-use super::args::{PictureArgs, VerifyArgs};
+use super::args::VerifyArgs;
 use super::outcome::Outcome;
 use super::{bar, output, resolve};
 use crate::measure::judge::{Answer, Case, Verdict};
@@ -9,6 +9,7 @@ use crate::present::report::plain_table;
 use crate::primitive::Precision;
 use crate::scene::Scene;
 use crate::scene::builtin::BUILTINS;
+use crate::setup::Setup;
 use crate::structure::{BuildSettings, Invalid, Method, Tree, build, validate};
 use crate::trace::{RayKind, thread_pool};
 use anyhow::{Context, Result};
@@ -36,12 +37,6 @@ pub fn run(args: &VerifyArgs) -> Result<Outcome> {
     if let Some(file) = &args.replay {
         return replay(file);
     }
-    let methods = if args.method.is_empty() {
-        Method::all().filter(|m| m.name != "none").collect()
-    } else {
-        args.method.clone()
-    };
-    let builds = resolve::builds(&methods, &args.build)?;
     let scenes = if args.scenes.is_empty() {
         BUILTINS.iter().map(|b| b.name.to_owned()).collect()
     } else {
@@ -49,7 +44,7 @@ pub fn run(args: &VerifyArgs) -> Result<Outcome> {
     };
     let mut findings = Vec::new();
     for scene in &scenes {
-        findings.extend(findings_of(scene, &builds, args)?);
+        findings.extend(findings_of(scene, args)?);
     }
     output::write_to(None, |out| write(&findings, out))?;
     Ok(outcome(&findings))
@@ -64,16 +59,22 @@ fn outcome(findings: &[Finding]) -> Outcome {
 }
 
 /// Compares the tree of every method with testing every object.
-fn findings_of(text: &str, builds: &[BuildSettings], args: &VerifyArgs) -> Result<Vec<Finding>> {
-    let (_, scene) = resolve::scene(text, &args.cylinders)?;
-    // The number of rays replaces the resolution.
-    let any_size = PictureArgs { resolution: [1, 1] };
-    let render = resolve::render(&args.trace, &any_size);
+fn findings_of(text: &str, args: &VerifyArgs) -> Result<Vec<Finding>> {
+    let setups = args.settings.setups(text)?;
+    let Setup {
+        scene: request,
+        render,
+        ..
+    } = &setups[0];
+    let scene = resolve::scene(request)?;
     let pool = thread_pool(render.threads)?;
     let precision = render.precision_for(&scene).precision;
     let mut expected: Option<(RaySample, Answers)> = None;
     let mut findings = Vec::new();
-    for settings in builds {
+    for Setup {
+        build: settings, ..
+    } in &setups
+    {
         let method = settings.method;
         let stage = |what: &str| format!("{}, {}: {what}", scene.name(), method.name);
         let tree = bar::with_bar(&stage("building the tree"), |progress| {
@@ -83,7 +84,7 @@ fn findings_of(text: &str, builds: &[BuildSettings], args: &VerifyArgs) -> Resul
             Some(expected) => expected,
             none => {
                 let sample = bar::with_bar(&stage("sampling rays"), |progress| {
-                    sample_rays(&scene, &tree, &render, args.rays as usize, &pool, progress)
+                    sample_rays(&scene, &tree, render, args.rays as usize, &pool, progress)
                 })?;
                 let answers = reference_answers(&scene, precision, &sample, &pool)?;
                 none.insert((sample, answers))

@@ -45,7 +45,8 @@ impl Judging {
                     self.complete = true;
                 }
                 End::Failed(_) => self.failed = true,
-                End::Cancelled | End::Replaced => {}
+                End::Cancelled => self.stopped = true,
+                End::Replaced => {}
             }
         }
     }

@@ -1,13 +1,11 @@
 //! What the window shows, to and from a workspace.
 
-use super::comparing::Which;
 use super::selection::Selection;
 use super::state::{Current, State, Wanted};
 use super::walk::Wish;
-use crate::scene::SceneRequest;
 use crate::setup::Setup;
 use crate::structure::Moment;
-use crate::workspace::{PictureSettings, Selected, TreeSettings, Workspace};
+use crate::workspace::{Selected, Workspace, measure_command};
 use std::collections::BTreeMap;
 
 /// A selection to come back to once its picture is there.
@@ -29,9 +27,8 @@ impl State {
     /// What is wanted and selected, as a workspace; what the panes show is left to them.
     pub fn workspace(&self) -> Workspace {
         let Wanted { a, b } = self.all_wanted();
-        let mut workspace = Workspace::new(a.scene.source.clone(), settings(&a));
-        workspace.camera = a.render.camera;
-        workspace.b = b.as_ref().map(settings);
+        let mut workspace = Workspace::new(a);
+        workspace.b = b;
         workspace.notes.clone_from(&self.notes);
         let view = &mut workspace.view;
         view.front = self.which;
@@ -53,20 +50,13 @@ impl State {
 
     /// Wants what a workspace says; pictures are at most `largest` pixels wide and high.
     pub fn restore(&mut self, workspace: &Workspace, largest: u32) {
-        let request = |settings: &TreeSettings| {
-            let mut render = settings.picture.with(workspace.camera);
-            render.width = render.width.min(largest);
-            render.height = render.height.min(largest);
-            Setup {
-                scene: SceneRequest {
-                    source: workspace.scene.source.clone(),
-                    cylinders: settings.cylinders,
-                },
-                build: settings.build.clone(),
-                render,
-            }
+        let limited = |setup: &Setup| {
+            let mut setup = setup.clone();
+            setup.render.width = setup.render.width.min(largest);
+            setup.render.height = setup.render.height.min(largest);
+            setup
         };
-        let (a, b) = (request(&workspace.a), workspace.b.as_ref().map(request));
+        let (a, b) = (limited(&workspace.a), workspace.b.as_ref().map(limited));
         self.want(Wanted { a, b });
         let view = &workspace.view;
         self.show(view.front);
@@ -142,14 +132,6 @@ impl State {
     }
 }
 
-fn settings(request: &Setup) -> TreeSettings {
-    TreeSettings {
-        cylinders: request.scene.cylinders,
-        build: request.build.clone(),
-        picture: PictureSettings::of(&request.render),
-    }
-}
-
 fn selected(current: &Current) -> Selected {
     let picked = current.picked.as_ref().filter(|_| current.wish.is_none());
     Selected {
@@ -163,12 +145,7 @@ fn selected(current: &Current) -> Selected {
     }
 }
 
-/// The settings of the tree in front with its camera, for a command line.
+/// The setup in front, for a command line.
 pub fn command(state: &State) -> String {
-    let workspace = state.workspace();
-    let settings = match (state.which, &workspace.b) {
-        (Which::B, Some(b)) => b,
-        _ => &workspace.a,
-    };
-    crate::workspace::measure_command(&workspace.scene.source, &workspace.camera, settings)
+    measure_command(&state.wanted)
 }

@@ -16,7 +16,8 @@ use super::sweeping::Sweeping;
 use super::trading::Trading;
 use super::walk::{Picked, Walking, Wish};
 use crate::jobs::{
-    Cache, End, Handle, JobStatus, News, Priority, RenderPicture, Scheduler, Shown, Stage, Update,
+    Cache, End, Handle, JobStatus, News, Priority, RenderPicture, Scheduler, Shown, Stage,
+    Standing, Update,
 };
 use crate::measure::heat::PixelCounts;
 use crate::scene::{CameraOverride, SceneRequest, SceneSource};
@@ -397,7 +398,8 @@ impl State {
             self.stopped = true;
         }
         self.jobs.cancel_where(|job| match job.priority {
-            Priority::Pane | Priority::Study => true,
+            Priority::Pane => job.standing == Standing::Running,
+            Priority::Study => true,
             Priority::Idle
             | Priority::Detail
             | Priority::Now
@@ -471,7 +473,11 @@ impl State {
                 }
             }
             Some(End::Failed(why)) => self.fail(which, why),
-            Some(End::Cancelled | End::Replaced) => self.work = None,
+            Some(End::Cancelled) => {
+                self.work = None;
+                self.stopped = true;
+            }
+            Some(End::Replaced) => self.work = None,
             None => {}
         }
         opened

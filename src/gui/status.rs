@@ -1,8 +1,9 @@
-//! The line at the bottom: pixel, colour, sample, rays a second, memory.
+//! The line at the bottom: pixel, colour, sample, rays a second, memory, jobs.
 
 use super::picture_pane::color_text;
 use super::state::State;
 use super::symbol::grouped;
+use crate::jobs::{JobStatus, Scheduler, Standing};
 
 /// What the line keeps from frame to frame.
 #[derive(Default)]
@@ -73,6 +74,8 @@ impl StatusLine {
                 |bytes| format!("Memory {} MiB", grouped(bytes >> 20)),
             ))
             .on_hover_text("Physical memory of this program");
+            ui.separator();
+            jobs(ui, &state.jobs);
         });
     }
 
@@ -82,6 +85,54 @@ impl StatusLine {
             self.memory = memory_stats::memory_stats().map(|m| (m.physical_mem, now));
         }
         self.memory.map(|(bytes, _)| bytes)
+    }
+}
+
+/// The live jobs as a menu, to pause, resume or cancel each.
+fn jobs(ui: &mut egui::Ui, jobs: &Scheduler) {
+    let live = jobs.jobs();
+    let listed: Vec<_> = live
+        .iter()
+        .filter(|job| job.priority.takes_turns())
+        .collect();
+    let text = match listed.len() {
+        0 => "No jobs".to_owned(),
+        1 => "1 job".to_owned(),
+        count => format!("{count} jobs"),
+    };
+    let menu = ui.menu_button(text, |ui| {
+        if listed.is_empty() {
+            ui.weak("Nothing is running.");
+        }
+        for job in &listed {
+            ui.horizontal(|ui| row(ui, job, jobs));
+        }
+        ui.ctx().request_repaint_after_secs(0.2);
+    });
+    menu.response.on_hover_text("What runs in the background");
+}
+
+fn row(ui: &mut egui::Ui, job: &JobStatus, jobs: &Scheduler) {
+    let name = job.slot.name();
+    let standing = match job.standing {
+        Standing::Running => format!("{:.0} %", job.fraction * 100.0),
+        Standing::Waiting => "waits".to_owned(),
+        Standing::Paused => "paused".to_owned(),
+    };
+    ui.label(format!("{name}: {} · {standing}", job.stage));
+    let (pause, about) = match job.is_paused {
+        false => ("Pause", "Pause before the next measurement."),
+        true => ("Resume", "Let it go on."),
+    };
+    let pause = ui.button(pause).on_hover_text(about);
+    if pause.clicked() && job.is_paused {
+        jobs.resume(job.slot);
+    } else if pause.clicked() {
+        jobs.pause(job.slot);
+    }
+    let cancel = ui.button("Cancel").on_hover_text("What was found stays.");
+    if cancel.clicked() {
+        jobs.cancel_where(|other| other.slot == job.slot);
     }
 }
 

@@ -5,9 +5,9 @@ use super::comparing::Which;
 use super::state::State;
 use super::study::Study;
 use crate::jobs::{End, Export, Handle, Scheduler, Sweep};
-use crate::measure::sweep::{Form, Plan, Row, done, header, line};
-use crate::setup::Setup;
-use crate::structure::{BuildSettings, MaxDepth, Method};
+use crate::measure::sweep::{Axis, Form, Plan, Row, done, header, line};
+use crate::setup::{Setup, Value};
+use crate::structure::{MaxDepth, Method};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -91,15 +91,20 @@ impl State {
         let shown = &current.shown;
         let sweeping = &mut self.sweeping;
         let [from, to] = sweeping.depths;
-        let depths: Vec<_> = (from..=to).map(MaxDepth::Fixed).collect();
-        let on_view = &shown.setup.build;
-        let methods: Vec<_> = (sweeping.methods.iter())
-            .map(|&method| base(method, on_view))
+        let axis = |name, values: Vec<Value>| Axis { name, values };
+        let depths = (from..=to).map(|d| Value::Depth(MaxDepth::Fixed(d)));
+        let sizes = sweeping.n_oilf().unwrap_or_default().into_iter();
+        let axes = [
+            axis(
+                "n-oilf",
+                sizes.map(|n| Value::Number(f64::from(n))).collect(),
+            ),
+            axis("d-max", depths.collect()),
+        ];
+        let bases: Vec<_> = (sweeping.methods.iter())
+            .map(|&method| base(method, &shown.setup))
             .collect();
-        let n_oilf = sweeping.n_oilf().unwrap_or_default();
-        let request = &shown.setup.scene;
-        let plan = Plan::new(request, &methods, &depths, &n_oilf, &shown.setup.render);
-        let plan = Arc::new(plan);
+        let plan = Arc::new(Plan::new(&bases, &axes));
         let (of, reload) = (shown.setup.clone(), shown.reload);
         let known = sweeping.study.found().filter(|found| {
             found.of.scene == of.scene
@@ -132,25 +137,19 @@ impl State {
         };
         self.sweeping.chosen = Some(place);
         self.show(Which::A);
-        let wanted = &mut self.wanted;
-        *wanted = found.of.clone();
-        wanted.build = found.plan.points[row.point].build.clone();
+        self.wanted = found.plan.points[row.point].setup.clone();
     }
 }
 
 /// What a method is swept with: what is set of the method on view, else the paper's; rules that all
 /// methods share as on view.
-fn base(method: Method, on_view: &BuildSettings) -> BuildSettings {
-    if method == on_view.method {
-        return on_view.clone();
+fn base(method: Method, on_view: &Setup) -> Setup {
+    let mut setup = on_view.clone();
+    if method != on_view.build.method {
+        setup.build.method = method;
+        setup.build.constants.clear();
     }
-    BuildSettings {
-        root_margin: on_view.root_margin,
-        overlap: on_view.overlap,
-        first_axis: on_view.first_axis,
-        memory_limit: on_view.memory_limit,
-        ..BuildSettings::for_method(method)
-    }
+    setup
 }
 
 /// Whether these rows are the first of a plan, but not all of it.

@@ -4,7 +4,6 @@ use super::comparing::Which;
 use super::files::Files;
 use super::shortcuts::{Action, choose, text, tip};
 use super::state::{State, Work};
-use crate::jobs::Standing;
 use crate::measure::parameter;
 use crate::structure::{BuildSettings, MaxDepth, Method};
 
@@ -223,7 +222,7 @@ fn about(symbol: &str, action: Action) -> String {
     )
 }
 
-/// The jobs that run, how far the picture is, and a way to cancel.
+/// The picture's stage, how far it is, and a way to cancel it.
 fn work(ui: &mut egui::Ui, state: &mut State) {
     let status = state.work.as_ref().and_then(Work::status);
     let (fraction, label) = match &status {
@@ -241,7 +240,7 @@ fn work(ui: &mut egui::Ui, state: &mut State) {
         None => label,
     };
     let bar = egui::ProgressBar::new(fraction).desired_width(190.0);
-    ui.add(bar.text(shown)).on_hover_ui(|ui| jobs(ui, state));
+    ui.add(bar.text(shown));
     if working {
         // Jobs wake the window for results; progress in between is worth a look now and then.
         ui.ctx().request_repaint_after_secs(0.1);
@@ -263,25 +262,5 @@ fn work(ui: &mut egui::Ui, state: &mut State) {
         .clicked()
     {
         state.cancel();
-    }
-}
-
-/// All live jobs with stage, fraction and standing.
-fn jobs(ui: &mut egui::Ui, state: &State) {
-    let jobs = state.jobs.jobs();
-    for job in jobs.iter().filter(|job| job.priority.takes_turns()) {
-        let standing = match job.standing {
-            Standing::Running => format!("{:.0} %", job.fraction * 100.0),
-            Standing::Waiting => "waits".to_owned(),
-            Standing::Paused => "paused".to_owned(),
-        };
-        let stage = match &*job.stage {
-            "" => String::new(),
-            stage => format!(" · {stage}"),
-        };
-        ui.label(format!("{}{stage} · {standing}", job.slot.name()));
-    }
-    if !jobs.iter().any(|job| job.priority.takes_turns()) {
-        ui.label("No jobs are running.");
     }
 }

@@ -80,7 +80,7 @@ impl Workspaces {
     /// Takes note of a workspace that was read, and compares its scene with the one it was saved of.
     fn opened(&mut self, path: &Path, workspace: &Workspace, ctx: &egui::Context) {
         self.path = Some(path.to_owned());
-        let (source, compared) = (workspace.scene.source.clone(), workspace.clone());
+        let (source, compared) = (workspace.a.scene.source.clone(), workspace.clone());
         let task = task(ctx, move || compared.scene_was_changed());
         self.comparing = Some((source, task));
     }
@@ -154,7 +154,7 @@ impl Workspaces {
     /// Asks where to save.
     pub fn ask(&mut self, workspace: &Workspace) {
         let path = self.path.clone().unwrap_or_else(|| {
-            let source = &workspace.scene.source;
+            let source = &workspace.a.scene.source;
             let name = match source {
                 SceneSource::File(path) => path.with_extension(EXTENSION),
                 generator => files::stem(&generator.to_string()).into(),
@@ -192,8 +192,8 @@ impl Workspaces {
         self.path = Some(path.clone());
         let to = path.clone();
         let task = task(ctx, move || {
-            if let SceneSource::File(scene) = &workspace.scene.source {
-                workspace.scene.sha256 = files::sha256(scene).ok();
+            if let SceneSource::File(scene) = &workspace.a.scene.source {
+                workspace.scene_sha256 = files::sha256(scene).ok();
             }
             workspace.write(&to)
         });

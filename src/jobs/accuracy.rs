@@ -38,7 +38,7 @@ impl Job for StudyAccuracy {
     type Output = ();
 
     fn slot(&self) -> Slot {
-        Slot::named("accuracy")
+        Slot::named("accuracy study")
     }
 
     fn priority(&self) -> Priority {

@@ -18,6 +18,8 @@ pub struct JobStatus {
     /// How much of the stage is done, 0 to 1.
     pub fraction: f64,
     pub standing: Standing,
+    /// Whether it was paused; it stands still after the unit that runs.
+    pub is_paused: bool,
 }
 
 /// Whether a job runs.
@@ -106,6 +108,7 @@ impl Known {
                 (true, false) => Standing::Waiting,
                 (false, _) => Standing::Running,
             },
+            is_paused: self.is_paused,
         }
     }
 

@@ -17,7 +17,7 @@ impl Job for RepeatPaper {
     type Output = ();
 
     fn slot(&self) -> Slot {
-        Slot::named("paper")
+        Slot::named("paper's experiment")
     }
 
     fn priority(&self) -> Priority {

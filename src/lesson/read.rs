@@ -6,11 +6,11 @@ use super::figures::Side;
 use super::formula::{Condition, Formula};
 use super::prose::Prose;
 use super::question::{Answer, Choice, Question, Tolerance};
-use super::subject::{self, Look, Named, Subject};
+use super::subject::{Look, Named, Subject};
 use crate::geometry::Vec3;
 use crate::measure::heat::heatmap;
 use crate::scene::{Camera, CameraOverride, Cylinders, SceneRequest, SceneSource};
-use crate::setup::Setup;
+use crate::setup::{Edits, Setup};
 use crate::structure::BuildSettings;
 use crate::trace::RenderSettings;
 use serde::Deserialize;
@@ -258,7 +258,7 @@ fn subject(block: &Block, raw: &RawStep, folder: Option<&Path>) -> Result<Subjec
             ..RenderSettings::default()
         },
     };
-    let side = |text: &String| subject::parse(text, &base);
+    let side = |text: &String| Edits::parse(text)?.apply(&base);
     let pixel = raw.pixel.as_ref().map(|pixel| {
         block.with(pixel, |&[x, y]| match x < raw.size[0] && y < raw.size[1] {
             true => Ok([x, y]),

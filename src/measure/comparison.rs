@@ -4,6 +4,7 @@
 //! so is the image. Everything else is the result.
 
 use super::{Class, Measurement, Unit, parameters};
+use crate::setup::{Affects, Group, SETTINGS, Setting, Setup};
 use crate::trace::Picture;
 
 /// What keeps two measurements from being compared.
@@ -15,7 +16,13 @@ pub enum Unequal {
         a: Option<f64>,
         b: Option<f64>,
     },
-    /// The camera (`OP_CAMERA`) or where samples lie.
+    /// A setting that decides the picture, with both values as text.
+    Setting {
+        name: &'static str,
+        a: String,
+        b: String,
+    },
+    /// The camera (`OP_CAMERA`).
     Camera,
     /// So many pixels have another colour; the first few by column and row.
     Pixels { count: usize, first: Vec<[u32; 2]> },
@@ -25,6 +32,9 @@ pub enum Unequal {
 
 /// Parameters of class S that not every structure has.
 const TREE_SETTINGS: [&str; 2] = ["D_MAX", "N_OILF"];
+
+/// Settings that are compared by parameters: `N_X`, `N_Y` and `W_CUT`.
+const PARAMETERS_TOO: [&str; 2] = ["resolution", "min-contribution"];
 
 /// How many unequal pixels are named.
 const PIXELS_NAMED: usize = 5;
@@ -45,8 +55,26 @@ pub fn unequal(a: (&Measurement, &Picture), b: (&Measurement, &Picture)) -> Vec<
             })
         })
         .collect();
-    let (a_at, b_at) = (a.0.render.sampling, b.0.render.sampling);
-    if a.0.camera != b.0.camera || a_at != b_at {
+    let [of_a, of_b] = [a.0, b.0].map(|run| Setup {
+        build: run.build.clone(),
+        render: run.render,
+        ..Setup::default()
+    });
+    // Settings with a symbol are among the parameters; the camera is compared as it was used.
+    let decides = |s: &Setting| {
+        s.affects == Affects::Image
+            && s.group != Group::Camera
+            && s.symbol.is_none()
+            && !PARAMETERS_TOO.contains(&s.name)
+    };
+    for setting in SETTINGS.iter().filter(|s| decides(s)) {
+        let (a, b) = (setting.text(&of_a), setting.text(&of_b));
+        if a != b {
+            let name = setting.name;
+            found.push(Unequal::Setting { name, a, b });
+        }
+    }
+    if a.0.camera != b.0.camera {
         found.push(Unequal::Camera);
     }
     if (a.1.width, a.1.height) != (b.1.width, b.1.height) {

@@ -41,7 +41,8 @@ impl fmt::Display for Unequal {
                     parameter.format(*b)
                 )
             }
-            Unequal::Camera => f.write_str("the camera or the places of the samples differ"),
+            Unequal::Setting { name, a, b } => write!(f, "{name} is {a} in A and {b} in B"),
+            Unequal::Camera => f.write_str("the cameras differ"),
             Unequal::Size => f.write_str("the pictures have another size"),
             Unequal::Pixels { count, first } => {
                 let places: Vec<_> = first.iter().map(|[x, y]| format!("{x},{y}")).collect();
@@ -101,9 +102,13 @@ impl Answer<'_> {
         let of = |row: &Row| {
             let depth = parameter("D_MAX");
             format!(
-                "D_MAX {}, N_OILF {}: {}",
+                "D_MAX {}, N_OILF {}{}: {}",
                 depth.format(row.value(depth)),
                 row.key.n_oilf,
+                match row.key.varied() {
+                    varied if varied.is_empty() => varied,
+                    varied => format!(", {varied}"),
+                },
                 shown.format(row.value(shown))
             )
         };

@@ -46,6 +46,18 @@ pub enum Sampling {
     Corner,
 }
 
+impl Sampling {
+    pub const ALL: [Sampling; 2] = [Sampling::Center, Sampling::Corner];
+
+    /// `center` or `corner`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Sampling::Center => "center",
+            Sampling::Corner => "corner",
+        }
+    }
+}
+
 /// A camera prepared for a picture of a given size; generates primary rays.
 #[derive(Clone, Copy, Debug)]
 pub struct View {

@@ -1,29 +1,28 @@
-//! What of a camera differs from the scene's own.
+//! Changes to the camera of a scene.
 
 use super::Camera;
 use crate::geometry::Vec3;
-use serde::{Deserialize, Serialize};
 
 /// Replaces parts of the scene's own camera; `None` keeps the scene's value.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CameraOverride {
-    /// The eye.
+    /// Position of the eye.
     pub from: Option<Vec3>,
-    /// A point on the axis of view.
+    /// A point on the line of sight.
     pub at: Option<Vec3>,
-    /// Up; need not be perpendicular to the axis of view.
+    /// Up direction; need not be perpendicular to the line of sight.
     pub up: Option<Vec3>,
-    /// Full vertical angle of view in degrees, above 0 and below 180.
+    /// Full vertical field of view in degrees, above 0 and below 180.
     pub angle: Option<f64>,
 }
 
 impl CameraOverride {
-    /// Whether nothing is overridden: the scene's own camera.
+    /// Returns whether nothing is overridden.
     pub fn is_none(&self) -> bool {
         *self == CameraOverride::default()
     }
 
-    /// The camera that results for a scene with this camera of its own.
+    /// Applies the overrides to the camera of a scene.
     pub fn resolve(&self, own: &Camera) -> Camera {
         Camera {
             from: self.from.unwrap_or(own.from),
@@ -36,7 +35,7 @@ impl CameraOverride {
 }
 
 impl From<Camera> for CameraOverride {
-    /// Overrides everything that decides the view.
+    /// Overrides everything that determines the view.
     fn from(camera: Camera) -> Self {
         CameraOverride {
             from: Some(camera.from),

@@ -1,8 +1,17 @@
-//! The whole experiment as one value: which scene, which structure, how it is rendered, and from
-//! where.
+//! The whole experiment as one value, [`Setup`]: which scene, which structure, how it is rendered,
+//! and from where. Each setting is declared once, in [`SETTINGS`]: options, widgets, files, axes of
+//! sweeps and lines in reports are made from that list.
 
-use crate::scene::{Cylinders, Scene, SceneRequest, SceneSource};
-use crate::structure::BuildSettings;
+mod edits;
+mod setting;
+mod settings;
+
+pub use edits::{Edits, any_setting};
+pub use setting::{Affects, Choice, Group, Kind, Range, Setting, Value};
+pub use settings::{SETTINGS, setting};
+
+use crate::scene::{Cylinders, SceneRequest, SceneSource};
+use crate::structure::{BuildSettings, Method};
 use crate::trace::RenderSettings;
 
 /// Everything that decides the structure, the picture and what is counted.
@@ -23,12 +32,12 @@ impl Setup {
         }
     }
 
-    /// This setup with the camera that it uses of a scene spelled out, so that it stays the same
-    /// when the scene's own camera changes.
-    #[must_use]
-    pub fn with_camera_of(mut self, scene: &Scene) -> Self {
-        self.render.camera = self.render.camera.resolve(scene.camera()).into();
-        self
+    /// The paper's `balls` with this method and the paper's other settings.
+    pub fn of_method(method: Method) -> Self {
+        Setup {
+            build: BuildSettings::for_method(method),
+            ..Setup::default()
+        }
     }
 }
 

@@ -5,15 +5,15 @@ use super::split::SPLIT_RULES;
 use serde::{Deserialize, Deserializer};
 
 impl Method {
-    /// All methods in the order of the registry.
+    /// Returns all methods in the order of the registry.
     pub fn all() -> impl Iterator<Item = Method> {
         SPLIT_RULES.iter().map(Method::new)
     }
 
-    /// The method of this name.
+    /// Returns the method with this name.
     ///
     /// # Errors
-    /// A name that is not in the registry.
+    /// The name is not in the registry.
     pub fn named(name: &str) -> Result<Method, SettingsError> {
         Method::all()
             .find(|m| m.name == name)
@@ -23,7 +23,7 @@ impl Method {
             })
     }
 
-    /// The paper's two methods, 1 then 2.
+    /// Returns the two methods of the paper, 1 then 2.
     pub fn of_the_paper() -> Vec<Method> {
         Method::all().filter(|m| m.paper.is_some()).collect()
     }

@@ -1,4 +1,4 @@
-//! What a tree is built with.
+//! Build settings: method, limits, overlap rule and constants.
 
 use super::method::{Constant, Structure};
 use super::split::rule::SplitRule;
@@ -11,10 +11,15 @@ use std::collections::BTreeMap;
 pub struct Method(&'static MethodInfo);
 
 impl Method {
-    /// A method that is not in the registry, of a program that uses the library. Settings with it
-    /// can be written, but not be read again.
+    /// Creates a method that is not in the registry, for programs that use the library. Settings with
+    /// such a method can be written, but not read.
     pub const fn new(info: &'static MethodInfo) -> Method {
         Method(info)
+    }
+
+    /// Returns its description.
+    pub const fn info(self) -> &'static MethodInfo {
+        self.0
     }
 }
 
@@ -79,7 +84,7 @@ impl MethodInfo {
     }
 }
 
-/// The greatest depth allowed, `D_MAX`.
+/// Maximum depth, `D_MAX`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaxDepth {
     Fixed(u32),
@@ -89,10 +94,10 @@ pub enum MaxDepth {
 }
 
 impl MaxDepth {
-    /// The greatest depth that may be set; rays keep that many nodes on their stack at most.
+    /// Upper limit of the maximum depth, because it limits the size of traversal stacks.
     pub const LIMIT: u32 = 100;
 
-    /// The depth for a scene of `objects` objects.
+    /// Returns the depth for a scene with `objects` objects.
     pub fn resolve(self, objects: usize) -> u32 {
         match self {
             MaxDepth::Fixed(depth) => depth,
@@ -154,17 +159,17 @@ impl<'de> Deserialize<'de> for MaxDepth {
     }
 }
 
-/// When an object belongs to a cell.
+/// The rule that decides whether an object belongs to a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum OverlapRule {
-    /// As the paper's figures show for the method at hand: for `midpoint` spheres exactly and all
-    /// others by bounds, for `sah-cut` all by bounds.
+    /// As in the paper's figures for the method: `midpoint` tests spheres exactly and all others by
+    /// their bounds, `sah-cut` tests all by their bounds.
     #[default]
     Paper,
-    /// When its bounding box touches the closed cell.
+    /// If its bounding box touches the closed cell.
     Bounds,
-    /// When it shares a point with the closed cell (spheres, cylinders and cones as solids).
+    /// If it shares a point with the closed cell (spheres, cylinders and cones are solid).
     Exact,
 }
 
@@ -191,31 +196,31 @@ impl std::str::FromStr for OverlapRule {
     }
 }
 
-/// Values of a method's own constants that differ from its defaults, by name.
+/// Constants of a method that differ from their defaults, by name.
 pub type Constants = BTreeMap<String, f64>;
 
-/// Everything that decides what tree results from a scene.
+/// Everything that determines the tree of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BuildSettings {
     /// How planes are chosen.
     pub method: Method,
-    /// Greatest depth of a leaf, `D_MAX`; the root has depth 0.
+    /// Maximum depth of a leaf, `D_MAX`; the root has depth 0.
     pub d_max: MaxDepth,
     /// A cell with at most this many objects becomes a leaf, `N_OILF`.
     pub n_oilf: u32,
-    /// How far the root cell reaches beyond the scene's bounds on every side, a length.
+    /// Length by which the root cell extends beyond the scene's bounds on every side.
     pub root_margin: f64,
-    /// When an object belongs to a cell.
+    /// Whether an object belongs to a cell.
     pub overlap: OverlapRule,
     /// The axis that methods in cyclic order split first.
     pub first_axis: Axis,
-    /// The method's own constants that are not at their defaults.
+    /// Constants of the method that differ from their defaults.
     pub constants: Constants,
-    /// The build stops with an error before it takes more than this many bytes.
+    /// Memory limit in bytes; the build stops with an error before it exceeds it.
     pub memory_limit: u64,
 }
 
-/// Settings that no tree can be built with.
+/// Why settings are invalid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SettingsError {
     #[error("no build method is called '{found}'; there are {known}")]
@@ -241,7 +246,7 @@ pub enum SettingsError {
 }
 
 impl BuildSettings {
-    /// The paper's settings with this method: `D_MAX` 20, `N_OILF` 1, margin 0.001.
+    /// Returns the paper's settings with this method: `D_MAX` 20, `N_OILF` 1, margin 0.001.
     pub fn for_method(method: Method) -> Self {
         BuildSettings {
             method,
@@ -255,7 +260,7 @@ impl BuildSettings {
         }
     }
 
-    /// The value of one of the method's own constants: as set, or its default.
+    /// Returns the value of a constant of the method: as set, or its default.
     ///
     /// # Panics
     /// If the method has no constant of this name.
@@ -307,49 +312,5 @@ impl BuildSettings {
             }
         }
         Ok(())
-    }
-}
-
-impl std::str::FromStr for BuildSettings {
-    type Err = String;
-
-    /// Reads settings such as `method=sah-cut,d-max=16,gap-fraction=0.1`: a method, and any of
-    /// `d-max`, `n-oilf`, `overlap`, `root-margin`, `first-axis` and the method's own constants.
-    fn from_str(text: &str) -> Result<Self, String> {
-        fn value<T>(text: &str) -> Result<T, String>
-        where
-            T: std::str::FromStr<Err: ToString>,
-        {
-            text.parse().map_err(|error: T::Err| error.to_string())
-        }
-        let pairs: Vec<(&str, &str)> = text
-            .split(',')
-            .map(|pair| {
-                pair.split_once('=')
-                    .map(|(name, value)| (name.trim(), value.trim()))
-                    .ok_or_else(|| format!("expected NAME=VALUE, found '{pair}'"))
-            })
-            .collect::<Result<_, _>>()?;
-        let method = pairs.iter().find(|(name, _)| *name == "method");
-        let (_, method) = method.ok_or("expected method=NAME among the settings")?;
-        let mut settings = BuildSettings::for_method(value(method)?);
-        for (name, text) in pairs {
-            match name {
-                "method" => {}
-                "d-max" => settings.d_max = value(text)?,
-                "n-oilf" => settings.n_oilf = value(text)?,
-                "overlap" => settings.overlap = value(text)?,
-                "root-margin" => settings.root_margin = value(text)?,
-                "first-axis" => settings.first_axis = value(text)?,
-                _ => {
-                    let number = text
-                        .parse()
-                        .map_err(|_| format!("{name}: expected a number, found '{text}'"))?;
-                    settings.constants.insert(name.to_owned(), number);
-                }
-            }
-        }
-        settings.check().map_err(|error| error.to_string())?;
-        Ok(settings)
     }
 }

@@ -1,30 +1,32 @@
 //! A workspace: what was looked at and how, as a file that people can read and change
-//! (`.bspscope`, TOML). Data without a window: [`settings`] are of one tree, [`view`] is what is
+//! (`.bspscope`, TOML). Data without a window: [`side`] is one setup, [`view`] is what is
 //! shown, [`command`] puts settings into a line to paste.
 
 mod command;
 mod names;
 mod scene;
-mod settings;
+mod side;
 mod view;
 
 pub use command::measure_command;
-pub use scene::SceneRecord;
-pub use settings::{PictureSettings, TreeSettings};
 pub use view::{
     Arrangement, CutSettings, Heat, NODES_A_RAY, PicturePlace, Selected, View, View3dSettings,
     Which,
 };
 
 use crate::files;
-use crate::scene::{CameraOverride, SceneSource};
+use crate::scene::SceneSource;
+use crate::setup::Setup;
+use scene::SceneRecord;
+use serde::de::Error as _;
 use serde::{Deserialize, Serialize};
+use side::{OldCamera, Side};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// The version that is written, and the newest that is read.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// The extension of the files, without the dot.
 pub const EXTENSION: &str = "bspscope";
@@ -35,33 +37,47 @@ const LARGEST: u64 = 4 << 20;
 /// What a file begins with.
 const HEADER: &str = "\
 # A workspace of bspscope: what was looked at, and how. Open it with `bspscope FILE.bspscope`.
-# All of it may be changed by hand. [a] is the tree, [b] the second one of a comparison; names are
-# those of the command line (`bspscope measure --help`). Without [camera] the scene's own is used.
+# All of it may be changed by hand. [a] is the setup, [b] the second one of a comparison; names are
+# those of the command line (`bspscope measure --help`). Without from, at, up and angle the scene's
+# own camera is used.
 # A scene's file is looked for from this file's folder on.
 
 ";
 
 /// What was looked at, and how.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Workspace {
-    version: u32,
     /// Free text of the user.
-    #[serde(default)]
     pub notes: String,
-    pub scene: SceneRecord,
-    /// What differs from the scene's own camera.
-    #[serde(default, skip_serializing_if = "CameraOverride::is_none")]
-    pub camera: CameraOverride,
-    /// The settings of the tree, or of the first of two.
-    pub a: TreeSettings,
-    /// The settings of the second tree of a comparison; `None` without one.
-    pub b: Option<TreeSettings>,
-    #[serde(default)]
+    /// The setup, or the first of two.
+    pub a: Setup,
+    /// The second setup of a comparison, of the same scene; `None` without one.
+    pub b: Option<Setup>,
+    /// SHA-256 of the scene's file in hexadecimal digits, as `sha256sum` prints it. `None` where it
+    /// is not known, and for generators, whose name and size say all.
+    pub scene_sha256: Option<String>,
     pub view: View,
     /// Where panes and bars lie, in the window's own form; `None` leaves them where they are.
-    #[serde(default, with = "names::json", skip_serializing_if = "Option::is_none")]
     pub layout: Option<serde_json::Value>,
+}
+
+/// As it stands in the file.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    version: u32,
+    #[serde(default)]
+    notes: String,
+    scene: SceneRecord,
+    /// In version 1; part of `a` and `b` since.
+    #[serde(skip_serializing)]
+    camera: Option<OldCamera>,
+    a: Side,
+    b: Option<Side>,
+    #[serde(default)]
+    view: View,
+    #[serde(default, with = "names::json", skip_serializing_if = "Option::is_none")]
+    layout: Option<serde_json::Value>,
 }
 
 /// Why a workspace could not be read.
@@ -88,18 +104,13 @@ pub enum WorkspaceError {
 }
 
 impl Workspace {
-    /// A scene seen by its own camera, with these settings of the tree.
-    pub fn new(source: SceneSource, a: TreeSettings) -> Self {
+    /// A setup of which nothing else is known.
+    pub fn new(a: Setup) -> Self {
         Workspace {
-            version: VERSION,
             notes: String::new(),
-            scene: SceneRecord {
-                source,
-                sha256: None,
-            },
-            camera: CameraOverride::default(),
             a,
             b: None,
+            scene_sha256: None,
             view: View::default(),
             layout: None,
         }
@@ -161,16 +172,44 @@ impl Workspace {
                 found,
             });
         }
-        let mut workspace: Workspace = toml::from_str(text).map_err(wrong)?;
-        workspace.scene.locate(path);
-        Ok(workspace)
+        let mut written: Written = toml::from_str(text).map_err(wrong)?;
+        written.scene.locate(path);
+        let SceneRecord { source, sha256 } = written.scene;
+        let setup = |Side(mut setup): Side| {
+            setup.scene.source = source.clone();
+            if let Some(camera) = &written.camera {
+                camera.set(&mut setup).map_err(toml::de::Error::custom)?;
+            }
+            Ok(setup)
+        };
+        Ok(Workspace {
+            notes: written.notes,
+            a: setup(written.a).map_err(wrong)?,
+            b: written.b.map(setup).transpose().map_err(wrong)?,
+            scene_sha256: sha256,
+            view: written.view,
+            layout: written.layout,
+        })
     }
 
     /// The text of the file; with a folder, the scene's path is relative to it where that is
     /// possible, else absolute.
     pub fn to_text(&self, folder: Option<&Path>) -> String {
-        let mut written = self.clone();
-        written.scene.relate(folder);
+        let mut scene = SceneRecord {
+            source: self.a.scene.source.clone(),
+            sha256: self.scene_sha256.clone(),
+        };
+        scene.relate(folder);
+        let written = Written {
+            version: VERSION,
+            notes: self.notes.clone(),
+            scene,
+            camera: None,
+            a: Side(self.a.clone()),
+            b: self.b.clone().map(Side),
+            view: self.view.clone(),
+            layout: self.layout.clone(),
+        };
         let text = toml::to_string(&written).expect("text, numbers and tables of them");
         format!("{HEADER}{text}")
     }
@@ -187,7 +226,7 @@ impl Workspace {
 
     /// The scene's file, if it is not there.
     pub fn missing_scene(&self) -> Option<&Path> {
-        match &self.scene.source {
+        match &self.a.scene.source {
             SceneSource::File(path) => Some(path.as_path()).filter(|path| !path.is_file()),
             SceneSource::Builtin { .. } => None,
         }
@@ -196,7 +235,7 @@ impl Workspace {
     /// Whether the scene's file holds other bytes than when the workspace was saved; `false` where
     /// that is not known, and for generators.
     pub fn scene_was_changed(&self) -> bool {
-        match (&self.scene.source, &self.scene.sha256) {
+        match (&self.a.scene.source, &self.scene_sha256) {
             (SceneSource::File(path), Some(then)) => {
                 files::sha256(path).is_ok_and(|now| !now.eq_ignore_ascii_case(then))
             }

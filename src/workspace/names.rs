@@ -40,26 +40,6 @@ pub fn within<'de, D: Deserializer<'de>>(
     )))
 }
 
-/// Values that are written and read as text.
-pub mod text {
-    use super::{Deserialize, Deserializer, Error, Serializer};
-    use std::fmt::Display;
-    use std::str::FromStr;
-
-    pub fn serialize<T: Display, S: Serializer>(value: &T, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_str(value)
-    }
-
-    pub fn deserialize<'de, T, D>(deserializer: D) -> Result<T, D::Error>
-    where
-        T: FromStr<Err: Display>,
-        D: Deserializer<'de>,
-    {
-        let text = String::deserialize(deserializer)?;
-        text.parse().map_err(D::Error::custom)
-    }
-}
-
 /// A value in a form of its own, as one line of JSON.
 pub mod json {
     use super::{Deserialize, Deserializer, Error, Serializer};

@@ -35,15 +35,18 @@ fn wrong_use_is_told_with_exit_code_2() {
         assert!(!output.stderr.is_empty(), "{arguments}");
     }
     for (arguments, part) in [
-        ("measure balls:1 --resolution 0x16", "0 × 16"),
-        ("measure balls:1 --root-margin -1", "root margin is -1"),
+        ("measure balls:1 --resolution 0x16", "at least 1 pixel"),
+        ("measure balls:1 --root-margin -1", "a number of at least 0"),
         ("measure balls:1 --set gap-fraction=2", "gap-fraction is 2"),
         (
             "measure balls:1 --method midpoint --set gap-fraction=0.5",
             "--set gap-fraction",
         ),
         ("measure balls:99", "the size of balls must be from 0 to"),
-        ("measure tetra:5 --memory-limit 0", "memory limit of 0 MiB"),
+        (
+            "measure tetra:5 --memory-limit 0",
+            "--memory-limit: expected an integer from 1",
+        ),
         ("render teaching -o picture.jpg", ".png or .exr"),
         ("render teaching --resolution 16x16 -o no/a.png", "no/a.png"),
         ("measure balls:1 --resolution 16x16 -o no/a.txt", "no/a.txt"),
@@ -417,7 +420,7 @@ fn a_grid_shows_no_value_where_a_parameter_does_not_apply() {
         assert!(row.contains(&"–"), "{row:?}");
     }
     assert!(
-        text.contains("grid: D_MAX and N_OILF do not apply"),
+        text.contains("grid: D_MAX 20 (does not apply), N_OILF 1 (does not apply)"),
         "{text}"
     );
 }
@@ -454,11 +457,11 @@ fn verify_checks_every_kind_of_ray() {
 }
 
 #[test]
-fn without_a_display_it_measures_and_writes_the_picture() {
+fn without_a_display_it_measures_and_writes_a_picture_only_if_asked() {
     let program = Program::new();
     program.write("balls-1.png", "what the user had");
-    for name in ["balls-1-1.png", "balls-1-2.png"] {
-        let output = program.run("balls:1");
+    for command in ["balls:1", "balls:1 -o picture.png"] {
+        let output = program.run(command);
         let errors = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(0), "{errors}");
         assert_eq!(errors.lines().count(), 1, "{errors}");
@@ -469,12 +472,21 @@ fn without_a_display_it_measures_and_writes_the_picture() {
         for method in Method::of_the_paper() {
             assert!(text.contains(method.name), "{text}");
         }
-        assert!(text.contains(name), "{text}");
-        let picture = image::open(program.path().join(name)).unwrap();
-        assert_eq!((picture.width(), picture.height()), (512, 512));
+        let path = program.path().join("picture.png");
+        if command == "balls:1" {
+            assert!(errors.contains("-o FILE.png"), "{errors}");
+            let files = std::fs::read_dir(program.path()).unwrap();
+            assert_eq!(files.count(), 1, "it writes no file unasked");
+        } else {
+            assert!(text.contains("picture.png"), "{text}");
+            let picture = image::open(path).unwrap();
+            assert_eq!((picture.width(), picture.height()), (512, 512));
+        }
     }
     let kept = std::fs::read_to_string(program.path().join("balls-1.png")).unwrap();
     assert_eq!(kept, "what the user had");
+    let refused = program.run("balls:1 -o picture.gif");
+    assert_eq!(refused.status.code(), Some(2));
 }
 
 #[test]

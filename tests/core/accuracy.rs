@@ -83,13 +83,17 @@ fn fewer_secondary_rays_move_the_picture_where_there_are_any() {
     let mirrors = taken("balls:1");
     let errors = [4, 2, 1, 0].map(|depth| one(&mirrors, &format!("D_AREC {depth}")).error.rmse);
     assert!(errors.is_sorted() && errors[3] > 0.0, "{errors:?}");
-    let errors = ["0.01", "0.05", "0.2"].map(|w| one(&mirrors, &format!("cut-off {w}")).error.rmse);
+    let errors = ["0.01", "0.05", "0.2"].map(|w| {
+        one(&mirrors, &format!("minimum contribution {w}"))
+            .error
+            .rmse
+    });
     assert!(errors.is_sorted() && errors[2] > 0.0, "{errors:?}");
     let dull = scene("tetra:2");
     for choice in choices_of(&dull) {
         for (knob, _) in choice.turned {
             assert!(
-                !["D_AREC", "cut-off", "cylinders"].contains(&knob),
+                !["D_AREC", "minimum contribution", "cylinders"].contains(&knob.as_str()),
                 "{knob}"
             );
         }
@@ -102,18 +106,18 @@ fn every_knob_is_turned_alone_and_those_of_the_picture_together() {
     for knob in KNOBS {
         let alone = choices.iter().filter(|c| c.turned.len() == 1);
         assert!(
-            alone.into_iter().any(|c| c.turned[0].0 == knob.name),
+            alone.into_iter().any(|c| c.turned[0].0 == knob.name()),
             "{}",
-            knob.name
+            knob.name()
         );
     }
     let last = choices.last().unwrap();
-    let turned: Vec<_> = last.turned.iter().map(|(knob, _)| *knob).collect();
+    let turned: Vec<_> = last.turned.iter().map(|(knob, _)| knob.clone()).collect();
     // Without secondary rays there is nothing left to cut off.
     let expected: Vec<_> = KNOBS
         .iter()
-        .filter(|k| k.moves_image && k.name != "cut-off")
-        .map(|k| k.name)
+        .filter(|k| k.moves_image() && k.name() != "minimum contribution")
+        .map(|k| k.name())
         .collect();
     assert_eq!(turned, expected);
     let changed = |c: &Choice| c.turned.is_empty() || c.setup != choices[0].setup;

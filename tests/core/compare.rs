@@ -30,6 +30,7 @@ fn symbols(reasons: &[Unequal]) -> Vec<&'static str> {
         .iter()
         .map(|reason| match reason {
             Unequal::Parameter { symbol, .. } => *symbol,
+            Unequal::Setting { name, .. } => *name,
             Unequal::Camera => "camera",
             Unequal::Pixels { .. } => "pixels",
             Unequal::Size => "size",
@@ -60,7 +61,11 @@ fn unequal_parameters_are_named() {
     let moved = measured(&scene, "midpoint", |_, render| {
         render.sampling = Sampling::Corner;
     });
-    assert!(symbols(&reasons(&one, &moved)).contains(&"camera"));
+    assert!(symbols(&reasons(&one, &moved)).contains(&"sampling"));
+    let turned = measured(&scene, "midpoint", |_, render| {
+        render.camera.angle = Some(20.0);
+    });
+    assert!(symbols(&reasons(&one, &turned)).contains(&"camera"));
     let wider = measured(&scene, "midpoint", |_, render| render.width = 41);
     let found = reasons(&one, &wider);
     assert!(symbols(&found).contains(&"N_X") && symbols(&found).contains(&"size"));

@@ -1,5 +1,6 @@
 //! Exports read back by other programs' readers, and the report as a page.
 
+use crate::html::Element;
 use crate::support::program::Program;
 use crate::support::scenes::{scene, tree_by};
 use bspscope::measure::{Class, DELTA, LAMBDA, parameter, parameters};
@@ -9,7 +10,6 @@ use bspscope::scene::Scene;
 use bspscope::structure::{NodeKind, Tree};
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{DefaultElement, Property};
-use scraper::{Html, Selector};
 use serde_json::Value;
 use std::collections::HashMap;
 
@@ -186,26 +186,29 @@ fn page_and_json(program: &Program, settings: &str) -> (String, Value) {
 #[test]
 fn the_page_has_the_numbers_of_the_json_report() {
     let (text, json) = page_and_json(&Program::new(), "balls:1 --resolution 40x30");
-    let page = Html::parse_document(&text);
-    assert!(page.errors.is_empty(), "{:?}", page.errors);
-    let select = |css: &str| Selector::parse(css).unwrap();
-    let (rows, cells) = (select("tbody tr"), select("data"));
-    let code = select("th code");
+    let page = Element::page(&text);
     let runs = json["runs"].as_array().unwrap();
     assert_eq!(runs.len(), 2);
     let mut found: HashMap<String, usize> = HashMap::new();
-    for row in page.select(&rows) {
-        let symbol: String = row.select(&code).next().unwrap().text().collect();
-        let values: Vec<_> = row.select(&cells).collect();
+    let bodies = page.named("tbody").into_iter();
+    for row in bodies.flat_map(|body| body.named("tr")) {
+        let title = row
+            .named("th")
+            .iter()
+            .flat_map(|th| th.named("code"))
+            .next();
+        let symbol = title.unwrap().text();
+        let values = row.named("data");
         assert_eq!(values.len(), 2, "{symbol}");
         for (value, run) in values.iter().zip(runs) {
             let expected = &run["parameters"][&symbol];
-            let written = value.value().attr("value").unwrap();
+            let attributes = value.attributes();
+            let (_, written) = attributes.iter().find(|(name, _)| name == "value").unwrap();
             // Times are of another run; all else is the same.
             if parameter(&symbol).class == Class::T {
                 assert_eq!(written == "null", expected.is_null(), "{symbol}");
             } else {
-                assert_eq!(written, expected.to_string(), "{symbol}");
+                assert_eq!(*written, expected.to_string(), "{symbol}");
             }
         }
         *found.entry(symbol).or_default() += 1;
@@ -230,14 +233,18 @@ fn the_page_refers_to_nothing_outside_and_escapes_what_it_is_given() {
     program.write(name, ball);
     let settings = format!("{name} --method midpoint --resolution 20x20");
     let (text, _) = page_and_json(&program, &settings);
-    let page = Html::parse_document(&text);
-    assert!(page.errors.is_empty(), "{:?}", page.errors);
+    let page = Element::page(&text);
     assert!(!text.contains("<b>") && text.contains("&lt;b&gt;&amp;"));
     let mut pictures = 0;
-    for element in page.tree.values().filter_map(|node| node.as_element()) {
+    let elements = page.elements();
+    assert!(elements.len() > 100, "{} elements", elements.len());
+    for element in &elements {
         assert!(!["script", "link", "iframe", "object"].contains(&element.name()));
-        for (name, value) in element.attrs() {
-            assert!(!["href", "srcset", "action"].contains(&name), "{name}");
+        for (name, value) in element.attributes() {
+            assert!(
+                !["href", "srcset", "action"].contains(&name.as_str()),
+                "{name}"
+            );
             if name == "src" {
                 let data = value.strip_prefix("data:image/png;base64,").expect("data");
                 assert!(data.len() > 100);

@@ -5,11 +5,12 @@ use bspscope::geometry::{Axis, Vec3};
 use bspscope::measure::model::Region;
 use bspscope::present::overlay::Visited;
 use bspscope::scene::{Camera, Cylinders, Sampling, SceneRequest, SceneSource};
+use bspscope::setup::Setup;
 use bspscope::structure::{BuildSettings, MaxDepth, Method, Moment, OverlapRule};
 use bspscope::trace::{KernelChoice, PrecisionChoice, RenderSettings};
 use bspscope::workspace::{
-    Arrangement, CutSettings, Heat, NODES_A_RAY, PicturePlace, PictureSettings, Selected,
-    TreeSettings, VERSION, View, View3dSettings, Which, Workspace, WorkspaceError,
+    Arrangement, CutSettings, Heat, NODES_A_RAY, PicturePlace, Selected, VERSION, View,
+    View3dSettings, Which, Workspace, WorkspaceError,
 };
 use std::path::Path;
 
@@ -22,19 +23,17 @@ const CAMERA: Camera = Camera {
     resolution: [512, 512],
 };
 
-fn settings(method: &str) -> TreeSettings {
-    let build = BuildSettings::for_method(Method::named(method).unwrap());
-    TreeSettings {
-        cylinders: Cylinders::Exact,
-        build,
-        picture: PictureSettings::of(&RenderSettings::default()),
+fn settings(method: &str) -> Setup {
+    Setup {
+        build: BuildSettings::for_method(Method::named(method).unwrap()),
+        ..Setup::new(SceneRequest::parse("balls:3"))
     }
 }
 
 /// Unlike the defaults in everything.
 fn changed() -> Workspace {
     let mut b = settings("sah-cut");
-    b.cylinders = Cylinders::Polygons(10);
+    b.scene.cylinders = Cylinders::Polygons(10);
     b.build.d_max = MaxDepth::Automatic;
     b.build.n_oilf = 4;
     b.build.root_margin = 0.1;
@@ -42,25 +41,22 @@ fn changed() -> Workspace {
     b.build.first_axis = Axis::Y;
     b.build.constants.insert("gap-fraction".into(), 0.05);
     b.build.memory_limit = 1 << 30;
-    b.picture = PictureSettings {
-        resolution: [640, 360],
+    b.render = RenderSettings {
+        camera: CAMERA.into(),
+        width: 640,
+        height: 360,
         samples: 16,
         d_arec: 2,
-        cut_off: 0.1,
+        min_contribution: 0.1,
         precision: PrecisionChoice::Auto,
         kernel: KernelChoice::Stream,
         sampling: Sampling::Corner,
         threads: 3,
     };
-    let mut workspace = Workspace::new(
-        SceneSource::Builtin {
-            name: "balls".into(),
-            size: Some(3),
-        },
-        settings("midpoint"),
-    );
+    let mut a = settings("midpoint");
+    a.render.camera = CAMERA.into();
+    let mut workspace = Workspace::new(a);
     workspace.notes = "Two lines,\nwith \"quotes\" and \\ and Δ.".into();
-    workspace.camera = CAMERA.into();
     workspace.b = Some(b);
     workspace.view = View {
         front: Which::B,
@@ -125,12 +121,94 @@ fn changed() -> Workspace {
 fn a_workspace_written_and_read_is_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.bspscope");
-    let scene = SceneSource::parse("balls");
-    for workspace in [changed(), Workspace::new(scene, settings("midpoint"))] {
+    for workspace in [changed(), Workspace::new(settings("midpoint"))] {
         workspace.write(&path).unwrap();
         assert_eq!(Workspace::read(&path).unwrap(), workspace);
     }
     assert!(Workspace::is_path(&path) && !Workspace::is_path(Path::new("a.nff")));
+}
+
+/// As version 1 of the format had it.
+const VERSION_1: &str = r#"
+version = 1
+notes = "Old."
+
+[scene]
+generator = "balls:3"
+
+[camera]
+from = [-1.25, 0.0000001, 3.0]
+at = [0.1, 0.2, 0.3]
+up = [0.0, 0.0, 1.0]
+angle = 33.3
+hither = 1.0
+resolution = [512, 512]
+
+[a]
+cylinders = "exact"
+
+[a.tree]
+method = "midpoint"
+d_max = 20
+n_oilf = 1
+root_margin = 0.001
+overlap = "paper"
+first_axis = "x"
+memory_limit = 4294967296
+
+[a.tree.constants]
+
+[a.picture]
+resolution = [512, 512]
+samples = 1
+d-arec = 4
+cut-off = 0.0
+precision = "f64"
+kernel = "plain"
+sampling = "center"
+threads = 0
+
+[b]
+cylinders = "polygons:10"
+
+[b.tree]
+method = "sah-cut"
+d_max = "auto"
+n_oilf = 4
+root_margin = 0.1
+overlap = "exact"
+first_axis = "y"
+memory_limit = 1073741824
+
+[b.tree.constants]
+gap-fraction = 0.05
+
+[b.picture]
+resolution = [640, 360]
+samples = 16
+d-arec = 2
+cut-off = 0.1
+precision = "auto"
+kernel = "lanes"
+sampling = "corner"
+threads = 3
+"#;
+
+#[test]
+fn files_of_version_1_are_read() {
+    let read = Workspace::parse(VERSION_1, Path::new("a.bspscope")).unwrap();
+    let changed = changed();
+    assert_eq!(read.a, changed.a);
+    assert_eq!(read.b, changed.b);
+    assert_eq!(read.notes, "Old.");
+    let wrong = VERSION_1.replace("cut-off = 0.1", "cut-off = 2.0");
+    let error = Workspace::parse(&wrong, Path::new("a.bspscope")).unwrap_err();
+    let line = wrong.lines().position(|l| l == "cut-off = 2.0").unwrap() + 1;
+    let message = error.to_string();
+    assert!(
+        message.starts_with(&format!("a.bspscope:{line}: ")),
+        "{message}"
+    );
 }
 
 #[test]
@@ -138,11 +216,11 @@ fn the_file_can_be_read_by_people() {
     let text = changed().to_text(None);
     assert!(text.starts_with("# A workspace of bspscope"));
     for line in [
-        "version = 1",
+        "version = 2",
         "generator = \"balls:3\"",
         "method = \"midpoint\"",
-        "d_max = 20",
-        "d_max = \"auto\"",
+        "d-max = 20",
+        "d-max = \"auto\"",
         "cylinders = \"polygons:10\"",
         "overlap = \"exact\"",
         "gap-fraction = 0.05",
@@ -178,8 +256,10 @@ fn a_scene_is_found_from_the_folder_of_the_file() {
     let scene = folder.join("scenes/a b.nff");
     std::fs::write(&scene, "b 0 0 0\n").unwrap();
     let path = folder.join("work/a.bspscope");
-    let mut workspace = Workspace::new(SceneSource::File(scene.clone()), settings("midpoint"));
-    workspace.scene.sha256 = Some(bspscope::files::sha256(&scene).unwrap());
+    let mut setup = settings("midpoint");
+    setup.scene.source = SceneSource::File(scene.clone());
+    let mut workspace = Workspace::new(setup);
+    workspace.scene_sha256 = Some(bspscope::files::sha256(&scene).unwrap());
     workspace.write(&path).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     assert!(text.contains("file = \"../scenes/a b.nff\""), "{text}");
@@ -192,14 +272,14 @@ fn a_scene_is_found_from_the_folder_of_the_file() {
     }
     let read = Workspace::read(&elsewhere.join("work/a.bspscope")).unwrap();
     let moved = elsewhere.join("scenes/a b.nff");
-    assert_eq!(read.scene.source, SceneSource::File(moved.clone()));
+    assert_eq!(read.a.scene.source, SceneSource::File(moved.clone()));
     assert!(!read.scene_was_changed());
     std::fs::write(&moved, "b 1 0 0\n").unwrap();
     assert!(read.scene_was_changed());
     // A scene that is gone is told by whoever opens it.
     std::fs::remove_file(&moved).unwrap();
     let gone = Workspace::read(&elsewhere.join("work/a.bspscope")).unwrap();
-    assert!(matches!(gone.scene.source, SceneSource::File(path) if !path.exists()));
+    assert!(matches!(gone.a.scene.source, SceneSource::File(path) if !path.exists()));
 }
 
 /// The message about a text.
@@ -219,13 +299,9 @@ fn with(line: &str, changed_to: &str) -> (String, usize) {
 #[test]
 fn mistakes_are_told_with_file_line_and_reason() {
     for (line, wrong, reason) in [
-        ("d_max = \"auto\"", "d_max = \"deep\"", "expected a depth"),
-        ("d_max = \"auto\"", "d_max = 101", "from 0 to 100"),
-        (
-            "method = \"sah-cut\"",
-            "method = \"best\"",
-            "no build method is called 'best'",
-        ),
+        ("d-max = \"auto\"", "d-max = \"deep\"", "expected a depth"),
+        ("d-max = \"auto\"", "d-max = 101", "from 0 to 100"),
+        ("method = \"sah-cut\"", "method = \"best\"", "found 'best'"),
         ("split = 0.7", "split = 7", "from 0 to 1"),
         ("zoom = 2.5", "zoom = 0", "from 0.02 to 200"),
         ("node = 7", "nod = 7", "unknown variant `nod`"),
@@ -242,8 +318,24 @@ fn mistakes_are_told_with_file_line_and_reason() {
         ),
         ("rays = \"shadow\"", "rays = 3", "expected a string"),
         ("front = \"b\"", "frnt = \"b\"", "unknown field `frnt`"),
-        ("samples = 16", "samples = ", "value"),
-        ("cut-off = 0.1", "cut-off = 1.1", "from 0 to 1"),
+        ("samples-per-pixel = 16", "samples-per-pixel = ", "value"),
+        (
+            "min-contribution = 0.1",
+            "min-contribution = 1.1",
+            "from 0 to 1",
+        ),
+        (
+            "samples-per-pixel = 16",
+            "samples-per-pixel = 0",
+            "at least 1",
+        ),
+        (
+            "resolution = [640, 360]",
+            "resolution = [640, 0]",
+            "at least 1 pixel",
+        ),
+        ("root-margin = 0.1", "root-margin = -1.0", "root-margin"),
+        ("threads = 3", "thrads = 3", "no setting 'thrads'"),
     ] {
         let (text, number) = with(line, wrong);
         let message = message(&text);
@@ -256,13 +348,6 @@ fn mistakes_are_told_with_file_line_and_reason() {
     }
     // These are told where the table begins.
     for (line, wrong, reason) in [
-        ("samples = 16", "samples = 0", "at least 1"),
-        (
-            "resolution = [640, 360]",
-            "resolution = [640, 0]",
-            "resolution",
-        ),
-        ("root_margin = 0.1", "root_margin = -1.0", "root margin"),
         ("gap-fraction = 0.05", "gap = 0.05", "no setting 'gap'"),
         (
             "generator = \"balls:3\"",
@@ -281,7 +366,7 @@ fn mistakes_are_told_with_file_line_and_reason() {
 fn a_newer_version_says_so() {
     let newer = format!("version = {}", VERSION + 1);
     // Whatever else it may hold.
-    let text = with("version = 1", &newer).0 + "\n[holograms]\non = true\n";
+    let text = with("version = 2", &newer).0 + "\n[holograms]\non = true\n";
     let error = Workspace::parse(&text, Path::new("a.bspscope")).unwrap_err();
     assert!(matches!(error, WorkspaceError::Newer { found, .. } if found == VERSION + 1));
     assert!(error.to_string().contains("newer bspscope"), "{error}");

@@ -278,3 +278,22 @@ fn what_each_kind_of_ray_did_is_listed_on_request() {
     assert!(window.query_by_label("shadow rays").is_some());
     assert!(window.query_by_label("refracted rays").is_none());
 }
+
+#[test]
+fn a_comparison_that_ends_while_the_other_tree_is_rendered_leaves_nothing_running() {
+    let mut start = small(SCENE);
+    start.setup.render.samples = 200;
+    let mut window = open(start);
+    finish(&mut window);
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    wait_for(&mut window, "May be compared");
+    press(&mut window, Modifiers::NONE, Key::J);
+    press(&mut window, Modifiers::COMMAND, Key::PageDown);
+    wait_for(&mut window, "May not be compared");
+    // From here on the tree behind is rendered with other settings.
+    click(&mut window, "Make conditions equal");
+    wait(&mut window, "the tree behind", |w| has(w, "A: sample"));
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    wait(&mut window, "rest", |w| has(w, "ready"));
+    finish(&mut window);
+}

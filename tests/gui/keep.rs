@@ -86,7 +86,7 @@ fn saved_changed_and_restored_it_is_the_same() {
     window.run_steps(3);
     let saved = save_as(&mut window, &path);
     assert_eq!(saved.notes, "Look at the middle.");
-    assert_eq!(saved.scene.source, SceneSource::parse("balls:1"));
+    assert_eq!(saved.a.scene.source, SceneSource::parse("balls:1"));
     assert_eq!(saved.a.build.method.name, "midpoint");
     let b = saved.b.as_ref().expect("a second tree");
     assert_eq!(b.build.method.name, "sah-cut");
@@ -241,12 +241,12 @@ fn the_last_session_comes_back() {
     wait(&mut window, "the scene", |w| has(w, "balls:1 · midpoint"));
     let newest = SceneSource::parse("balls:1");
     wait(&mut window, "the newest session", |_| {
-        Workspace::read(&session).is_ok_and(|w| w.scene.source == newest)
+        Workspace::read(&session).is_ok_and(|w| w.a.scene.source == newest)
     });
     drop(window);
 
     let mut gone = Workspace::read(&session).unwrap();
-    gone.scene.source = SceneSource::File(folder.path().join("gone.nff"));
+    gone.a.scene.source = SceneSource::File(folder.path().join("gone.nff"));
     gone.write(&session).unwrap();
     let mut window = open(start("balls:1"));
     wait(&mut window, "the reason", |w| {

@@ -2,12 +2,12 @@
 //! on with, loaded and saved.
 
 use crate::harness::{Window, click, finish, has, open, press, small, wait};
-use bspscope::measure::sweep::{Form, Plan, answers, read_rows, rule_depth};
+use bspscope::measure::sweep::{Axis, Form, Plan, answers, read_rows, rule_depth};
 use bspscope::measure::{Class, parameter, parameters};
 use bspscope::progress::Progress;
 use bspscope::scene::load;
-use bspscope::structure::{BuildSettings, MaxDepth, Method};
-use bspscope::trace::RenderSettings;
+use bspscope::setup::Value;
+use bspscope::structure::{BuildSettings, Method};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 const SCENE: &str = "balls:1";
@@ -42,16 +42,21 @@ fn wait_for_sweep(window: &mut Window<'_>, points: usize) {
 
 /// What the pane sweeps over by default, but for these leaf sizes.
 fn plan(size: u32, n_oilf: &[u32]) -> Plan {
-    let start = small(SCENE);
-    let render = RenderSettings {
-        width: size,
-        height: size,
-        ..start.setup.render
-    };
-    let methods = Method::of_the_paper();
-    let methods: Vec<_> = methods.into_iter().map(BuildSettings::for_method).collect();
-    let depths: Vec<_> = (6..=24).map(MaxDepth::Fixed).collect();
-    Plan::new(&start.setup.scene, &methods, &depths, n_oilf, &render)
+    let bases = Method::of_the_paper().into_iter().map(|method| {
+        let mut setup = small(SCENE).setup;
+        setup.build = BuildSettings::for_method(method);
+        (setup.render.width, setup.render.height) = (size, size);
+        setup
+    });
+    let sizes = n_oilf.iter().map(|&n| Value::Number(f64::from(n)));
+    let axes = [
+        Axis {
+            name: "n-oilf",
+            values: sizes.collect(),
+        },
+        Axis::of("d-max", "6..24").unwrap(),
+    ];
+    Plan::new(&bases.collect::<Vec<_>>(), &axes)
 }
 
 /// The points of the map, by their names.

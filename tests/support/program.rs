@@ -4,8 +4,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// The program in an empty folder of its own, without a display. The variable `BSPSCOPE` names
-/// another build of it.
+/// The program in an empty folder of its own, without a display.
 pub struct Program {
     folder: tempfile::TempDir,
 }
@@ -26,8 +25,7 @@ impl Program {
     }
 
     pub fn command(&self, arguments: &str) -> Command {
-        let this = || env!("CARGO_BIN_EXE_bspscope").into();
-        let mut command = Command::new(std::env::var_os("BSPSCOPE").unwrap_or_else(this));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_bspscope"));
         command
             .args(arguments.split_whitespace())
             .current_dir(self.path())

@@ -1,257 +1,144 @@
-//! What can be turned to trade accuracy for speed. A knob is one function and one line in [`KNOBS`].
+//! What can be turned to trade accuracy for speed. A knob is a setting with a function for its cheaper
+//! values: one line in [`KNOBS`].
 
-use crate::scene::{Cylinders, Scene, SceneRequest};
-use crate::setup::Setup;
-use crate::structure::{BuildSettings, MaxDepth, Method};
-use crate::trace::{KernelChoice, PrecisionChoice, RenderSettings};
+use crate::scene::{Cylinders, Scene};
+use crate::setup::{Affects, Setting, Setup, Value, setting};
+use crate::structure::{MaxDepth, Method};
+use crate::trace::KernelChoice;
 
-/// One choice that costs or saves time.
+/// A setting that costs or saves time.
+#[derive(Debug)]
 pub struct Knob {
-    /// One word or two, such as `samples`.
-    pub name: &'static str,
-    pub about: &'static str,
-    /// Whether it changes the picture, or its time only.
-    pub moves_image: bool,
-    /// Its other values at a reference for a scene with exact cylinders, from dear to cheap, each in
-    /// words; empty where the scene has nothing to turn.
-    pub values: fn(&Setup, &Scene) -> Vec<(String, Setup)>,
+    /// Name of the setting.
+    setting: &'static str,
+    /// Its other values at a reference for a scene with exact cylinders, from expensive to cheap; empty
+    /// where the scene has nothing to turn.
+    values: fn(&Setup, &Scene) -> Vec<Value>,
+}
+
+const fn knob(setting: &'static str, values: fn(&Setup, &Scene) -> Vec<Value>) -> Knob {
+    Knob { setting, values }
 }
 
 /// All knobs, in the order of reports.
 pub static KNOBS: &[Knob] = &[
-    Knob {
-        name: "precision",
-        about: "numbers that rays are traced in",
-        moves_image: true,
-        values: precision,
-    },
-    Knob {
-        name: "samples",
-        about: "samples a pixel",
-        moves_image: true,
-        values: samples,
-    },
-    Knob {
-        name: "D_AREC",
-        about: "how deep secondary rays go",
-        moves_image: true,
-        values: d_arec,
-    },
-    Knob {
-        name: "cut-off",
-        about: "least weight of a secondary ray",
-        moves_image: true,
-        values: min_contribution,
-    },
-    Knob {
-        name: "cylinders",
-        about: "polygons a cylinder",
-        moves_image: true,
-        values: cylinders,
-    },
-    Knob {
-        name: "resolution",
-        about: "pixels of the picture, each shown as a square of the reference's",
-        moves_image: true,
-        values: resolution,
-    },
-    Knob {
-        name: "kernel",
-        about: "how rays traverse the tree: one by one, as a SIMD stream, or in SIMD packets",
-        moves_image: false,
-        values: kernel,
-    },
-    Knob {
-        name: "method",
-        about: "how the tree is built",
-        moves_image: false,
-        values: method,
-    },
-    Knob {
-        name: "D_MAX",
-        about: "greatest depth of the tree",
-        moves_image: false,
-        values: d_max,
-    },
-    Knob {
-        name: "N_OILF",
-        about: "objects that make a cell a leaf",
-        moves_image: false,
-        values: n_oilf,
-    },
+    knob("precision", |_, _| vec![Value::Choice("f32")]),
+    knob("samples-per-pixel", samples),
+    knob("d-arec", d_arec),
+    knob("min-contribution", min_contribution),
+    knob("cylinders", cylinders),
+    knob("resolution", resolution),
+    knob("kernel", kernel),
+    knob("method", method),
+    knob("d-max", |_, _| {
+        [12, 16, 24]
+            .map(|d| Value::Depth(MaxDepth::Fixed(d)))
+            .to_vec()
+    }),
+    knob("n-oilf", |_, _| [1.0, 4.0, 8.0].map(Value::Number).to_vec()),
 ];
 
-fn with_render(at: &Setup, words: String, render: RenderSettings) -> (String, Setup) {
-    (
-        words,
-        Setup {
-            render,
-            ..at.clone()
-        },
-    )
+impl Knob {
+    pub fn setting(&self) -> &'static Setting {
+        setting(self.setting).expect("a test walks all knobs")
+    }
+
+    /// A word or two, such as `samples` or `D_AREC`.
+    pub fn name(&self) -> String {
+        self.setting().word()
+    }
+
+    /// Whether it changes the picture, or its time only.
+    pub fn moves_image(&self) -> bool {
+        matches!(self.setting().affects, Affects::Scene | Affects::Image)
+    }
+
+    /// Its other values at a reference, each as text and with the setup that results.
+    pub fn choices(&self, at: &Setup, scene: &Scene) -> Vec<(String, Setup)> {
+        let setting = self.setting();
+        let values = (self.values)(at, scene).into_iter();
+        values
+            .filter(|value| *value != setting.value(at))
+            .map(|value| {
+                let mut setup = at.clone();
+                setting.store(&mut setup, value);
+                (value.to_string(), setup)
+            })
+            .collect()
+    }
 }
 
-fn with_build(at: &Setup, words: String, build: BuildSettings) -> (String, Setup) {
-    (
-        words,
-        Setup {
-            build,
-            ..at.clone()
-        },
-    )
-}
-
-fn precision(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
-    let precision = PrecisionChoice::F32;
-    vec![with_render(
-        at,
-        precision.name().into(),
-        RenderSettings {
-            precision,
-            ..at.render
-        },
-    )]
-}
-
-fn samples(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
+fn samples(at: &Setup, _: &Scene) -> Vec<Value> {
     let fewer = [at.render.samples / 4, 1];
     let fewer = fewer.into_iter().enumerate();
     fewer
         .filter(|&(i, samples)| samples < at.render.samples && samples > u32::from(i == 0))
-        .map(|(_, samples)| {
-            let render = RenderSettings {
-                samples,
-                ..at.render
-            };
-            with_render(at, samples.to_string(), render)
-        })
+        .map(|(_, samples)| Value::Number(f64::from(samples)))
         .collect()
 }
 
-fn d_arec(at: &Setup, scene: &Scene) -> Vec<(String, Setup)> {
+fn d_arec(at: &Setup, scene: &Scene) -> Vec<Value> {
     let deepest = scene.requirements().secondary_depth(at.render.d_arec);
-    [4, 2, 1, 0]
-        .into_iter()
-        .filter(|&depth| depth < deepest)
-        .map(|d_arec| {
-            let render = RenderSettings {
-                d_arec,
-                ..at.render
-            };
-            with_render(at, d_arec.to_string(), render)
-        })
+    let depths = [4, 2, 1, 0].into_iter().filter(|&depth| depth < deepest);
+    depths
+        .map(|depth| Value::Number(f64::from(depth)))
         .collect()
 }
 
-fn min_contribution(at: &Setup, scene: &Scene) -> Vec<(String, Setup)> {
+fn min_contribution(at: &Setup, scene: &Scene) -> Vec<Value> {
     if scene.requirements().secondary_depth(at.render.d_arec) == 0 {
         return Vec::new();
     }
-    [0.01, 0.05, 0.2]
-        .into_iter()
-        .map(|min_contribution| {
-            let render = RenderSettings {
-                min_contribution,
-                ..at.render
-            };
-            with_render(at, min_contribution.to_string(), render)
-        })
-        .collect()
+    [0.01, 0.05, 0.2].map(Value::Number).to_vec()
 }
 
-fn cylinders(at: &Setup, scene: &Scene) -> Vec<(String, Setup)> {
+fn cylinders(_: &Setup, scene: &Scene) -> Vec<Value> {
     use crate::primitive::PrimitiveKind::Cone;
     let primitives = &scene.requirements().primitives;
     if primitives.iter().all(|&(kind, _)| kind != Cone) {
         return Vec::new();
     }
-    [64, 20, 10, 6]
-        .into_iter()
-        .map(|sides| {
-            let setup = Setup {
-                scene: SceneRequest {
-                    cylinders: Cylinders::Polygons(sides),
-                    ..at.scene.clone()
-                },
-                ..at.clone()
-            };
-            (format!("{sides} polygons"), setup)
-        })
-        .collect()
+    let sides = [64, 20, 10, 6];
+    sides
+        .map(|n| Value::Cylinders(Cylinders::Polygons(n)))
+        .to_vec()
 }
 
-fn resolution(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
-    [2, 4]
-        .into_iter()
-        .map(|by| {
-            let render = RenderSettings {
-                width: at.render.width.div_ceil(by),
-                height: at.render.height.div_ceil(by),
-                ..at.render
-            };
-            let words = format!("{} × {}", render.width, render.height);
-            with_render(at, words, render)
-        })
-        .collect()
+fn resolution(at: &Setup, _: &Scene) -> Vec<Value> {
+    let sides = [at.render.width, at.render.height];
+    let smaller = [2, 4].map(|by| sides.map(|side| side.div_ceil(by)));
+    smaller.map(Value::Size).to_vec()
 }
 
-fn kernel(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
-    [
+fn kernel(at: &Setup, _: &Scene) -> Vec<Value> {
+    let kernels = [
         KernelChoice::Scalar,
         KernelChoice::Stream,
         KernelChoice::Packets,
-    ]
-    .into_iter()
-    .filter(|kernel| kernel.simd() != at.render.kernel.simd())
-    .map(|kernel| {
-        let render = RenderSettings {
-            kernel,
-            ..at.render
-        };
-        with_render(at, kernel.name().into(), render)
-    })
-    .collect()
-}
-
-fn method(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
-    Method::all()
-        .filter(|m| m.name != at.build.method.name && m.name != "none")
-        .map(|method| {
-            let build = BuildSettings {
-                constants: Default::default(),
-                method,
-                ..at.build.clone()
-            };
-            with_build(at, method.name.into(), build)
-        })
-        .collect()
-}
-
-fn d_max(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
-    [12, 16, 24]
-        .map(MaxDepth::Fixed)
+    ];
+    let others = kernels
         .into_iter()
-        .filter(|&depth| depth != at.build.d_max)
-        .map(|d_max| {
-            let build = BuildSettings {
-                d_max,
-                ..at.build.clone()
-            };
-            with_build(at, d_max.to_string(), build)
-        })
+        .filter(|k| k.simd() != at.render.kernel.simd());
+    others.map(|kernel| Value::Choice(kernel.name())).collect()
+}
+
+fn method(_: &Setup, _: &Scene) -> Vec<Value> {
+    let names = Method::all().map(|m| m.info().name);
+    names
+        .filter(|name| *name != "none")
+        .map(Value::Choice)
         .collect()
 }
 
-fn n_oilf(at: &Setup, _: &Scene) -> Vec<(String, Setup)> {
-    [1, 4, 8]
-        .into_iter()
-        .filter(|&n| n != at.build.n_oilf)
-        .map(|n_oilf| {
-            let build = BuildSettings {
-                n_oilf,
-                ..at.build.clone()
-            };
-            with_build(at, n_oilf.to_string(), build)
-        })
-        .collect()
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn knobs_are_settings() {
+        assert!(KNOBS.len() > 5);
+        for knob in KNOBS {
+            assert_eq!(knob.setting().name, knob.setting);
+        }
+    }
 }

@@ -97,29 +97,29 @@ pub fn choices(reference: &Setup, scene: &Scene) -> Vec<Choice> {
         setup: reference.clone(),
     }];
     for knob in KNOBS {
-        for (value, setup) in (knob.values)(reference, scene) {
+        for (value, setup) in knob.choices(reference, scene) {
             choices.push(Choice {
-                turned: vec![(knob.name, value)],
-                moves_image: knob.moves_image,
+                turned: vec![(knob.name(), value)],
+                moves_image: knob.moves_image(),
                 setup,
             });
         }
     }
-    let image_knobs = || KNOBS.iter().filter(|knob| knob.moves_image);
-    let steps = image_knobs().map(|knob| (knob.values)(reference, scene).len());
+    let image_knobs = || KNOBS.iter().filter(|knob| knob.moves_image());
+    let steps = image_knobs().map(|knob| knob.choices(reference, scene).len());
     for step in 0..steps.max().unwrap_or(0) {
         let mut together = choices[0].clone();
         for knob in image_knobs() {
             // The steps are those at the reference; what was turned before may leave nothing to turn.
-            let count = (knob.values)(reference, scene).len();
+            let count = knob.choices(reference, scene).len();
             let Some(step) = count.checked_sub(1).map(|last| step.min(last)) else {
                 continue;
             };
-            let Some((value, setup)) = (knob.values)(&together.setup, scene).into_iter().nth(step)
+            let Some((value, setup)) = knob.choices(&together.setup, scene).into_iter().nth(step)
             else {
                 continue;
             };
-            together.turned.push((knob.name, value));
+            together.turned.push((knob.name(), value));
             together.setup = setup;
         }
         together.moves_image = true;

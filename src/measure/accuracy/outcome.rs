@@ -7,7 +7,7 @@ use crate::setup::Setup;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
     /// Knobs and what they are turned to; none at the reference.
-    pub turned: Vec<(&'static str, String)>,
+    pub turned: Vec<(String, String)>,
     /// Whether a knob among them moves the picture.
     pub moves_image: bool,
     pub setup: Setup,

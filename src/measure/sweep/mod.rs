@@ -1,15 +1,16 @@
-//! The parameters over a grid of settings: every combination of build methods, greatest depths and
-//! leaf sizes is a point, measured once and written as one row. A sweep can be broken off and goes
+//! The parameters over a grid of settings: every combination of build methods and of the values of
+//! any other settings is a point, measured once and written as one row. A sweep can be broken off and goes
 //! on where it was; points can be spread over machines.
 
 mod plan;
 mod rows;
 
-pub use plan::{Plan, Point};
+pub use plan::{Axis, Plan, Point};
 pub use rows::{Form, Key, MergeError, Row, RowError, header, line, merge, read_rows};
 
 use super::{Measurement, Parameter, parameters};
-use crate::structure::{BuildSettings, MaxDepth};
+use crate::setup::{Group, Setting, Setup};
+use crate::structure::MaxDepth;
 
 /// A part of a sweep's points: those whose number leaves `index` when divided by `count`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +57,8 @@ pub fn done(rows: &[Row], keys: &[(usize, Key)], points: usize) -> Result<usize,
             .get(i)
             .is_some_and(|(point, key)| row.point == *point && row.key == *key);
         if !belongs || row.points != points {
-            return Err(RowError::Foreign { row: i + 1 });
+            let expected = keys.get(i).map(|(_, key)| row.key.differences(key));
+            return Err(RowError::foreign(i + 1, &expected.unwrap_or_default()));
         }
     }
     Ok(rows.len())
@@ -83,25 +85,80 @@ impl Row {
 }
 
 impl Key {
-    /// What identifies a point beside its number: the scene, the tree's settings, the picture.
-    pub fn of(scene: &str, build: &BuildSettings, picture: &str) -> Key {
-        let mut settings = format!(
-            "overlap={} root-margin={} first-axis={}",
-            build.overlap.name(),
-            build.root_margin,
-            build.first_axis
-        );
-        for constant in build.method.constants {
-            settings += &format!(" {}={}", constant.name, build.constant(constant.name));
-        }
+    /// What identifies the point with this setup in a sweep whose axes have these names.
+    pub fn of(setup: &Setup, axes: &[&str]) -> Key {
+        let titles = ["method", "d-max", "n-oilf", "cylinders"];
+        let pairs = |is_part: fn(&Setting) -> bool| {
+            let settings = setup.settings();
+            let pairs = settings
+                .filter(|s| !titles.contains(&s.name) && is_part(s))
+                .map(|s| format!("{}={}", s.name, s.text(setup)));
+            pairs.collect::<Vec<_>>().join(" ")
+        };
         Key {
-            scene: scene.to_owned(),
-            method: build.method.name.to_owned(),
-            d_max: build.d_max.to_string(),
-            n_oilf: build.n_oilf,
-            settings,
-            picture: picture.to_owned(),
+            axes: axes.join(" "),
+            scene: format!(
+                "{}, cylinders {}",
+                setup.scene.source, setup.scene.cylinders
+            ),
+            method: setup.build.method.name.to_owned(),
+            d_max: setup.build.d_max.to_string(),
+            n_oilf: setup.build.n_oilf,
+            settings: pairs(|s| s.group == Group::Structure),
+            picture: pairs(|s| s.group != Group::Structure),
         }
+    }
+
+    /// The file or the generator, and how cylinders are represented.
+    fn scene_parts(&self) -> (&str, &str) {
+        let parts = self.scene.rsplit_once(", cylinders ");
+        parts.unwrap_or((&self.scene, ""))
+    }
+
+    /// All settings by name, each with its value as text.
+    fn pairs(&self) -> Vec<(&str, String)> {
+        let mut pairs = vec![
+            ("scene", self.scene_parts().0.to_owned()),
+            ("cylinders", self.scene_parts().1.to_owned()),
+            ("method", self.method.clone()),
+            ("d-max", self.d_max.clone()),
+            ("n-oilf", self.n_oilf.to_string()),
+        ];
+        let words = self.settings.split(' ').chain(self.picture.split(' '));
+        let words = words.filter_map(|word| word.split_once('='));
+        pairs.extend(words.map(|(name, value)| (name, value.to_owned())));
+        pairs
+    }
+
+    /// What else than the axes of a sweep differs, a phrase for each setting, such as `kernel: scalar
+    /// vs stream`.
+    pub fn differences(&self, other: &Key) -> Vec<String> {
+        let others = other.pairs();
+        let mut differ = Vec::new();
+        if self.axes != other.axes {
+            differ.push(format!("axes: {} vs {}", self.axes, other.axes));
+        }
+        for (name, value) in self.pairs() {
+            let is_axis = self.axes.split(' ').any(|axis| axis == name);
+            let theirs = others.iter().find(|(known, _)| *known == name);
+            if let Some((_, theirs)) = theirs.filter(|(_, theirs)| !is_axis && *theirs != value) {
+                differ.push(format!("{name}: {value} vs {theirs}"));
+            }
+        }
+        differ
+    }
+
+    /// The values of the axes other than method, depth and leaf size, such as `precision f32`; empty
+    /// without any.
+    pub fn varied(&self) -> String {
+        let pairs = self.pairs();
+        let axes = self.axes.split(' ');
+        let others = axes.filter(|axis| !["method", "d-max", "n-oilf"].contains(axis));
+        let words = others.filter_map(|axis| {
+            let (name, value) = pairs.iter().find(|(name, _)| *name == axis)?;
+            Some(format!("{name} {value}"))
+        });
+        words.collect::<Vec<_>>().join(", ")
     }
 }
 

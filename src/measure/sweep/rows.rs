@@ -7,15 +7,17 @@ use std::path::Path;
 /// What identifies a point beside its number. Times depend on the machine, keys do not.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
+    /// The names of the settings that the sweep varies, separated by spaces.
+    pub axes: String,
     /// The file or the generator, and how cylinders were taken.
     pub scene: String,
     pub method: String,
     /// As it was asked for: a number or `auto`.
     pub d_max: String,
     pub n_oilf: u32,
-    /// The tree's other settings, `name=value` each.
+    /// The structure's other settings, `name=value` each, separated by spaces.
     pub settings: String,
-    /// What the picture was traced with.
+    /// The settings of picture and camera, likewise.
     pub picture: String,
 }
 
@@ -46,10 +48,21 @@ pub enum RowError {
     #[error("line {line}: not a row of a sweep: {why}")]
     Line { line: usize, why: String },
     #[error(
-        "row {row} belongs to another sweep (other scene, settings, picture or order of points); \
-         choose another file, or the same sweep"
+        "row {row} belongs to another sweep ({why}); rows of different settings are not mixed: choose \
+         another file, or the same sweep"
     )]
-    Foreign { row: usize },
+    Foreign { row: usize, why: String },
+}
+
+impl RowError {
+    /// A row, from 1, that differs like this from the one that belongs in its place.
+    pub(super) fn foreign(row: usize, differences: &[String]) -> RowError {
+        let why = match differences {
+            [] => "another grid or order of points".to_owned(),
+            some => some.join("; "),
+        };
+        RowError::Foreign { row, why }
+    }
 }
 
 /// Why rows do not make one sweep.
@@ -57,14 +70,14 @@ pub enum RowError {
 pub enum MergeError {
     #[error("there are no rows")]
     Empty,
-    #[error("point {0} is of another sweep than the first row")]
-    Foreign(usize),
+    #[error("point {point} is of another sweep than the first row ({why})")]
+    Foreign { point: usize, why: String },
     #[error("point {0} is there twice with different counts")]
     Unequal(usize),
 }
 
-const TITLES: [&str; 8] = [
-    "point", "points", "scene", "method", "d_max", "n_oilf", "settings", "picture",
+const TITLES: [&str; 9] = [
+    "point", "points", "axes", "scene", "method", "d_max", "n_oilf", "settings", "picture",
 ];
 
 impl Form {
@@ -112,6 +125,7 @@ fn cells(row: &Row) -> impl Iterator<Item = Value> {
     let first = [
         json!(row.point),
         json!(row.points),
+        json!(key.axes),
         json!(key.scene),
         json!(key.method),
         json!(key.d_max),
@@ -214,12 +228,13 @@ fn row(
         point: cell(0)?.parse().ok()?,
         points: cell(1)?.parse().ok()?,
         key: Key {
-            scene: cell(2)?,
-            method: cell(3)?,
-            d_max: cell(4)?,
-            n_oilf: cell(5)?.parse().ok()?,
-            settings: cell(6)?,
-            picture: cell(7)?,
+            axes: cell(2)?,
+            scene: cell(3)?,
+            method: cell(4)?,
+            d_max: cell(5)?,
+            n_oilf: cell(6)?.parse().ok()?,
+            settings: cell(7)?,
+            picture: cell(8)?,
         },
         values: (0..parameters().len())
             .map(|place| number(TITLES.len() + place))
@@ -234,13 +249,18 @@ fn row(
 /// No rows, rows of different sweeps, or a point with different counts.
 pub fn merge(mut rows: Vec<Row>) -> Result<(Vec<Row>, Vec<usize>), MergeError> {
     let first = rows.first().ok_or(MergeError::Empty)?;
-    let of_sweep = |row: &Row| (row.points, row.key.scene.clone(), row.key.picture.clone());
-    let sweep = of_sweep(first);
-    let foreign = rows
-        .iter()
-        .find(|row| of_sweep(row) != sweep || row.point >= sweep.0);
-    if let Some(row) = foreign {
-        return Err(MergeError::Foreign(row.point));
+    let points = first.points;
+    for row in &rows {
+        let mut differ = first.key.differences(&row.key);
+        if row.points != points || row.point >= points {
+            differ.push(format!("{points} points vs {}", row.points));
+        }
+        if !differ.is_empty() {
+            return Err(MergeError::Foreign {
+                point: row.point,
+                why: differ.join("; "),
+            });
+        }
     }
     rows.sort_by_key(|row| row.point);
     for pair in rows.windows(2) {
@@ -250,7 +270,7 @@ pub fn merge(mut rows: Vec<Row>) -> Result<(Vec<Row>, Vec<usize>), MergeError> {
     }
     rows.dedup_by_key(|row| row.point);
     let is_missing = |point: &usize| rows.binary_search_by_key(point, |row| row.point).is_err();
-    let missing = (0..sweep.0).filter(is_missing).collect();
+    let missing = (0..points).filter(is_missing).collect();
     Ok((rows, missing))
 }
 
@@ -277,12 +297,13 @@ mod tests {
             point,
             points: 3,
             key: Key {
+                axes: "method d-max".into(),
                 scene: "a, \"b\"".into(),
                 method: "midpoint".into(),
                 d_max: "auto".into(),
                 n_oilf: 2,
                 settings: "overlap=paper".into(),
-                picture: "8x8".into(),
+                picture: "resolution=8x8".into(),
             },
             values,
         }
@@ -316,7 +337,9 @@ mod tests {
         let other = row(1, 5.0);
         assert_eq!(merge(vec![b.clone(), other]), Err(MergeError::Unequal(1)));
         let mut foreign = b;
-        foreign.key.picture = "9x9".into();
-        assert_eq!(merge(vec![a, foreign]), Err(MergeError::Foreign(1)));
+        foreign.key.picture = "resolution=9x9".into();
+        let why = "resolution: 8x8 vs 9x9".to_owned();
+        let expected = MergeError::Foreign { point: 1, why };
+        assert_eq!(merge(vec![a, foreign]), Err(expected));
     }
 }

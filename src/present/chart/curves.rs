@@ -47,7 +47,11 @@ pub fn curves(rows: &[Row], shown: &Parameter) -> Vec<Curve> {
             methods.push(method);
             methods.len() - 1
         });
-        let name = format!("{method}, N_OILF {}", row.key.n_oilf);
+        let mut name = format!("{method}, N_OILF {}", row.key.n_oilf);
+        let varied = row.key.varied();
+        if !varied.is_empty() {
+            name += &format!(", {varied}");
+        }
         let point = CurvePoint {
             depth,
             value: value * factor,

@@ -5,8 +5,9 @@ use crate::measure::Measurement;
 use crate::measure::heat::{PixelCounts, RayFilter, heatmap};
 use crate::present::overlay::{COLORMAPS, Range, Scale};
 use crate::present::report::{Figure, Machine, Page, Report, now};
+use crate::setup::Setup;
 use crate::trace::Picture;
-use crate::workspace::{PictureSettings, TreeSettings, measure_command};
+use crate::workspace::measure_command;
 use image::{ImageError, ImageFormat};
 use std::io::{Error, Result, Write};
 
@@ -79,11 +80,9 @@ fn heatmaps(
 
 /// The command that measures a run again.
 fn command(report: &Report, run: &Measurement) -> String {
-    let request = &report.scene.request;
-    let settings = TreeSettings {
-        cylinders: request.cylinders,
+    measure_command(&Setup {
+        scene: report.scene.request.clone(),
         build: run.build.clone(),
-        picture: PictureSettings::of(&run.render),
-    };
-    measure_command(&request.source, &run.render.camera, &settings)
+        render: run.render,
+    })
 }

@@ -98,7 +98,7 @@ pub fn write_json(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
             let [least, median, most] = trade.ratios(outcome);
             let turned = outcome.choice.turned.iter();
             let turned: serde_json::Map<_, _> = turned
-                .map(|(knob, value)| ((*knob).to_owned(), json!(value)))
+                .map(|(knob, value)| (knob.clone(), json!(value)))
                 .collect();
             json!({
                 "turned": turned,

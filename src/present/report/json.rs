@@ -5,7 +5,7 @@ use super::exact::exact_value;
 use super::per_kind;
 use super::writer::Writer;
 use crate::measure::{DELTA, LAMBDA, Measurement, parameter, parameters};
-use crate::structure::MaxDepth;
+use crate::setup::{Kind, SETTINGS, Setting, Setup};
 use serde_json::{Map, Value, json};
 use std::io::{Result, Write};
 
@@ -19,7 +19,7 @@ pub(super) const WRITER: Writer = Writer {
 fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
     let mut value = json!({
         "scene": scene(&report.scene)?,
-        "runs": report.runs.iter().map(run).collect::<Result<Vec<_>>>()?,
+        "runs": report.runs.iter().map(|one| run(report, one)).collect::<Vec<_>>(),
     });
     if let Some(per_kind) = per_kind::json(report) {
         value["per_kind"] = per_kind;
@@ -55,7 +55,7 @@ fn scene(scene: &SceneSummary) -> Result<Value> {
     }))
 }
 
-fn run(run: &Measurement) -> Result<Value> {
+fn run(report: &Report, run: &Measurement) -> Value {
     let of = |symbols: &[&'static str]| -> Map<String, Value> {
         symbols
             .iter()
@@ -63,53 +63,72 @@ fn run(run: &Measurement) -> Result<Value> {
             .collect()
     };
     let all: Vec<_> = parameters().iter().map(|p| p.symbol).collect();
-    Ok(json!({
+    json!({
         "method": run.build.method.name,
-        "settings": settings(run)?,
+        "settings": settings(report, run),
         "parameters": of(&all),
         "delta": of(&DELTA),
         "lambda": of(&LAMBDA),
-    }))
+    })
 }
 
-/// Everything that was set, under the names of the command line's options.
-fn settings(run: &Measurement) -> Result<Value> {
-    let (build, render) = (&run.build, &run.render);
-    let constants: Map<_, _> = build
-        .method
-        .constants
-        .iter()
-        .map(|c| (c.name.into(), json!(build.constant(c.name))))
-        .collect();
-    Ok(json!({
-        "d_max": match build.d_max {
-            MaxDepth::Fixed(depth) => json!(depth),
-            MaxDepth::Automatic => json!(build.d_max.to_string()),
+/// Everything that was set, under the names of the command line's options with underscores, and what
+/// was used of it.
+fn settings(report: &Report, run: &Measurement) -> Value {
+    let setup = Setup {
+        scene: report.scene.request.clone(),
+        build: run.build.clone(),
+        render: run.render,
+    };
+    let mut settings = Map::new();
+    let mut constants = Map::new();
+    for setting in setup.settings() {
+        let value = value(&setting, &setup);
+        if SETTINGS.iter().any(|known| known.name == setting.name) {
+            settings.insert(setting.name.replace('-', "_"), value);
+        } else {
+            constants.insert(setting.name.to_owned(), value);
+        }
+    }
+    settings.insert("depth_limit".into(), json!(run.depth_limit));
+    let overlap = run.build.method.overlap_text(run.build.overlap);
+    settings.insert("overlap_text".into(), json!(overlap));
+    settings.insert("constants".into(), Value::Object(constants));
+    let precision = json!({
+        "asked": settings["precision"],
+        "used": run.precision.precision.name(),
+        "why": run.precision.why,
+    });
+    let kernel = json!({
+        "asked": settings["kernel"],
+        "used": run.render.kernel.description(),
+    });
+    settings["precision"] = precision;
+    settings["kernel"] = kernel;
+    settings["threads"] = json!(run.building.threads);
+    settings.insert("camera".into(), json!(run.camera));
+    Value::Object(settings)
+}
+
+/// The value of a setting; null for the scene's own.
+fn value(setting: &Setting, setup: &Setup) -> Value {
+    use crate::setup::Value as Of;
+    match setting.value(setup) {
+        Of::Own => Value::Null,
+        Of::Switch(on) => json!(f64::from(u8::from(on))),
+        Of::Number(number) => match setting.kind {
+            Kind::Number(range)
+                if range.whole && SETTINGS.iter().any(|s| s.name == setting.name) =>
+            {
+                json!(number as u64)
+            }
+            _ => json!(number),
         },
-        "depth_limit": run.depth_limit,
-        "n_oilf": build.n_oilf,
-        "root_margin": build.root_margin,
-        "overlap": name(&build.overlap)?,
-        "overlap_text": build.method.overlap_text(build.overlap),
-        "first_axis": name(&build.first_axis)?,
-        "constants": constants,
-        "memory_limit": build.memory_limit >> 20,
-        "resolution": [render.width, render.height],
-        "d_arec": render.d_arec,
-        "min_contribution": render.min_contribution,
-        "precision": {
-            "asked": name(&render.precision)?,
-            "used": run.precision.precision.name(),
-            "why": run.precision.why,
-        },
-        "kernel": {
-            "asked": name(&render.kernel)?,
-            "used": render.kernel.description(),
-        },
-        "sampling": name(&render.sampling)?,
-        "threads": run.building.threads,
-        "camera": run.camera,
-    }))
+        Of::Size(size) => json!(size),
+        Of::Point(point) => json!(point.to_array()),
+        Of::Depth(depth) => json!(depth),
+        value @ (Of::Choice(_) | Of::Cylinders(_)) => json!(value.to_string()),
+    }
 }
 
 /// The name under which a plain enum is serialised.

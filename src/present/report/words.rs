@@ -3,7 +3,8 @@
 use super::content::Report;
 use crate::geometry::Vec3;
 use crate::measure::Measurement;
-use crate::scene::Sampling;
+use crate::setup::{Group, Kind, Setting, Setup, Value};
+use crate::structure::MaxDepth;
 use crate::structure::split::Structure;
 
 /// The scene and what rendering it leaves out, a sentence a line.
@@ -47,29 +48,66 @@ pub fn scene(report: &Report) -> Vec<String> {
     lines
 }
 
-/// What trees were built with and pictures traced with, a sentence a line.
+/// The settings of picture and camera, what was used of them, and the settings of every tree, a
+/// sentence per line.
 pub fn settings(report: &Report) -> Vec<String> {
     let mut lines = Vec::new();
-    if let Some(run) = report.runs.first() {
-        let (render, camera) = (&run.render, &run.camera);
+    for (i, run) in report.runs.iter().enumerate() {
+        if i > 0 && run.render == report.runs[0].render {
+            continue;
+        }
+        let setup = setup(report, run);
+        let of = |group| {
+            let settings = setup.settings().filter(move |s| s.group == group);
+            settings
+                .map(|s| with_value(&s, &setup))
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        lines.push(format!("Picture: {}", of(Group::Picture)));
+        let camera = &run.camera;
+        let overridden = setup.settings().filter(|s| s.group == Group::Camera);
+        let overridden = overridden.filter(|s| !s.is_default(&setup));
+        let words: Vec<_> = overridden.map(|s| with_value(&s, &setup)).collect();
         lines.push(format!(
-            "Picture: {} × {} pixels, D_AREC {}, samples at the {}; eye {}, looking at {}, angle {}°",
-            render.width,
-            render.height,
-            render.d_arec,
-            match render.sampling {
-                Sampling::Center => "pixels' centres",
-                Sampling::Corner => "corners of the lattice",
+            "Camera: {}; eye {}, looking at {}, angle {}°",
+            match words.as_slice() {
+                [] => "the scene's own".to_owned(),
+                words => words.join(", "),
             },
             point(camera.from),
             point(camera.at),
             camera.angle
         ));
         lines.push(format!("Precision: {}", run.precision));
-        lines.push(format!("Timed kernel: {}", render.kernel.description()));
+        lines.push(format!("Timed kernel: {}", run.render.kernel.description()));
     }
-    lines.extend(report.runs.iter().map(tree));
+    lines.extend(report.runs.iter().map(|run| tree(report, run)));
     lines
+}
+
+/// The setup that a run answers.
+fn setup(report: &Report, run: &Measurement) -> Setup {
+    Setup {
+        scene: report.scene.request.clone(),
+        build: run.build.clone(),
+        render: run.render,
+    }
+}
+
+/// A setting and its value, such as `D_AREC 4` or `512 × 512 pixels`.
+fn with_value(setting: &Setting, setup: &Setup) -> String {
+    match setting.value(setup) {
+        Value::Size([width, height]) => format!("{width} × {height} pixels"),
+        Value::Number(0.0) if setting.name == "threads" => "threads 0 (all cores)".into(),
+        value => {
+            let unit = match setting.kind {
+                Kind::Number(range) if !range.unit.is_empty() => format!(" {}", range.unit),
+                _ => String::new(),
+            };
+            format!("{} {value}{unit}", setting.word())
+        }
+    }
 }
 
 /// Times of every run with the threads they were taken on, a sentence a line.
@@ -98,27 +136,30 @@ pub fn times(report: &Report) -> Vec<String> {
         .collect()
 }
 
-/// What a tree was built with.
-fn tree(run: &Measurement) -> String {
+/// The settings that a tree was built with.
+fn tree(report: &Report, run: &Measurement) -> String {
+    let setup = setup(report, run);
     let build = &run.build;
-    let ends = match build.method.structure {
-        Structure::Bintree | Structure::Octree => {
-            format!("D_MAX {}, N_OILF {}", run.depth_in_words(), build.n_oilf)
+    let is_grid = build.method.structure == Structure::Grid;
+    let mut words = Vec::new();
+    for setting in setup.settings().filter(|s| s.group == Group::Structure) {
+        match setting.name {
+            "method" => {}
+            "d-max" | "n-oilf" if is_grid => {
+                words.push(format!("{} (does not apply)", with_value(&setting, &setup)));
+            }
+            "d-max" if build.d_max == MaxDepth::Automatic => {
+                words.push(format!("D_MAX auto ({})", run.depth_limit));
+            }
+            "overlap" => words.push(format!(
+                "{} ({})",
+                with_value(&setting, &setup),
+                build.method.overlap_text(build.overlap)
+            )),
+            _ => words.push(with_value(&setting, &setup)),
         }
-        Structure::Grid => "D_MAX and N_OILF do not apply".into(),
-    };
-    let mut line = format!(
-        "{}: {ends}, root margin {}, overlap {} ({}), first axis {}",
-        build.method.name,
-        build.root_margin,
-        build.overlap.name(),
-        build.method.overlap_text(build.overlap),
-        build.first_axis
-    );
-    for constant in build.method.constants {
-        line += &format!(", {} {}", constant.name, build.constant(constant.name));
     }
-    line
+    format!("method {}: {}", build.method.name, words.join(", "))
 }
 
 fn threads(count: usize) -> String {
