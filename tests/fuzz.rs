@@ -8,8 +8,8 @@
 mod random;
 
 use bspscope::progress::Progress;
-use bspscope::scene::Scene;
-use bspscope::scene::format::{FORMATS, Input};
+use bspscope::scene::format::{BYTES_PER_TRIANGLE, FORMATS, Input};
+use bspscope::scene::{Material, Scene};
 use random::Random;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
@@ -37,6 +37,14 @@ unsafe impl GlobalAlloc for Counted {
         let held = HELD.fetch_add(layout.size(), Ordering::Relaxed) + layout.size();
         MOST_HELD.fetch_max(held, Ordering::Relaxed);
         unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn realloc(&self, at: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        // Large blocks are moved without a copy.
+        let held = HELD.fetch_add(size, Ordering::Relaxed) + size - layout.size();
+        HELD.fetch_sub(layout.size(), Ordering::Relaxed);
+        MOST_HELD.fetch_max(held, Ordering::Relaxed);
+        unsafe { System.realloc(at, layout, size) }
     }
 
     unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
@@ -96,6 +104,23 @@ const WORDS: &[&str] = &[
     "\"children\":[0],",
     "\"byteOffset\":4294967295,",
     "\"count\":9007199254740993,",
+    "-1.#IND",
+    "1.0D+02",
+    "4.0",
+    "/*",
+    "*/",
+    "\n",
+    "\"",
+    "facet",
+    "outer loop",
+    "end loop",
+    "mtllib",
+    "newmtl",
+    "Kd",
+    "element tristrips 3\n",
+    "%3D",
+    "\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}},",
+    "\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"TRANSLATION\":0}}},",
 ];
 
 fn mutate(file: &[u8], other: &[u8], random: &mut Random) -> Vec<u8> {
@@ -156,9 +181,23 @@ fn corpus(extensions: &[&str]) -> Vec<Vec<u8>> {
         .collect()
 }
 
+/// How many inputs are tried per format.
+fn inputs() -> usize {
+    std::env::var("FUZZ_INPUTS").map_or(INPUTS, |n| n.parse().unwrap())
+}
+
+/// Keeps the other tests waiting, because they share the count of bytes.
+fn alone() -> std::sync::MutexGuard<'static, ()> {
+    static ALONE: std::sync::Mutex<()> = std::sync::Mutex::new(());
+    ALONE
+        .lock()
+        .unwrap_or_else(|poisoned| poisoned.into_inner())
+}
+
 #[test]
 fn readers_survive_mutated_files() {
-    let inputs = std::env::var("FUZZ_INPUTS").map_or(INPUTS, |n| n.parse().unwrap());
+    let _alone = alone();
+    let inputs = inputs();
     for format in FORMATS {
         let corpus = corpus(format.extensions);
         assert!(corpus.len() >= 2, "no corpus for {}", format.name);
@@ -198,6 +237,92 @@ fn readers_survive_mutated_files() {
         // Mutations of every depth: some files survive them, some do not.
         assert!(read > inputs / 50 && refused > inputs / 50);
     }
+}
+
+/// Whatever a material file contains, the geometry of the file that refers to it is read.
+#[test]
+fn material_files_never_refuse_the_geometry() {
+    let _alone = alone();
+    let inputs = inputs();
+    let corpus = corpus(&["mtl"]);
+    assert!(corpus.len() >= 2);
+    let folder = tempfile::tempdir().unwrap();
+    let text = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl late\nf 1 2 3\n";
+    let obj = FORMATS.iter().find(|f| f.name == "obj").unwrap();
+    let mut changed = 0;
+    for i in 0..inputs {
+        let mut random = Random(i as u64);
+        let file = &corpus[random.below(corpus.len())];
+        let other = &corpus[random.below(corpus.len())];
+        let bytes = mutate(file, other, &mut random);
+        std::fs::write(folder.path().join("a.mtl"), &bytes).unwrap();
+        let told = Told(i);
+        let input = Input {
+            bytes: text,
+            folder: Some(folder.path()),
+        };
+        let parts = (obj.read)(&input, &Progress::new()).unwrap();
+        std::mem::forget(told);
+        assert_eq!(parts.objects.len(), 1, "input {i}");
+        let material = parts.materials[0];
+        assert!(material.color.is_finite() && material.shine.is_finite());
+        changed += usize::from(material != Material::default());
+    }
+    eprintln!("mtl: {inputs} inputs, {changed} with a material");
+    assert!(changed > inputs / 50);
+}
+
+/// Reading a file that places a mesh many times takes no more than the stated memory per triangle.
+#[test]
+fn instances_stay_within_the_stated_memory() {
+    let _alone = alone();
+    const NODES: usize = 500;
+    const TRIANGLES: usize = 1000;
+    let mut binary = Vec::new();
+    for i in 0..TRIANGLES {
+        let x = i as f32;
+        for number in [x, 0.0, 0.0, x + 1.0, 0.0, 0.0, x, 1.0, 0.0] {
+            binary.extend(number.to_le_bytes());
+        }
+    }
+    let positions = binary.len();
+    binary.extend(
+        [0.0_f32, 0.0, 1.0]
+            .repeat(3 * TRIANGLES)
+            .iter()
+            .flat_map(|n| n.to_le_bytes()),
+    );
+    let uri = percent(&binary);
+    let accessor = |offset: usize| {
+        format!(
+            "{{\"bufferView\":0,\"byteOffset\":{offset},\"componentType\":5126,\"count\":{},\"type\":\"VEC3\"}}",
+            3 * TRIANGLES
+        )
+    };
+    let json = format!(
+        "{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{}],\"meshes\":[{{\"primitives\":[{{\
+         \"attributes\":{{\"POSITION\":0,\"NORMAL\":1}}}}]}}],\"accessors\":[{},{}],\
+         \"bufferViews\":[{{\"buffer\":0,\"byteLength\":{length}}}],\
+         \"buffers\":[{{\"byteLength\":{length},\"uri\":\"data:,{uri}\"}}]}}",
+        vec!["{\"mesh\":0}"; NODES].join(","),
+        accessor(0),
+        accessor(positions),
+        length = binary.len(),
+    );
+    let format = FORMATS.iter().find(|f| f.name == "gltf").unwrap();
+    let before = HELD.load(Ordering::Relaxed);
+    MOST_HELD.store(before, Ordering::Relaxed);
+    let parts = (format.read)(&Input::from(json.as_bytes()), &Progress::new()).unwrap();
+    assert_eq!(parts.objects.len(), NODES * TRIANGLES);
+    let most = MOST_HELD.load(Ordering::Relaxed) - before;
+    // While it grows, the list of objects may be a quarter longer than needed.
+    let stated = parts.objects.len() * BYTES_PER_TRIANGLE * 5 / 4 + 4 * json.len();
+    assert!(most <= stated, "{most} bytes, more than {stated}");
+}
+
+/// Bytes in the form of a data URI without base64.
+fn percent(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("%{byte:02x}")).collect()
 }
 
 /// Says at a panic which input it was.

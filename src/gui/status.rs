@@ -74,8 +74,9 @@ impl StatusLine {
                 |bytes| format!("Memory {} MiB", grouped(bytes >> 20)),
             ))
             .on_hover_text("Physical memory of this program");
-            ui.separator();
-            jobs(ui, &state.jobs);
+            // At the right end, where it keeps its place.
+            let to_the_left = egui::Layout::right_to_left(egui::Align::Center);
+            ui.with_layout(to_the_left, |ui| jobs(ui, &state.jobs));
         });
     }
 

@@ -14,12 +14,16 @@ use std::collections::HashMap;
 
 /// Maximum number of objects and skipped faces of a file, including instances of meshes.
 ///
-/// A triangle takes at most [`BYTES_PER_TRIANGLE`], so that this many take at most 11 GiB.
+/// A triangle takes at most [`BYTES_PER_TRIANGLE`], so this many take at most 11 GiB while a file is
+/// read.
 pub const MAX_FACES: usize = 1 << 25;
 
 /// Maximum memory that a triangle with vertex normals takes, in bytes: the object, its material
 /// index and its normals.
 pub const BYTES_PER_TRIANGLE: usize = size_of::<Primitive>() + size_of::<u32>() + NORMALS;
+
+/// While a file is read, lists may be a quarter longer than needed.
+const _: () = assert!(MAX_FACES * BYTES_PER_TRIANGLE / 4 * 5 <= 11 << 30);
 
 /// Bytes of three normals, with what an allocator adds to them.
 const NORMALS: usize = size_of::<[Vec3; 3]>() + 16;
@@ -180,8 +184,6 @@ impl SceneBuilder {
         vertices: &[Vec3],
         normals: Option<&[Vec3]>,
     ) -> Result<(), ReadError> {
-        let mut repaired = Vec::new();
-        let mut normals = normals;
         if let Some(given) = normals
             && given.iter().any(|n| !is_direction(*n))
         {
@@ -192,6 +194,22 @@ impl SceneBuilder {
             for (there, text) in [(infinite, INFINITE_NORMAL), (zero, ZERO_NORMAL)] {
                 self.note_times(NoteKind::Changed, text, usize::from(there), place);
             }
+        }
+        self.face_as_noted(place, vertices, normals)
+    }
+
+    /// Adds a face as [`SceneBuilder::face`] does, but without notes on its normals.
+    pub fn face_as_noted(
+        &mut self,
+        place: Place,
+        vertices: &[Vec3],
+        normals: Option<&[Vec3]>,
+    ) -> Result<(), ReadError> {
+        let mut repaired = Vec::new();
+        let mut normals = normals;
+        if let Some(given) = normals
+            && given.iter().any(|n| !is_direction(*n))
+        {
             let direction = |n: &Vec3| if is_direction(*n) { *n } else { Vec3::ZERO };
             repaired.extend(given.iter().map(direction));
             let any = repaired.iter().any(|n| *n != Vec3::ZERO);

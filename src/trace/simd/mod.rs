@@ -14,7 +14,7 @@
 //!
 //! | layer | modules |
 //! |---|---|
-//! | vectors | [`arithmetic`], [`array`], [`prefetch`], [`instruction_set`] |
+//! | vectors | [`arithmetic`], [`array`](mod@array), [`prefetch`], [`instruction_set`] |
 //! | rays | [`ray`], [`ray_packet`], [`candidate`], [`queue`] |
 //! | blocks | [`block`] |
 //! | exact tests | [`crossings`], [`exact`] |

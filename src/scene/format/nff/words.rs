@@ -144,11 +144,15 @@ impl<'a> Words<'a> {
         word.ok_or_else(|| syntax(self.last_line(), expected, "the end of the file"))
     }
 
-    /// Returns whether the next word begins like a number.
+    /// Returns whether the next word is a number or begins like one.
     pub(super) fn number_follows(&mut self) -> bool {
         self.skip_blanks();
-        let first = self.bytes.get(self.at);
+        let rest = &self.bytes[self.at..];
+        let end = rest.iter().position(u8::is_ascii_whitespace);
+        let word = &rest[..end.unwrap_or(rest.len())];
+        let first = word.first();
         first.is_some_and(|b| matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.'))
+            || number(word).is_some()
     }
 
     /// Parses the next word as a number and returns both.

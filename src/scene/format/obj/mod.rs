@@ -272,16 +272,13 @@ impl Reader<'_> {
             const TEXT: &str = "face of fewer than 3 vertices";
             return self.builder.skip_face(line.place(), TEXT);
         }
+        // Normals are used only if every vertex refers to one.
+        let normals = (normals.len() == vertices.len()).then_some(normals.as_slice());
         if has_bad_normal {
             const TEXT: &str = "index of a normal that is not defined; using the face normal";
             self.builder.note(NoteKind::Changed, TEXT, line.place());
+            return self.builder.face_as_noted(line.place(), vertices, normals);
         }
-        // Normals are used only if every vertex refers to one.
-        let has_normals = normals.len() == vertices.len() && {
-            // Those that are not defined are noted above.
-            !has_bad_normal || normals.iter().any(|n| *n != Vec3::ZERO)
-        };
-        let normals = has_normals.then_some(normals.as_slice());
         self.builder.face(line.place(), vertices, normals)
     }
 
