@@ -1,14 +1,14 @@
-//! A setup as a line for the command line.
+//! A setup as a command.
 
 use crate::scene::SceneSource;
 use crate::setup::{SETTINGS, Setup};
 use std::path::absolute;
 
-/// Settings that are spelled out even at their defaults.
+/// Settings that are always written, even at their defaults.
 const SPELLED_OUT: [&str; 3] = ["method", "resolution", "d-arec"];
 
-/// The command that measures this setup: `bspscope measure SCENE …`, quoted for a POSIX shell. Most
-/// options at their defaults are left out; files go by their absolute paths.
+/// Returns the command that measures this setup: `bspscope measure SCENE …`, quoted for a POSIX
+/// shell. Most options at their defaults are omitted; paths are absolute.
 pub fn measure_command(setup: &Setup) -> String {
     let scene = match &setup.scene.source {
         SceneSource::File(path) => {

@@ -1,6 +1,6 @@
-//! A workspace: what was looked at and how, as a file that people can read and change
-//! (`.bspscope`, TOML). Data without a window: [`side`] is one setup, [`view`] is what is
-//! shown, [`command`] puts settings into a line to paste.
+//! Workspaces: the state of a session as an editable text file (`.bspscope`, TOML). The data do not
+//! depend on the window: [`side`] is one setup, [`view`] is what is shown, [`command`] writes
+//! settings as a command.
 
 mod command;
 mod names;
@@ -25,16 +25,16 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// The version that is written, and the newest that is read.
+/// The version that is written; newer versions cannot be read.
 pub const VERSION: u32 = 2;
 
 /// The extension of the files, without the dot.
 pub const EXTENSION: &str = "bspscope";
 
-/// No workspace is larger, in bytes.
+/// Maximum size of a workspace in bytes.
 const LARGEST: u64 = 4 << 20;
 
-/// What a file begins with.
+/// The first lines of a file.
 const HEADER: &str = "\
 # A workspace of bspscope: what was looked at, and how. Open it with `bspscope FILE.bspscope`.
 # All of it may be changed by hand. [a] is the setup, [b] the second one of a comparison; names are
@@ -44,24 +44,24 @@ const HEADER: &str = "\
 
 ";
 
-/// What was looked at, and how.
+/// The state of a session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Workspace {
-    /// Free text of the user.
+    /// The user's notes.
     pub notes: String,
     /// The setup, or the first of two.
     pub a: Setup,
     /// The second setup of a comparison, of the same scene; `None` without one.
     pub b: Option<Setup>,
-    /// SHA-256 of the scene's file in hexadecimal digits, as `sha256sum` prints it. `None` where it
-    /// is not known, and for generators, whose name and size say all.
+    /// SHA-256 of the scene's file in hexadecimal digits, as `sha256sum` prints it. `None` if it
+    /// is unknown, and for generators.
     pub scene_sha256: Option<String>,
     pub view: View,
-    /// Where panes and bars lie, in the window's own form; `None` leaves them where they are.
+    /// The layout, in a format defined by the window; `None` keeps the current layout.
     pub layout: Option<serde_json::Value>,
 }
 
-/// As it stands in the file.
+/// The content of the file.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
@@ -69,7 +69,7 @@ struct Written {
     #[serde(default)]
     notes: String,
     scene: SceneRecord,
-    /// In version 1; part of `a` and `b` since.
+    /// Only in version 1; part of `a` and `b` since.
     #[serde(skip_serializing)]
     camera: Option<OldCamera>,
     a: Side,
@@ -92,7 +92,7 @@ pub enum WorkspaceError {
     #[error("{}:{line}: {reason}", path.display())]
     Wrong {
         path: PathBuf,
-        /// From 1.
+        /// Counted from 1.
         line: usize,
         reason: String,
     },
@@ -104,7 +104,7 @@ pub enum WorkspaceError {
 }
 
 impl Workspace {
-    /// A setup of which nothing else is known.
+    /// Creates the workspace of a setup, with defaults for everything else.
     pub fn new(a: Setup) -> Self {
         Workspace {
             notes: String::new(),
@@ -116,17 +116,17 @@ impl Workspace {
         }
     }
 
-    /// Whether a path is that of a workspace, by its extension.
+    /// Returns whether a path has the extension of a workspace.
     pub fn is_path(path: &Path) -> bool {
         path.extension()
             .is_some_and(|e| e.eq_ignore_ascii_case(EXTENSION))
     }
 
-    /// Reads a file. A scene's relative path is taken from the file's folder.
+    /// Reads a file. A relative path of a scene is relative to the file's folder.
     ///
     /// # Errors
-    /// A file that cannot be read, is too large, is of a newer version, or says something that is
-    /// not known or not possible. Nothing is half-loaded.
+    /// The file cannot be read, is too large, has a newer version, or contains an unknown or
+    /// invalid value. A workspace is never partially loaded.
     pub fn read(path: &Path) -> Result<Workspace, WorkspaceError> {
         let io = |reason| WorkspaceError::Io {
             path: path.to_owned(),
@@ -146,12 +146,12 @@ impl Workspace {
         Workspace::parse(&text, path)
     }
 
-    /// Reads a file's text; `path` is where it stands, for messages and for the scene's place.
+    /// Parses the text of a file; `path` is its path, for error messages and relative paths.
     ///
     /// # Errors
-    /// As [`Workspace::read`].
+    /// The same as for [`Workspace::read`].
     pub fn parse(text: &str, path: &Path) -> Result<Workspace, WorkspaceError> {
-        /// What every version has.
+        /// The part that all versions share.
         #[derive(Deserialize)]
         struct Versioned {
             version: u32,
@@ -192,8 +192,8 @@ impl Workspace {
         })
     }
 
-    /// The text of the file; with a folder, the scene's path is relative to it where that is
-    /// possible, else absolute.
+    /// Returns the text of the file. The path of the scene is relative to the folder, if there is
+    /// one and if that is possible; otherwise it is absolute.
     pub fn to_text(&self, folder: Option<&Path>) -> String {
         let mut scene = SceneRecord {
             source: self.a.scene.source.clone(),
@@ -214,17 +214,17 @@ impl Workspace {
         format!("{HEADER}{text}")
     }
 
-    /// Writes the file, whole or not at all.
+    /// Writes the file, completely or not at all.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// I/O errors.
     pub fn write(&self, path: &Path) -> io::Result<()> {
         let absolute = std::path::absolute(path)?;
         let text = self.to_text(absolute.parent());
         files::write_whole(path, |out| out.write_all(text.as_bytes()))
     }
 
-    /// The scene's file, if it is not there.
+    /// Returns the path of the scene's file if it does not exist.
     pub fn missing_scene(&self) -> Option<&Path> {
         match &self.a.scene.source {
             SceneSource::File(path) => Some(path.as_path()).filter(|path| !path.is_file()),
@@ -232,8 +232,8 @@ impl Workspace {
         }
     }
 
-    /// Whether the scene's file holds other bytes than when the workspace was saved; `false` where
-    /// that is not known, and for generators.
+    /// Returns whether the scene's file was changed since the workspace was saved; `false` if that
+    /// is unknown, and for generators.
     pub fn scene_was_changed(&self) -> bool {
         match (&self.a.scene.source, &self.scene_sha256) {
             (SceneSource::File(path), Some(then)) => {

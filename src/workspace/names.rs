@@ -1,9 +1,9 @@
-//! Forms in which single values stand in the file.
+//! Formats of single values in the file.
 
 use serde::{Deserialize, Deserializer, Serializer, de::Error};
 use std::ops::RangeInclusive;
 
-/// A name that must be one of those known.
+/// A name that must be known.
 pub fn one_of<'de, D: Deserializer<'de>>(
     deserializer: D,
     what: &str,
@@ -20,12 +20,12 @@ pub fn one_of<'de, D: Deserializer<'de>>(
     )))
 }
 
-/// A number that must lie from 0 to 1.
+/// A number from 0 to 1.
 pub fn share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     within(deserializer, 0.0..=1.0)
 }
 
-/// A number that must lie in a range.
+/// A number in a range.
 pub fn within<'de, D: Deserializer<'de>>(
     deserializer: D,
     range: RangeInclusive<f64>,
@@ -40,7 +40,7 @@ pub fn within<'de, D: Deserializer<'de>>(
     )))
 }
 
-/// A value in a form of its own, as one line of JSON.
+/// A value as one line of JSON.
 pub mod json {
     use super::{Deserialize, Deserializer, Error, Serializer};
     use serde_json::Value;

@@ -1,4 +1,4 @@
-//! The scene of a workspace: where it comes from, and whether it is still the same.
+//! The scene of a workspace: its source, and whether it has changed.
 
 use crate::scene::SceneSource;
 use serde::{Deserialize, Serialize};
@@ -9,12 +9,12 @@ use std::path::{Path, PathBuf};
 #[serde(try_from = "Written", into = "Written")]
 pub struct SceneRecord {
     pub source: SceneSource,
-    /// SHA-256 of the file's bytes in hexadecimal digits, as `sha256sum` prints it. `None` where it
-    /// is not known, and for generators, whose name and size say all.
+    /// SHA-256 of the file's bytes in hexadecimal digits, as `sha256sum` prints it. `None` if it
+    /// is unknown, and for generators.
     pub sha256: Option<String>,
 }
 
-/// As it stands in the file: either a file or a generator.
+/// The scene in the file: either a file or a generator.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
@@ -55,19 +55,19 @@ impl From<SceneRecord> for Written {
 }
 
 impl SceneRecord {
-    /// Takes a relative path from the folder of the workspace's file.
+    /// Resolves a relative path from the folder of the workspace.
     pub(super) fn locate(&mut self, workspace: &Path) {
         if let SceneSource::File(path) = &mut self.source
             && let Some(folder) = workspace.parent()
         {
             let joined = folder.join(&*path);
-            // Without detours such as `folder/../`, if it is there.
+            // Canonical, without `folder/../`, if the file exists.
             *path = std::fs::canonicalize(&joined).unwrap_or(joined);
         }
     }
 
-    /// Makes the path relative to a folder where that is possible, with slashes as on every
-    /// system; else absolute.
+    /// Makes the path relative to a folder if that is possible, with `/` on every system; otherwise
+    /// makes it absolute.
     pub(super) fn relate(&mut self, folder: Option<&Path>) {
         let SceneSource::File(path) = &mut self.source else {
             return;

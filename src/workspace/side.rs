@@ -1,17 +1,17 @@
-//! A setup as it stands in the file: a table of its settings by name.
+//! A setup in the file: a table of its settings by name.
 //!
-//! Version 1 had the tree's settings, the picture's and the camera in tables of their own, with
-//! names in other spellings; it is read, too.
+//! Version 1 had separate tables for the settings of the tree and of the picture and for the
+//! camera, with different names. It is read, too.
 
 use crate::setup::{SETTINGS, Setting, Setup, Value, any_setting, setting};
 use serde::de::{DeserializeSeed, Error, MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A setup whose scene stands elsewhere in the file.
+/// A setup without its scene, which is elsewhere in the file.
 pub struct Side(pub Setup);
 
-/// Names of the near plane in cameras of version 1; it is the scene's alone.
+/// Names of the near plane in cameras of version 1. It is ignored, because it belongs to the scene.
 const NEAR_PLANE: [&str; 2] = ["hither", "near"];
 
 impl Serialize for Side {
@@ -27,12 +27,12 @@ impl Serialize for Side {
     }
 }
 
-/// Whether a setting is a constant of a build method.
+/// Returns whether a setting is a constant of a build method.
 fn is_constant(setting: &Setting) -> bool {
     SETTINGS.iter().all(|known| known.name != setting.name)
 }
 
-/// A value in the form that fits it: a number, text, or a list of numbers.
+/// A value in its natural form: a number, text, or a list of numbers.
 struct Written(Value);
 
 impl Serialize for Written {
@@ -60,11 +60,11 @@ impl<'de> Deserialize<'de> for Side {
     }
 }
 
-/// The camera of version 1, which both setups shared.
+/// The camera of version 1, which both setups share.
 pub struct OldCamera(Vec<(String, Value)>);
 
 impl OldCamera {
-    /// Takes the camera over.
+    /// Copies the camera to the setup.
     pub fn set(&self, setup: &mut Setup) -> Result<(), String> {
         set(setup, self.0.clone())
     }
@@ -79,7 +79,7 @@ impl<'de> Deserialize<'de> for OldCamera {
     }
 }
 
-/// Stores settings, the method first: its constants depend on it.
+/// Stores settings, the method first, because its constants depend on it.
 fn set(setup: &mut Setup, mut pairs: Vec<(String, Value)>) -> Result<(), String> {
     pairs.sort_by_key(|(name, _)| name != "method");
     for (name, value) in pairs {
@@ -97,8 +97,8 @@ impl<'de> Deserialize<'de> for Settings {
     }
 }
 
-/// A table of settings. Version 1 had some in tables of their own, with names that are those of other
-/// settings elsewhere.
+/// A table of settings. In version 1, some were in separate tables, with names that other settings
+/// have elsewhere.
 #[derive(Clone, Copy)]
 enum Table {
     All,
@@ -107,7 +107,7 @@ enum Table {
 }
 
 impl Table {
-    /// The table in this one that has this name.
+    /// Returns the nested table with this name.
     fn within(name: &str) -> Option<Table> {
         match name {
             "tree" => Some(Table::All),
@@ -164,7 +164,7 @@ impl<'de> Visitor<'de> for Table {
     }
 }
 
-/// Reads a value of a setting.
+/// Parses a value of a setting.
 struct ValueOf(Setting);
 
 impl<'de> DeserializeSeed<'de> for ValueOf {

@@ -1,4 +1,4 @@
-//! What is shown of a scene and its trees. Everything has a default: a file may leave it out.
+//! What the window shows. Everything has a default and is optional in a file.
 
 use super::names;
 use crate::geometry::Axis;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-/// One of the two trees of a comparison. Without one there is only A.
+/// One of the two trees of a comparison. Without a comparison there is only A.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Which {
@@ -38,20 +38,20 @@ impl Which {
     }
 }
 
-/// How two pictures share the pane.
+/// How two pictures are arranged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Arrangement {
-    /// The picture in front alone.
+    /// Only the picture in front.
     #[serde(rename = "one")]
     One,
-    /// A to the left of a line that can be moved, B to the right of it.
+    /// A on the left of a movable line, B on the right.
     #[default]
     #[serde(rename = "wipe")]
     Wipe,
-    /// A in the left half, B in the right one.
+    /// A in the left half, B in the right half.
     #[serde(rename = "side by side")]
     Beside,
-    /// What B has more or less than A.
+    /// The difference between B and A.
     #[serde(rename = "difference")]
     Difference,
 }
@@ -75,18 +75,18 @@ impl Arrangement {
 
     pub const fn about(self) -> &'static str {
         match self {
-            Arrangement::One => "The picture of the tree in front; hold F for the other's.",
-            Arrangement::Wipe => "A to the left of a line, B to the right; drag the line.",
+            Arrangement::One => "The picture of the tree in front. Hold F to see the other.",
+            Arrangement::Wipe => "A on the left of a line, B on the right. Drag the line.",
             Arrangement::Beside => {
-                "A in the left half, B in the right one, moved and zoomed together."
+                "A in the left half, B in the right half. Both move and zoom together."
             }
             Arrangement::Difference => {
-                "Of a heatmap, pixel by pixel, B less A; of the picture, the pixels that differ."
+                "The difference B − A of a heatmap, or the pixels in which the pictures differ."
             }
         }
     }
 
-    /// The one after this one, in a circle.
+    /// Returns the next arrangement, cyclically.
     pub fn next(self) -> Arrangement {
         let all = Arrangement::ALL;
         let at = all.iter().position(|view| *view == self);
@@ -94,26 +94,26 @@ impl Arrangement {
     }
 }
 
-/// What is shown.
+/// What the window shows.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct View {
-    /// The tree that settings and panels are about.
+    /// The tree in front, to which settings and panels apply.
     pub front: Which,
     /// How the pictures of two trees are arranged.
     pub arrangement: Arrangement,
-    /// Where the line between them lies, 0 at the left edge to 1 at the right one.
+    /// Position of the line between them, from 0 (left edge) to 1 (right edge).
     #[serde(deserialize_with = "names::share")]
     pub split: f64,
-    /// Pixels marked to come back to: column and row.
+    /// Pinned pixels: column and row.
     pub pinned: Vec<[u32; 2]>,
     pub picture: PicturePlace,
-    /// The pixels whose time the pane *Time* can tell.
+    /// The region that the pane *Time* shows.
     pub region: Option<Region>,
     pub selected: Selected,
-    /// The moment of the build that is shown; `None` for the finished tree.
+    /// The displayed moment of the build; `None` for the finished tree.
     pub build: Option<Moment>,
-    /// Of the histograms with these names, the values that are selected, both ends with them.
+    /// Selected ranges of the histograms by name, including both ends.
     #[serde(deserialize_with = "known_ranges")]
     pub ranges: BTreeMap<String, [f64; 2]>,
     pub heatmap: Heat,
@@ -138,34 +138,34 @@ impl Default for View {
     }
 }
 
-/// Where the picture lies in its pane.
+/// Zoom and position of the picture in its pane.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PicturePlace {
-    /// Width of a pixel of the picture in points of the screen; `None` fits it into the pane.
+    /// Screen points per pixel of the picture; `None` fits it into the pane.
     #[serde(deserialize_with = "known_zoom")]
     pub zoom: Option<f64>,
-    /// From the pane's middle to the picture's, in points to the right and down.
+    /// Offset of the center of the picture from that of the pane, in points to the right and down.
     pub offset: [f64; 2],
 }
 
 impl PicturePlace {
-    /// The zooms there are.
+    /// The range of allowed zooms.
     pub const ZOOMS: RangeInclusive<f64> = 0.02..=200.0;
 }
 
-/// The name under which [`View::ranges`] has the histogram of rays.
+/// The name of the histogram of rays in [`View::ranges`].
 pub const NODES_A_RAY: &str = "nodes a ray";
 
-/// What is selected, of the tree in front.
+/// The selection in the tree in front.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Selected {
-    /// Column and row of the pixel whose rays are followed.
+    /// The selected pixel: column and row.
     pub pixel: Option<[u32; 2]>,
-    /// The selected one of its rays, by its place; 0 is the primary ray.
+    /// Index of the selected ray of the pixel; 0 is the primary ray.
     pub ray: usize,
-    /// The step of its walk, from 0.
+    /// The selected step of its traversal, counted from 0.
     pub step: usize,
     /// Number of a node of the tree.
     pub node: Option<u32>,
@@ -173,26 +173,26 @@ pub struct Selected {
     pub object: Option<u32>,
 }
 
-/// The heatmap over the picture, by the names of the registries.
+/// The heatmap over the picture.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Heat {
-    /// Symbol of the heatmap; `None` for the picture alone.
+    /// Symbol of the heatmap; `None` for only the picture.
     #[serde(deserialize_with = "known_heatmap")]
     pub show: Option<String>,
     #[serde(deserialize_with = "known_rays")]
     pub rays: String,
     #[serde(deserialize_with = "known_scale")]
     pub scale: String,
-    /// Colours of values.
+    /// Color map of values.
     #[serde(deserialize_with = "known_colors")]
     pub colors: String,
-    /// Colours of differences.
+    /// Color map of differences.
     #[serde(deserialize_with = "known_colors")]
     pub difference_colors: String,
-    /// The ends that the colours are locked to; `None` for those of the values.
+    /// Fixed range of the colors; `None` for the range of the values.
     pub range: Option<[f64; 2]>,
-    /// How much of the picture is hidden, 0 to 1.
+    /// Opacity over the picture, from 0 to 1.
     #[serde(deserialize_with = "names::share")]
     pub opacity: f64,
 }
@@ -222,7 +222,7 @@ fn known_zoom<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Erro
 fn known_ranges<'de, D: Deserializer<'de>>(
     from: D,
 ) -> Result<BTreeMap<String, [f64; 2]>, D::Error> {
-    /// Checked by itself, so that an error names its line.
+    /// Validated separately, so that an error has its line.
     #[derive(Deserialize, PartialEq, Eq, PartialOrd, Ord)]
     #[serde(transparent)]
     struct Name(#[serde(deserialize_with = "known_histogram")] String);
@@ -268,23 +268,23 @@ fn known_coloring<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error
 pub struct View3dSettings {
     pub objects: bool,
     pub leaf_boxes: bool,
-    /// Name of the colouring of leaves.
+    /// Name of the coloring of leaves.
     #[serde(deserialize_with = "known_coloring")]
     pub coloring: String,
     pub full_leaves: bool,
     pub empty_leaves: bool,
-    /// Leaves by whether rays of the picture visited them.
+    /// Filter by whether rays of the picture visited the leaves.
     pub visited: Visited,
-    /// Least depth of a leaf shown.
+    /// Minimum depth of displayed leaves.
     pub least_depth: u32,
-    /// Greatest depth of a leaf shown; `None` for all.
+    /// Maximum depth of displayed leaves; `None` for all.
     pub greatest_depth: Option<u32>,
-    /// Of all leaves, only those that the picked ray visited.
+    /// Show only leaves that the selected ray visited.
     pub only_visited: bool,
-    /// All rays of the picked pixel rather than the selected one.
+    /// Show all rays of the selected pixel instead of only the selected one.
     pub all_rays: bool,
     pub orthographic: bool,
-    /// The camera of the view; `None` where it is the picture's.
+    /// The camera of the view; `None` for the camera of the picture.
     pub camera: Option<Camera>,
     pub cut: CutSettings,
 }
@@ -315,9 +315,9 @@ impl Default for View3dSettings {
 pub struct CutSettings {
     pub on: bool,
     pub axis: Axis,
-    /// Where the plane lies on each axis, 0 to 1 through the root cell.
+    /// Position of the plane along each axis, from 0 to 1 in the root cell.
     pub places: [f64; 3],
-    /// Whether the lesser side is hidden rather than the greater.
+    /// Whether the lower side is hidden instead of the upper.
     pub hides_less: bool,
 }
 

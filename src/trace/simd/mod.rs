@@ -14,7 +14,7 @@
 //!
 //! | layer | modules |
 //! |---|---|
-//! | vectors | [`arithmetic`], [`array`], [`prefetch`], [`pages`], [`instruction_set`] |
+//! | vectors | [`arithmetic`], [`array`](mod@array), [`prefetch`], [`pages`], [`instruction_set`] |
 //! | rays | [`ray`], [`ray_packet`], [`candidate`], [`queue`] |
 //! | blocks | [`block`], [`block_tree`], [`simd_tree`] |
 //! | exact tests | [`crossings`], [`exact`] |
