@@ -39,6 +39,7 @@ mod rows;
 mod save_as;
 mod scale_bar;
 mod selection;
+mod setting_widget;
 mod shortcuts;
 mod state;
 mod status;

@@ -675,3 +675,39 @@ fn the_papers_tables_come_in_every_form() {
     // clap's own message takes several lines.
     assert_eq!(program.run("paper teaching").status.code(), Some(2));
 }
+
+#[test]
+fn every_setting_is_an_option_with_help() {
+    let help = Program::new().done("measure --help");
+    for setting in bspscope::setup::SETTINGS {
+        assert!(help.contains(&format!("--{} <", setting.name)), "{help}");
+    }
+    let program = Program::new();
+    // Names of earlier versions.
+    let old = "--cut-off 0.5 --kernel lanes --resolution 8x8 --method midpoint --format json";
+    let report = program.json(&format!("measure tetra:1 {old}"));
+    let settings = &report["runs"][0]["settings"];
+    assert_eq!(settings["min_contribution"], 0.5);
+    assert_eq!(settings["kernel"]["asked"], "stream");
+    program.done("trade tetra:1 --only cut-off --resolution 8x8 --samples 1 --rounds 1");
+}
+
+#[test]
+fn any_setting_can_differ_between_the_sides_of_a_comparison() {
+    let program = Program::new();
+    let sides = "--a method=sah-cut,kernel=stream,threads=1 --b method=sah-cut,gap-fraction=0.1";
+    let text = program.done(&format!("compare tetra:2 {sides} --resolution 8x8"));
+    assert!(
+        text.contains("kernel stream") && text.contains("kernel scalar"),
+        "{text}"
+    );
+    let sides = "--a method=sah-cut,precision=f32 --b method=sah-cut";
+    let arguments = format!("compare tetra:2 {sides} --resolution 8x8");
+    let output = program.run(&arguments);
+    assert_eq!(output.status.code(), Some(1));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        text.contains("precision is f32 in A and f64 in B"),
+        "{text}"
+    );
+}

@@ -130,3 +130,53 @@ fn a_model_tells_times_by_both_ways() {
     let text = program.ends(0, &format!("{options} --equation printed"));
     assert!(text.contains("equation (1) as printed"), "{text}");
 }
+
+#[test]
+fn rows_of_other_settings_are_not_mixed() {
+    let program = Program::new();
+    let options = "sweep tetra:3 --d-max 4..8 --n-oilf 1 --resolution 8x8 -o rows.csv";
+    program.ends(0, options);
+    let rows = program.read("rows.csv");
+    for (other, why) in [
+        ("--kernel stream", "kernel: scalar vs stream"),
+        ("--threads 3", "threads: 0 vs 3"),
+        ("--cut-off 0.1", "min-contribution: 0 vs 0.1"),
+        ("--angle 20", "angle: scene vs 20"),
+    ] {
+        let error = program.ends(2, &format!("{options} {other}"));
+        assert!(
+            error.contains(why) && error.contains("not mixed"),
+            "{error}"
+        );
+        assert_eq!(program.read("rows.csv"), rows);
+    }
+}
+
+#[test]
+fn any_setting_is_an_axis() {
+    let program = Program::new();
+    let axes = "--vary precision=f32,f64 --vary root-margin=0,0.001 --d-max 3,auto";
+    let options = "--method midpoint --resolution 8x8 -o rows.csv --chart rows.svg";
+    program.ends(0, &format!("sweep tetra:2 {axes} {options}"));
+    let rows = counts(&program, "rows.csv");
+    assert_eq!(rows.len(), 8);
+    assert_eq!(rows[0][2], "method precision root-margin d-max");
+    assert!(rows[0][8].contains("precision=f32") && rows[7][8].contains("precision=f64"));
+    assert!(
+        program
+            .read("rows.svg")
+            .contains("precision f64, root-margin 0.001")
+    );
+    for (wrong, why) in [
+        ("--vary colour=1,2", "no setting 'colour'"),
+        ("--vary precision=f16", "expected one of f32, f64, auto"),
+        ("--vary d-max=3 --d-max 4", "d-max is varied twice"),
+        (
+            "--vary gap-fraction=0.1 --method midpoint",
+            "no chosen method",
+        ),
+    ] {
+        let error = program.ends(2, &format!("sweep tetra:2 {wrong} -o other.csv"));
+        assert!(error.contains(why), "{error}");
+    }
+}

@@ -17,6 +17,7 @@ mod model;
 mod paper;
 mod process;
 mod rays;
+mod settings;
 mod sweep;
 mod tree;
 mod window;

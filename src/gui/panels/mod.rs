@@ -77,7 +77,7 @@ pub fn show(
 }
 
 /// A row of a two-column grid: a name and a widget that goes by it.
-fn row<R>(
+pub(super) fn row<R>(
     ui: &mut egui::Ui,
     name: &str,
     about: &str,

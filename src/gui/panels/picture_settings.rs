@@ -1,10 +1,13 @@
-//! How the picture is traced: size, samples, threads, camera, cylinders.
+//! How the picture is rendered, from where, and how cylinders enter the scene.
 
-use super::{Panel, Side, row};
+use super::build_settings::IN_TOP_BAR;
+use super::{Panel, Side};
+use crate::gui::setting_widget::{Around, rows};
 use crate::gui::shortcuts::{Action, tip};
 use crate::gui::state::State;
-use crate::scene::{CameraOverride, Cylinders, Sampling};
-use crate::trace::{KernelChoice, PrecisionChoice};
+use crate::scene::CameraOverride;
+use crate::setup::{Group, Setting, Setup};
+use crate::trace::PrecisionChoice;
 
 pub(super) const PANEL: Panel = Panel {
     title: "Picture",
@@ -14,116 +17,50 @@ pub(super) const PANEL: Panel = Panel {
 };
 
 fn show(ui: &mut egui::Ui, state: &mut State) {
-    let largest = ui.input(|i| i.max_texture_side).min(16_384) as u32;
-    let wanted = &mut state.wanted;
-    let render = &mut wanted.render;
-    egui::Grid::new("picture settings").num_columns(2).show(ui, |ui| {
-        for (name, value, symbol) in [
-            ("Width", &mut render.width, "N_X"),
-            ("Height", &mut render.height, "N_Y"),
-        ] {
-            let about = format!("{name} of the picture in pixels, {symbol}.");
-            row(ui, name, &about, |ui| {
-                ui.add(
-                    egui::DragValue::new(value)
-                        .range(1..=largest)
-                        .suffix(" pixels")
-                        .update_while_editing(false),
-                )
-                .accessible_name(name);
-            });
+    let measured = state.current.as_ref().map(|c| &c.shown.measurement);
+    let note = |setting: &Setting, setup: &Setup| match setting.name {
+        "precision" => {
+            let measured = measured?;
+            let used = &measured.precision;
+            let is_auto = measured.render.precision == PrecisionChoice::Auto;
+            let used_in_words = format!("Used: {used}.");
+            is_auto.then(|| [format!("took {}", used.precision.name()), used_in_words])
         }
-        row(
+        "kernel" => {
+            let used = setup.render.kernel.description();
+            let is_other = used != setup.render.kernel.name();
+            is_other.then(|| [used, "On this processor".to_owned()])
+        }
+        "threads" if setup.render.threads == 0 => {
+            let cores = std::thread::available_parallelism().map_or(1, usize::from);
+            Some([format!("all {cores} cores"), "0 uses all cores".to_owned()])
+        }
+        _ => None,
+    };
+    let around = Around {
+        largest: ui.input(|i| i.max_texture_side).min(16_384) as u32,
+        camera: measured.map(|measured| &measured.camera),
+        note: &note,
+    };
+    let setup = &mut state.wanted;
+    for (id, groups) in [
+        (
+            "picture settings",
+            [Group::Picture, Group::Scene].as_slice(),
+        ),
+        ("camera", &[Group::Camera]),
+    ] {
+        let settings = setup.settings().filter(|s| groups.contains(&s.group));
+        let settings = settings.filter(|s| !IN_TOP_BAR.contains(&s.name));
+        rows(
             ui,
-            "Sampling",
-            "Where a pixel's first sample lies: at its centre, or on a lattice whose first and last \
-             samples span the angle of view.",
-            |ui| {
-                ui.selectable_value(&mut render.sampling, Sampling::Center, "centre");
-                ui.selectable_value(&mut render.sampling, Sampling::Corner, "corner");
-            },
+            id,
+            settings.collect::<Vec<_>>().into_iter(),
+            setup,
+            &around,
         );
-        row(
-            ui,
-            "Samples",
-            "Samples a pixel in the finished picture; figures are always measured with one.",
-            |ui| {
-                ui.add(
-                    egui::DragValue::new(&mut render.samples)
-                        .range(1..=4096)
-                        .speed(0.1)
-                        .suffix(" a pixel"),
-                )
-                .accessible_name("Samples");
-            },
-        );
-        row(
-            ui,
-            "Precision",
-            "The numbers that rays are traced in. auto takes f32 where it can hold the scene as the \
-             camera sees it, else f64.",
-            |ui| {
-                let asked = &mut render.precision;
-                let list = egui::ComboBox::from_id_salt("precision")
-                    .selected_text(asked.name())
-                    .show_ui(ui, |ui| {
-                        for choice in PrecisionChoice::ALL {
-                            ui.selectable_value(asked, choice, choice.name());
-                        }
-                    });
-                if let Some(current) = &state.current {
-                    let used = &current.shown.measurement.precision;
-                    let about = format!("Used: {used}.");
-                    list.response.on_hover_text(&about);
-                    let asked = current.shown.setup.render.precision;
-                    if asked == PrecisionChoice::Auto {
-                        let used = format!("took {}", used.precision.name());
-                        ui.weak(used).on_hover_text(&about);
-                    }
-                }
-            },
-        );
-        row(
-            ui,
-            "Kernel",
-            "How timed rendering traces rays: scalar, one after the other through exactly the nodes that \
-             are counted, as in the paper; stream, batches of rays in SIMD; packets, neighboring rays \
-             that traverse together in SIMD; auto, packets where rays are coherent, stream elsewhere, \
-             scalar where the processor has no wide SIMD. All give the same hits.",
-            |ui| {
-                let asked = &mut render.kernel;
-                egui::ComboBox::from_id_salt("kernel")
-                    .selected_text(asked.name())
-                    .show_ui(ui, |ui| {
-                        for choice in KernelChoice::ALL {
-                            ui.selectable_value(asked, choice, choice.name());
-                        }
-                    })
-                    .response
-                    .on_hover_text(format!("On this processor: {}.", asked.description()));
-            },
-        );
-        row(
-            ui,
-            "Threads",
-            "Threads that trace; 0 takes as many as the machine has cores.",
-            |ui| {
-                ui.add(egui::DragValue::new(&mut render.threads).range(0..=256).speed(0.05));
-                if render.threads == 0 {
-                    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-                    ui.weak(format!("all {cores} cores"));
-                }
-            },
-        );
-        row(
-            ui,
-            "Cylinders",
-            "Cylinders and cones as the exact surfaces they are, or as open prisms of polygons, as \
-             the paper took them.",
-            |ui| cylinders(ui, &mut wanted.scene.cylinders),
-        );
-    });
-    let own = !wanted.render.camera.is_none();
+    }
+    let own = !setup.render.camera.is_none();
     if ui
         .add_enabled(own, egui::Button::new("Scene's own camera"))
         .on_hover_text(tip(
@@ -132,24 +69,6 @@ fn show(ui: &mut egui::Ui, state: &mut State) {
         ))
         .clicked()
     {
-        wanted.render.camera = CameraOverride::default();
-    }
-}
-
-fn cylinders(ui: &mut egui::Ui, cylinders: &mut Cylinders) {
-    let mut polygons = matches!(cylinders, Cylinders::Polygons(_));
-    ui.checkbox(&mut polygons, "as polygons");
-    match (polygons, &mut *cylinders) {
-        (true, Cylinders::Polygons(sides)) => {
-            ui.add(
-                egui::DragValue::new(sides)
-                    .range(3..=1000)
-                    .speed(0.1)
-                    .suffix(" sides"),
-            )
-            .accessible_name("Sides of the polygons");
-        }
-        (true, Cylinders::Exact) => *cylinders = Cylinders::Polygons(8),
-        (false, _) => *cylinders = Cylinders::Exact,
+        setup.render.camera = CameraOverride::default();
     }
 }
