@@ -2,7 +2,7 @@
 //! Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A Difference Evaluator for Alternating
 //! Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), 2020).
 //!
-//! Its one implementation as a library takes a C++ compiler and pictures of 8 bits a colour; this
+//! Its one implementation as a library takes a C++ compiler and pictures of 8 bits a color; this
 //! works on linear light as it is. Constants are those of the article.
 
 use super::filter::{Kernel, filtered, gaussian, kernel};
@@ -51,7 +51,7 @@ pub fn flip(picture: &[[f32; 3]], reference: &[[f32; 3]], width: usize) -> f64 {
 
 /// A picture as the eye has it.
 struct Seen {
-    /// Lightness and colour after what the eye cannot resolve has blurred.
+    /// Lightness and color after what the eye cannot resolve has blurred.
     lab: Vec<[f64; 3]>,
     /// How much of an edge every pixel is.
     edges: Vec<f64>,
@@ -87,7 +87,7 @@ impl Seen {
     }
 }
 
-/// The colour space YCxCz of linear light.
+/// The color space YCxCz of linear light.
 fn opponent(rgb: [f64; 3]) -> [f64; 3] {
     let [x, y, z] = of_white(rgb);
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
@@ -101,8 +101,8 @@ fn of_white(rgb: [f64; 3]) -> [f64; 3] {
     })
 }
 
-/// CIELAB whose colour fades with darkness (Hunt), of a YCxCz that stands for a visible colour, or of
-/// the visible colour nearest by clipping.
+/// CIELAB whose color fades with darkness (Hunt), of a YCxCz that stands for a visible color, or of
+/// the visible color nearest by clipping.
 fn lab([y, cx, cz]: [f64; 3]) -> [f64; 3] {
     let y = (y + 16.0) / 116.0;
     let xyz = [y + cx / 500.0, y, y - cz / 200.0];
@@ -173,7 +173,7 @@ fn features() -> [Kernel; 3] {
     ]
 }
 
-/// How far colours are apart (HyAB).
+/// How far colors are apart (HyAB).
 fn difference(a: [f64; 3], b: [f64; 3]) -> f64 {
     (a[0] - b[0]).abs() + (a[1] - b[1]).hypot(a[2] - b[2])
 }
@@ -208,7 +208,7 @@ mod tests {
         light as f32
     }
 
-    /// Slopes and edges of all colours.
+    /// Slopes and edges of all colors.
     fn picture(seed: u32, width: u32, height: u32) -> Vec<[f32; 3]> {
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         pixels
