@@ -37,13 +37,13 @@ const TO_XYZ: [[f64; 3]; 3] = [
 pub fn flip(picture: &[[f32; 3]], reference: &[[f32; 3]], width: usize) -> f64 {
     let seen = [picture, reference].map(|pixels| Seen::new(pixels, width));
     let [p, r] = &seen;
-    let limit = largest_colour_difference();
+    let limit = largest_color_difference();
     let sum: f64 = (0..picture.len())
         .map(|i| {
-            let colour = redistributed(difference(p.lab[i], r.lab[i]).powf(0.7), limit);
+            let color = redistributed(difference(p.lab[i], r.lab[i]).powf(0.7), limit);
             let off = |a: f64, b: f64| (a - b).abs();
             let feature = off(p.edges[i], r.edges[i]).max(off(p.points[i], r.points[i]));
-            colour.powf(1.0 - (feature / SQRT_2).sqrt())
+            color.powf(1.0 - (feature / SQRT_2).sqrt())
         })
         .sum();
     sum / picture.len().max(1) as f64
@@ -72,11 +72,11 @@ impl Seen {
             resolved(&channel(2), width, &[(34.1, 0.04), (13.5, 0.025)]),
         ];
         let lab = (0..pixels.len()).map(|i| lab([blurred[0][i], blurred[1][i], blurred[2][i]]));
-        let grey: Vec<f64> = opponent.iter().map(|v| (v[0] + 16.0) / 116.0).collect();
+        let gray: Vec<f64> = opponent.iter().map(|v| (v[0] + 16.0) / 116.0).collect();
         let [across, slope, bend] = features();
         let size = |kernel: &Kernel| -> Vec<f64> {
-            let x = filtered(&grey, width, kernel, &across);
-            let y = filtered(&grey, width, &across, kernel);
+            let x = filtered(&gray, width, kernel, &across);
+            let y = filtered(&gray, width, &across, kernel);
             x.iter().zip(y).map(|(x, y)| x.hypot(y)).collect()
         };
         Seen {
@@ -179,7 +179,7 @@ fn difference(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// The largest difference that there is, that of green and blue, to the power of 0.7.
-fn largest_colour_difference() -> f64 {
+fn largest_color_difference() -> f64 {
     difference(lab_of([0.0, 1.0, 0.0]), lab_of([0.0, 0.0, 1.0])).powf(0.7)
 }
 
@@ -244,7 +244,7 @@ mod tests {
             ([128, 128, 128], [120, 120, 120], 0.1285912),
             ([200, 30, 30], [30, 200, 30], 0.9702024),
         ] {
-            let [a, b] = [a, b].map(|colour| vec![colour.map(linear); 64]);
+            let [a, b] = [a, b].map(|color| vec![color.map(linear); 64]);
             let flip = flip(&a, &b, 8);
             assert!((flip - expected).abs() < 1e-4, "{flip} and {expected}");
         }

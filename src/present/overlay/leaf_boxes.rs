@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn an_instance_takes_28_bytes_and_colours_differ() {
+    fn an_instance_takes_28_bytes_and_colors_differ() {
         assert_eq!(size_of::<Instance>(), 28);
         let depth = coloring("depth").unwrap();
         assert_ne!(

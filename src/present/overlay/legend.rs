@@ -175,8 +175,8 @@ impl BarLayout {
                 _ => tick.text.clone(),
             };
             let text_width = sizes.number.width(&text);
-            let centred = x.saturating_sub(text_width / 2);
-            let text_left = centred.clamp(left, left + width.saturating_sub(text_width));
+            let centered = x.saturating_sub(text_width / 2);
+            let text_left = centered.clamp(left, left + width.saturating_sub(text_width));
             if text_left >= free_from {
                 sizes.number.draw(sheet, text_left, number_top, &text);
                 free_from = text_left + text_width + 6 * sizes.unit;

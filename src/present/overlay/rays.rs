@@ -166,7 +166,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn kinds_differ_in_colour_and_in_strokes() {
+    fn kinds_differ_in_color_and_in_strokes() {
         for (i, a) in RayKind::ALL.into_iter().enumerate() {
             for b in RayKind::ALL.into_iter().skip(i + 1) {
                 assert_ne!(ray_style(a).color, ray_style(b).color);
