@@ -1,4 +1,4 @@
-//! What counting costs: a counted pass against a timed one, both by the plain kernel on one thread.
+//! The cost of counting: counted against timed rendering, both by the scalar kernel on one thread.
 //! The counted pass does more than to count: it walks every ray once more without tests, for T_TT, the
 //! time of which is told and left out of the ratio; and it finds every object along each pixel's ray
 //! (the depth complexity), which is in the ratio. `cargo bench --bench counting`.

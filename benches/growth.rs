@@ -1,9 +1,9 @@
 //! How build time and memory grow with the scene: `cargo bench --bench growth`.
 //!
-//! Terrain of 10 thousand to 10 million triangles is built by the given methods on each number of
-//! threads, and by Embree where it is installed, in turns, so that what else the machine does hits all
-//! of them; figures are medians. Memory is that of tree, references and objects as the plain kernel in
-//! `f32` holds them. What the figures were is told in `benches/README.md`.
+//! Builds terrain of 10 thousand to 10 million triangles by the given methods on each number of threads,
+//! and by Embree where it is installed. They take turns, so that other load affects all of them. Figures
+//! are medians. Memory is that of the tree, the references and the objects of the scalar kernel in `f32`.
+//! `benches/README.md` lists results.
 
 #[allow(dead_code, reason = "Embree only builds here")]
 #[path = "peers/embree.rs"]

@@ -1,9 +1,8 @@
 //! Our kernels beside those of others, on the same rays: `cargo bench --bench peers`.
 //!
-//! Every round runs every kernel on a set of rays before the next round begins, so that what else
-//! the machine does hits all of them; a figure is the median of the rounds' ratios to Embree's
-//! kernel for single rays. A short run: `cargo bench --bench peers -- --scene tetra --rounds 3`.
-//! What the figures were is told in `benches/README.md`.
+//! Every round runs every kernel on a set of rays before the next round begins, so that other load affects
+//! all of them. A figure is the median over the rounds of the ratio to Embree's kernel for single rays. A
+//! short run: `cargo bench --bench peers -- --scene tetra --rounds 3`. `benches/README.md` lists results.
 
 #[path = "peers/crates.rs"]
 mod crates;
@@ -20,35 +19,36 @@ mod scenes;
 #[path = "peers/terrain.rs"]
 mod terrain;
 
-use bspscope::trace::{Hit, SimdTree};
+use bspscope::structure::SimdTree;
+use bspscope::trace::Hit;
 use clap::Parser;
 use kernels::{Found, Kernel, NarrowRay, Rays};
 use rays::{RaySet, ray_sets};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
-/// Our kernels beside Embree, obvhs and parry3d: rays a second on five sets of rays.
+/// Compares our kernels with Embree, obvhs and parry3d: rays per second on five sets of rays
 #[derive(Parser)]
 struct Options {
-    /// Scenes to run, of tetra, terrain, balls, balls-tessellated; all without this
+    /// Scenes to run: tetra, terrain, balls, balls-tessellated [default: all]
     #[arg(long, value_name = "NAME")]
     scene: Vec<String>,
     /// Sets of rays to run, by letter: P, D, C, S, A
     #[arg(long, default_value = "PDCSA")]
     sets: String,
-    /// Only kernels whose name contains this, and Embree
+    /// Run only kernels whose name contains this, and Embree
     #[arg(long, value_name = "TEXT", default_value = "")]
     kernel: String,
     /// Rounds over all kernels
     #[arg(long, default_value_t = 7)]
     rounds: usize,
-    /// Rays of a set are those of a picture of SIZE × SIZE pixels; a multiple of 4
+    /// Size of a set in rays: those of an image of SIZE × SIZE pixels; a multiple of 4
     #[arg(long, value_name = "SIZE", default_value_t = 512)]
     size: u32,
     /// Numbers of threads to run with
     #[arg(long, value_delimiter = ',', default_value = "1,2")]
     threads: Vec<usize>,
-    /// Writes all figures there as JSON
+    /// Write all figures to this file as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<std::path::PathBuf>,
     /// What cargo passes to every bench
@@ -56,14 +56,14 @@ struct Options {
     bench: bool,
 }
 
-/// A kernel that takes part, with what building its tree took.
+/// A kernel, with the time of building its tree.
 struct Entrant<'a> {
     name: String,
     kernel: Box<dyn Kernel + 'a>,
     build: Duration,
 }
 
-/// A kernel's answers to a set of rays.
+/// The answers of a kernel for a set of rays.
 #[derive(Default)]
 struct Answers {
     found: Vec<Found>,
@@ -91,7 +91,7 @@ fn main() {
     }
 }
 
-/// Runs all kernels on a scene; gives the number of wrong answers of ours.
+/// Runs all kernels on a scene. Returns the number of wrong answers of ours.
 fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) -> usize {
     let scene = &subject.scene;
     println!("\n{}: {} objects", subject.name, scene.objects().len());
@@ -204,7 +204,7 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
                 let mut seconds = times[k].clone();
                 let rate = set.rays.len() as f64 / median(&mut seconds) / 1e6;
                 let differing = differing(set, &answers[reference], &answers[k]);
-                // Ours must answer as the scalar one does but for what f32 rounds.
+                // Ours must answer as the scalar kernel does, up to rounding to f32.
                 let allowed = set.rays.len() / if ours[k] { 2000 } else { 100 };
                 if ours[k] && differing > allowed {
                     wrong += differing;
@@ -224,11 +224,11 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
     wrong
 }
 
-/// Rays that a thread takes at once.
+/// Rays per work item of a thread.
 const CHUNK: usize = 1 << 14;
 
-/// Puts a kernel's answers in place of those of the last round and gives the time it took, in seconds:
-/// the thread's own time on one thread, that of the clock on the wall on several.
+/// Runs a kernel, replaces the answers of the last round, and returns the time in seconds: CPU time for
+/// one thread, wall-clock time for several.
 fn ask(
     kernel: &dyn Kernel,
     set: &RaySet,
@@ -243,7 +243,7 @@ fn ask(
             kernel.closest(rays, &mut answers.found);
         }
     };
-    // Written once before, so that no time is taken for the system to find the memory.
+    // Written once before, so that page faults are not timed.
     let room = rays.wide.len();
     answers.found.resize(room, None);
     answers.found.clear();
@@ -289,7 +289,7 @@ fn ask(
     time
 }
 
-/// How many answers differ by more than the rounding of an `f32`.
+/// Returns the number of answers that differ by more than the rounding of `f32`.
 fn differing(set: &RaySet, a: &Answers, b: &Answers) -> usize {
     if set.any {
         return a

@@ -95,7 +95,7 @@ impl Obvhs {
     }
 }
 
-/// Distance to a sphere by a ray of unit direction; infinite for a miss.
+/// Returns the distance to a sphere along a ray of unit direction; infinite for a miss.
 fn sphere_hit((center, radius): (Vec3A, f32), ray: &Ray) -> f32 {
     let to_center = center - ray.origin;
     let along = to_center.dot(ray.direction);
@@ -128,7 +128,7 @@ impl Kernel for Obvhs {
     }
 }
 
-/// parry3d's mesh of triangles; it has no kernel for any hit, so that it is asked for the nearest.
+/// parry3d's mesh of triangles. It has no query for any hit, so this queries the closest.
 pub struct Parry(TriMesh);
 
 impl Parry {

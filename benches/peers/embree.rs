@@ -1,4 +1,4 @@
-//! Embree 3 or 4, loaded where it is installed: its kernel for single rays.
+//! Embree 3 or 4, loaded if it is installed: its kernel for single rays.
 
 use super::kernels::{Found, Kernel, NarrowRay, Rays};
 use bspscope::primitive::Primitive;
@@ -9,7 +9,7 @@ use std::mem::ManuallyDrop;
 
 type Handle = *mut c_void;
 
-/// `RTCRayHit`, aligned as Embree wants it; with room for the instance identifiers of any build.
+/// `RTCRayHit`, with the alignment that Embree requires and room for the instance identifiers of any build.
 #[repr(C, align(16))]
 struct RayHit {
     origin: [f32; 3],
@@ -44,7 +44,7 @@ pub struct Embree {
     scene: Handle,
 }
 
-// Embree's scenes may be asked from any thread once they are committed.
+// Committed scenes of Embree may be used from any thread.
 unsafe impl Sync for Embree {}
 
 /// Names under which the dynamic linker may know Embree, with the version.
@@ -56,11 +56,11 @@ const NAMES: [(&str, u32); 4] = [
 ];
 
 impl Embree {
-    /// Embree's tree of a scene of triangles or of spheres, built with its defaults; `None` where
-    /// Embree is not installed.
+    /// Builds Embree's tree of a scene of triangles or spheres, with default settings; `None` if Embree is
+    /// not installed.
     pub fn new(scene: &Scene, threads: usize) -> Option<Embree> {
         let (library, version) = NAMES.into_iter().find_map(|(name, version)| {
-            // SAFETY: Embree's initialisers have no preconditions.
+            // SAFETY: Embree's initializers have no preconditions.
             let library = unsafe { Library::new(name) }.ok()?;
             Some((library, version))
         })?;
@@ -181,7 +181,7 @@ impl Kernel for Embree {
     }
 
     fn any(&self, rays: Rays<'_>, blocked: &mut Vec<bool>) {
-        // A blocked ray's end becomes −∞.
+        // Embree sets the end of a blocked ray to −∞.
         self.ask(b"rtcOccluded1", rays.narrow, |hit| {
             blocked.push(hit.far < 0.0)
         });

@@ -1,11 +1,11 @@
-//! What is compared: every kernel answers the same rays.
+//! The interface of the compared kernels.
 
 use bspscope::geometry::Ray;
 
-/// Distance and number of the nearest object, if there is one.
+/// Distance and index of the closest object, if any.
 pub type Found = Option<(f64, u32)>;
 
-/// A ray as most peers take it: 32 bytes.
+/// A ray in the layout of most peers: 32 bytes.
 #[derive(Clone, Copy)]
 pub struct NarrowRay {
     pub origin: [f32; 3],
@@ -25,14 +25,14 @@ impl From<&Ray> for NarrowRay {
     }
 }
 
-/// The same rays in both forms; a kernel takes the one it works with.
+/// The same rays in both layouts.
 #[derive(Clone, Copy)]
 pub struct Rays<'a> {
     pub wide: &'a [Ray],
     pub narrow: &'a [NarrowRay],
 }
 
-/// A tree with its traversal. Answers are appended.
+/// A tree with its traversal. Methods append their answers.
 pub trait Kernel: Sync {
     fn closest(&self, rays: Rays<'_>, found: &mut Vec<Found>);
     fn any(&self, rays: Rays<'_>, blocked: &mut Vec<bool>);

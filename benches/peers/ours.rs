@@ -4,12 +4,13 @@ use super::kernels::{Found, Kernel, Rays};
 use bspscope::primitive::{Precision, Shapes};
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
+use bspscope::structure::SimdTree;
 use bspscope::structure::{BuildSettings, MaxDepth, Method, Tree, build as build_tree};
 use bspscope::trace::{
-    Batch, Hit, InstructionSet, RayKind, RayTracer, ScalarKernel, SimdKernel, SimdMode, SimdTree,
+    Batch, Hit, InstructionSet, RayKind, RayTracer, ScalarKernel, SimdKernel, SimdMode,
 };
 
-/// The tree that all our kernels walk, built on one thread as the others' are.
+/// Builds the tree of all our kernels, on one thread as the others'.
 pub fn build(scene: &Scene) -> Tree {
     let settings = BuildSettings {
         d_max: MaxDepth::Fixed(MaxDepth::LIMIT),
@@ -20,7 +21,7 @@ pub fn build(scene: &Scene) -> Tree {
     pool.expect("a thread").install(build).expect("a tree")
 }
 
-/// All kernels; the first is the scalar one in `f64`.
+/// Returns all kernels; the first is the scalar kernel in `f64`.
 pub fn kernels<'a>(
     scene: &'a Scene,
     tree: &'a Tree,
@@ -76,7 +77,7 @@ impl Simd<'_> {
     }
 }
 
-/// Rays of a call: a few tiles of a picture.
+/// Rays per call: a few tiles of an image.
 const CALL: usize = 8192;
 
 impl Kernel for Simd<'_> {

@@ -1,4 +1,4 @@
-//! The five sets of rays, all coordinates those of an `f32`.
+//! The five sets of rays. All coordinates are representable as `f32`.
 
 use super::scenes::Subject;
 use bspscope::geometry::{Ray, Vec3};
@@ -7,11 +7,11 @@ use bspscope::trace::Hit;
 
 /// Rays of one kind.
 pub struct RaySet {
-    /// One letter, as tables have it.
+    /// One letter, for tables.
     pub letter: char,
     pub name: &'static str,
     pub rays: Vec<Ray>,
-    /// Whether anything or the nearest is asked for.
+    /// Whether the query is for any hit instead of the closest.
     pub any: bool,
 }
 
@@ -24,11 +24,11 @@ const SETS: [(char, &str); 5] = [
     ('A', "ambient"),
 ];
 
-/// Numbers without pattern: xorshift64* (S. Vigna, 2016).
+/// Pseudo-random numbers: xorshift64* (S. Vigna, 2016).
 struct Random(u64);
 
 impl Random {
-    /// From 0 to 1.
+    /// Returns a number from 0 to 1.
     fn next(&mut self) -> f64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
@@ -36,7 +36,7 @@ impl Random {
         (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// A direction, all as likely.
+    /// Returns a uniformly distributed direction.
     fn direction(&mut self) -> Vec3 {
         let z = 1.0 - 2.0 * self.next();
         let angle = std::f64::consts::TAU * self.next();
@@ -50,7 +50,7 @@ fn ray(origin: Vec3, direction: Vec3, end: f64) -> Ray {
     Ray::to(origin, direction, f64::from(end as f32))
 }
 
-/// The sets for pictures of `size` × `size` pixels; `closest` gives the nearest hits.
+/// Returns the sets for images of `size` × `size` pixels. `closest` computes closest hits.
 pub fn ray_sets(subject: &Subject, size: u32, closest: impl Fn(&[Ray]) -> Vec<Hit>) -> Vec<RaySet> {
     let scene = &subject.scene;
     let bounds = scene.bounds();
@@ -64,7 +64,7 @@ pub fn ray_sets(subject: &Subject, size: u32, closest: impl Fn(&[Ray]) -> Vec<Hi
         .camera()
         .view(size, size, bspscope::scene::Sampling::Center)
         .expect("the camera has a view");
-    // By tiles of 4 × 4 pixels, as kernels for packets want them.
+    // In tiles of 4 × 4 pixels, for packet kernels.
     let primary: Vec<Ray> = (0..size * size)
         .map(|i| {
             let (tile, k) = (i / 16, i % 16);

@@ -1,4 +1,4 @@
-//! The scenes of the comparison. All coordinates are those of an `f32`, so that every peer gets the
+//! The scenes of the comparison. All coordinates are representable as `f32`, so that every peer has the
 //! same geometry.
 
 use crate::terrain;
@@ -7,7 +7,7 @@ use bspscope::primitive::{Primitive, Sphere, Triangle};
 use bspscope::scene::builtin::generate;
 use bspscope::scene::{Camera, Material, Scene, SceneParts};
 
-/// A scene and where its shadow rays go.
+/// A scene, and the target of its shadow rays.
 pub struct Subject {
     pub name: &'static str,
     pub scene: Scene,
@@ -103,7 +103,7 @@ fn balls_tessellated() -> Subject {
     subject("balls-tessellated", objects.collect(), camera, light)
 }
 
-/// An icosahedron whose triangles are divided in four so many times, vertices on the unit sphere.
+/// Returns an icosahedron whose triangles are repeatedly divided in four, with vertices on the unit sphere.
 fn unit_sphere(divisions: u32) -> Vec<[Vec3; 3]> {
     let p = (1.0 + 5f64.sqrt()) / 2.0;
     let corners = [

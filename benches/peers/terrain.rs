@@ -1,4 +1,4 @@
-//! Terrain of any size. All coordinates are those of an `f32`.
+//! Terrain of any size. All coordinates are representable as `f32`.
 
 use bspscope::geometry::Vec3;
 use bspscope::primitive::{Primitive, Triangle};
@@ -9,7 +9,7 @@ fn triangle(vertices: [Vec3; 3]) -> Option<Primitive> {
     Triangle::new(rounded, None).ok().map(Primitive::Triangle)
 }
 
-/// Hills of nine octaves of noise over a square of `n` × `n` quadrangles, two triangles each.
+/// Returns hills of nine octaves of noise over a square of `n` × `n` quadrangles of two triangles each.
 pub fn scene(n: usize) -> Scene {
     let place = |i: usize| i as f64 / n as f64;
     let point = |i: usize, j: usize| {
@@ -52,7 +52,7 @@ pub fn scene(n: usize) -> Scene {
     })
 }
 
-/// Smooth noise from 0 to 1 with values hashed from a lattice.
+/// Returns smooth noise from 0 to 1, from values hashed on a lattice.
 fn noise(x: f64, y: f64, seed: u32) -> f64 {
     let at = |x: f64, y: f64| {
         let (x, y) = (x as u32, y as u32);

@@ -3,7 +3,8 @@
 use super::args::PaperArgs;
 use super::outcome::Outcome;
 use super::{bar, output};
-use crate::measure::paper::{Conditions, PaperScene, SCENES, reproduce};
+use crate::jobs::RepeatPaper;
+use crate::measure::paper::{Conditions, PaperScene, SCENES};
 use crate::present::report::paper::PAPER_WRITERS;
 use anyhow::Result;
 
@@ -19,13 +20,8 @@ pub fn run(args: &PaperArgs) -> Result<Outcome> {
     } else {
         args.scenes.clone()
     };
-    let mut results = Vec::new();
-    for scene in scenes {
-        let stage = format!("{}: both methods, building, tracing, counting", scene.name);
-        results.push(bar::with_bar(&stage, |progress| {
-            reproduce(scene, &conditions, progress, |_| ())
-        })?);
-    }
+    let job = RepeatPaper { scenes, conditions };
+    let results = bar::follow(job, |_| Ok(()))?;
     output::write_with(PAPER_WRITERS, &results[..], &args.report)?;
     let is_comparable = |reasons: &Vec<_>| reasons.is_empty();
     if results

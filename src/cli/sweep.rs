@@ -4,9 +4,8 @@
 use super::args::{ChartArgs, SweepArgs};
 use super::outcome::Outcome;
 use super::{bar, output, resolve};
-use crate::measure::sweep::{
-    Axis, Form, Key, Plan, Point, Row, answers, done, header, line, read_rows,
-};
+use crate::jobs::Sweep;
+use crate::measure::sweep::{Axis, Form, Key, Plan, Row, answers, done, header, line, read_rows};
 use crate::present::chart::{Chart, png, svg};
 use crate::setup::Setup;
 use crate::structure::Method;
@@ -14,6 +13,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use std::fs::{self, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Width and height of charts in pixels.
 const CHART: (u32, u32) = (960, 600);
@@ -23,9 +23,8 @@ pub fn run(args: &SweepArgs) -> Result<Outcome> {
     output::check_place(Some(&args.output))?;
     check_charts(&args.charts)?;
     let plan = plan(args)?;
-    let first = &plan.points[0].setup;
-    let mut scene = resolve::scene(&first.scene)?;
-    let mut loaded = first.scene.clone();
+    let first = plan.points[0].setup.clone();
+    let scene = resolve::scene(&first.scene)?;
     for point in &plan.points {
         point.setup.render.view(&scene)?;
         point.setup.build.check()?;
@@ -54,30 +53,19 @@ pub fn run(args: &SweepArgs) -> Result<Outcome> {
     if complete == 0 {
         file.write_all(header(form).as_bytes()).with_context(name)?;
     }
-    for (i, (point, _)) in points.iter().enumerate().skip(at) {
-        let Point { setup, key } = &plan.points[*point];
-        if setup.scene != loaded {
-            scene = resolve::scene(&setup.scene)?;
-            loaded = setup.scene.clone();
-        }
-        let mut stage = format!(
-            "point {} of {}: {}, D_MAX {}, N_OILF {}",
-            i + 1,
-            points.len(),
-            key.method,
-            key.d_max,
-            key.n_oilf
-        );
-        let varied = key.varied();
-        if !varied.is_empty() {
-            stage += &format!(", {varied}");
-        }
-        let row = bar::with_bar(&stage, |progress| plan.row(&scene, *point, progress))?;
-        // One call a row, so that what a stop leaves is whole rows and at most one torn one.
+    let points = points[at..].iter().map(|(number, _)| *number);
+    let job = Sweep {
+        points: points.collect(),
+        scene: (first.scene.clone(), Arc::new(scene)),
+        plan: Arc::new(plan),
+    };
+    bar::follow(job, |row| {
+        // One call per row, so that an interruption leaves whole rows and at most one torn row.
         file.write_all(line(&row, form).as_bytes())
             .with_context(name)?;
         rows.push(row);
-    }
+        Ok(())
+    })?;
     finish(&rows, &args.charts)?;
     Ok(Outcome::Done)
 }

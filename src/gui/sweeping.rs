@@ -116,14 +116,19 @@ impl State {
         if rows.is_empty() {
             sweeping.chosen = None;
         }
-        let (scene, first) = (Arc::clone(&shown.scene), rows.len());
+        let scene = (of.scene.clone(), Arc::clone(&shown.scene));
+        let points = (rows.len()..plan.points.len()).collect();
         let found = Found {
             of,
             reload,
             plan: Arc::clone(&plan),
             rows,
         };
-        let handle = self.jobs.start(Sweep { scene, plan, first });
+        let handle = self.jobs.start(Sweep {
+            plan,
+            points,
+            scene,
+        });
         sweeping.study.follow(handle, found);
     }
 

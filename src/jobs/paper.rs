@@ -14,7 +14,8 @@ pub struct RepeatPaper {
 impl Job for RepeatPaper {
     /// A scene as far as it was measured.
     type Partial = Reproduction;
-    type Output = ();
+    /// One result per scene.
+    type Output = Vec<Reproduction>;
 
     fn slot(&self) -> Slot {
         Slot::named("paper's experiment")
@@ -24,15 +25,16 @@ impl Job for RepeatPaper {
         Priority::Study
     }
 
-    fn run(self, context: &Context<Reproduction>) -> Result<(), JobError> {
+    fn run(self, context: &Context<Reproduction>) -> Result<Vec<Reproduction>, JobError> {
+        let mut results = Vec::new();
         for scene in self.scenes {
             context.stage(scene.name);
-            context.timed(|progress| {
+            results.push(context.timed(|progress| {
                 reproduce(scene, &self.conditions, progress, |partial| {
                     context.send(partial.clone());
                 })
-            })?;
+            })?);
         }
-        Ok(())
+        Ok(results)
     }
 }

@@ -15,13 +15,15 @@ const MIN_ROUNDINGS: f64 = 16.0;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NotInF32 {
     #[error(
-        "object {} is {:.1} times as wide as f32 rounds its coordinates, {MIN_ROUNDINGS} are needed",
+        "object {} is only {:.1} times as wide as the rounding of its coordinates in f32, at least \
+         {MIN_ROUNDINGS} times is needed",
         .0.object, .0.min_width
     )]
     Object(ThinnestObject),
     /// The width of a pixel, in multiples of the rounding of a hit.
     #[error(
-        "so near, a pixel is {0:.1} times as wide as f32 rounds a hit, {MIN_ROUNDINGS} are needed"
+        "from so near, a pixel is only {0:.1} times as wide as the rounding of a hit in f32, at least \
+         {MIN_ROUNDINGS} times is needed"
     )]
     Pixel(f64),
 }
@@ -96,7 +98,7 @@ impl RenderSettings {
             PrecisionChoice::Auto => match fits() {
                 Ok(()) => (
                     Precision::F32,
-                    "every object and every pixel is wide enough for it".into(),
+                    "every object and every pixel is wide enough for f32".into(),
                 ),
                 Err(reason) => (Precision::F64, format!("because {reason}")),
             },

@@ -80,7 +80,7 @@ impl Experiment {
         if let Some(end) = end {
             self.running = None;
             self.ended = match end {
-                End::Done(()) | End::Replaced => None,
+                End::Done(_) | End::Replaced => None,
                 End::Cancelled => Some("cancelled; what was measured stays".into()),
                 End::Failed(why) => Some(why),
             };

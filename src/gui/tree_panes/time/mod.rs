@@ -62,7 +62,7 @@ impl Source {
             }
             Source::InPlace => {
                 "Tests that were made are made again, and rays walked through the tree without tests: \
-                 always by the plain kernel in f64. The constant is not among them."
+                 always by the scalar kernel in f64. The constant is not among them."
             }
         }
     }
