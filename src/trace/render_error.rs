@@ -8,7 +8,9 @@ use crate::scene::CameraError;
 pub enum RenderError {
     #[error(transparent)]
     Camera(#[from] CameraError),
-    #[error("the image is {width} × {height} pixels, but width and height must be from 1 to {limit}")]
+    #[error(
+        "the image is {width} × {height} pixels, but width and height must be from 1 to {limit}"
+    )]
     Resolution { width: u32, height: u32, limit: u32 },
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

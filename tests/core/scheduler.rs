@@ -1,6 +1,7 @@
 //! The scheduler of jobs: whatever is requested in whatever order, it comes to rest with the last
 //! request of every slot answered, and timed units run alone.
 
+use crate::support::random::Random;
 use bspscope::jobs::{
     Context, End, Handle, Job, JobError, Priority, Run, Scheduler, Slot, Standing,
 };
@@ -14,11 +15,13 @@ struct Watch {
     /// Units that run now, without those of light jobs.
     units: AtomicI64,
     timed: AtomicI64,
+    /// Those of each of [`SLOTS`].
+    by_slot: [AtomicI64; SLOTS.len()],
     /// Units that have run, to show that something is tested.
     all_units: AtomicU64,
     all_timed: AtomicU64,
     interrupted: AtomicU64,
-    /// Whether a timed unit ran beside another unit.
+    /// Whether a timed unit ran beside another unit, or two units of one slot at once.
     disturbed: AtomicBool,
     /// Whether jobs that hold on may end.
     released: AtomicBool,
@@ -48,6 +51,11 @@ impl Virtual {
     fn work(&self, timed: bool, progress: &Progress, step: Step) -> Result<(), Cancelled> {
         let watch = &self.watch;
         let counts = self.priority.takes_turns();
+        let place = SLOTS.iter().position(|slot| *slot == self.slot);
+        let of_slot = place.map(|place| &watch.by_slot[place]).filter(|_| counts);
+        if of_slot.is_some_and(|units| units.fetch_add(1, SeqCst) > 0) {
+            watch.disturbed.store(true, SeqCst);
+        }
         if counts {
             let before = watch.units.fetch_add(1, SeqCst);
             if timed {
@@ -75,6 +83,9 @@ impl Virtual {
                 watch.timed.fetch_sub(1, SeqCst);
             }
             watch.units.fetch_sub(1, SeqCst);
+        }
+        if let Some(units) = of_slot {
+            units.fetch_sub(1, SeqCst);
         }
         result
     }
@@ -110,27 +121,17 @@ impl Job for Virtual {
     }
 }
 
-/// SplitMix64.
-struct Random(u64);
+fn one_of<T: Copy>(random: &mut Random, choices: &[T]) -> T {
+    choices[random.below(choices.len())]
+}
 
-impl Random {
-    fn below(&mut self, limit: u64) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) % limit
-    }
-
-    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[self.below(choices.len() as u64) as usize]
-    }
-
-    fn steps(&mut self) -> Vec<Step> {
-        let count = 1 + self.below(4);
-        let mut steps: Vec<_> = (0..count)
-            .map(|_| {
-                self.one_of(&[
+fn random_steps(random: &mut Random) -> Vec<Step> {
+    let count = 1 + random.below(4);
+    let mut steps: Vec<_> = (0..count)
+        .map(|_| {
+            one_of(
+                random,
+                &[
                     Step::Unit,
                     Step::Unit,
                     Step::Timed,
@@ -138,16 +139,16 @@ impl Random {
                     Step::Send,
                     Step::Send,
                     Step::Hold,
-                ])
-            })
-            .collect();
-        match self.below(8) {
-            0 => steps.push(Step::Fail),
-            1 => steps.push(Step::Panic),
-            _ => {}
-        }
-        steps
+                ],
+            )
+        })
+        .collect();
+    match random.below(8) {
+        0 => steps.push(Step::Fail),
+        1 => steps.push(Step::Panic),
+        _ => {}
     }
+    steps
 }
 
 const SLOTS: [Slot; 4] = [
@@ -215,11 +216,11 @@ fn sequence(seed: u64, totals: &Watch) {
     let scheduler = Scheduler::new(|| ());
     let mut last: [Option<Request>; SLOTS.len()] = [const { None }; SLOTS.len()];
     let mut replaced = Vec::new();
-    for id in 0..4 + random.below(8) {
-        let place = random.below(SLOTS.len() as u64) as usize;
+    for id in 0..4 + random.below(8) as u64 {
+        let place = random.below(SLOTS.len());
         match random.below(12) {
             0..5 => {
-                let steps = random.steps();
+                let steps = random_steps(random);
                 let request = |handle| Request {
                     handle,
                     id,
@@ -231,7 +232,7 @@ fn sequence(seed: u64, totals: &Watch) {
                 };
                 let handle = scheduler.start(Virtual {
                     slot: SLOTS[place],
-                    priority: random.one_of(&PRIORITIES),
+                    priority: one_of(random, &PRIORITIES),
                     steps: steps.clone(),
                     id,
                     watch: Arc::clone(&watch),
