@@ -88,6 +88,7 @@ fn bad_normals_of_obj_never_refuse_a_face() {
         "-nan(ind) 0 1",
         "-1.#IND00 -1.#IND00 -1.#IND00",
         "1.#QNAN 0 0",
+        "-1.#J 0 0",
         "inf 0 0",
         "-1.#INF 0 0",
         "1e999 0 0",
@@ -1033,13 +1034,14 @@ fn bad_colors_and_normals_of_nff_never_refuse_the_geometry() {
 fn other_formats_that_are_called_nff_are_named() {
     let error = try_read("nff", b"// a room\n").unwrap_err().to_string();
     assert!(error.contains("an entity"), "{error}");
-    let error = try_read("nff", b"nff\nversion 2.10\nviewpos 0 0 0\n")
-        .unwrap_err()
-        .to_string();
-    assert!(
-        error.contains("Sense8") && error.contains("another format"),
-        "{error}"
-    );
+    for start in ["", "// a room\n\n", "# by hand\n"] {
+        let text = format!("{start}NFF\nversion 2.10\nviewpos 0 0 0\n");
+        let error = try_read("nff", text.as_bytes()).unwrap_err().to_string();
+        assert!(
+            error.contains("Sense8") && error.contains("another format"),
+            "{error}"
+        );
+    }
     for entity in [
         "include \"robots.aff\"",
         "xs 1 1 1",

@@ -14,8 +14,8 @@ use std::collections::HashMap;
 
 /// Maximum number of objects and skipped faces of a file, including instances of meshes.
 ///
-/// A triangle takes at most [`BYTES_PER_TRIANGLE`], so this many take at most 11 GiB while a file is
-/// read.
+/// A triangle takes at most [`BYTES_PER_TRIANGLE`], so this many take at most 11 GiB while a file
+/// is read.
 pub const MAX_FACES: usize = 1 << 25;
 
 /// Maximum memory that a triangle with vertex normals takes, in bytes: the object, its material

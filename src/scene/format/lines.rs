@@ -179,17 +179,16 @@ fn unusual_number(word: &[u8]) -> Option<f64> {
         return Some(f64::NAN);
     }
     if let Some(name) = unsigned.strip_prefix(b"1.#") {
-        let name = name.trim_ascii_end();
-        let is = |known: &[u8]| {
-            let digits = name.strip_prefix(known);
-            digits.is_some_and(|digits| digits.iter().all(u8::is_ascii_digit))
-        };
-        if is(b"inf") {
+        if let Some(digits) = name.strip_prefix(b"inf")
+            && digits.iter().all(u8::is_ascii_digit)
+        {
             let infinite = f64::INFINITY;
             return Some(if word[0] == b'-' { -infinite } else { infinite });
         }
-        let is_nan = [&b"ind"[..], b"qnan", b"snan", b"nan"].into_iter().any(is);
-        return is_nan.then_some(f64::NAN);
+        // IND, QNAN or SNAN, or what is left of these in few digits, such as `1.#J`.
+        let is_name = name.first().is_some_and(u8::is_ascii_alphabetic)
+            && name.iter().all(u8::is_ascii_alphanumeric);
+        return is_name.then_some(f64::NAN);
     }
     let exponent = word.iter().position(|b| *b == b'd')?;
     let digits = |bytes: &[u8]| {

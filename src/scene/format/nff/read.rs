@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use crate::scene::camera::{Camera, CameraError};
 use crate::scene::format::builder::SceneBuilder;
 use crate::scene::format::error::ReadError;
-use crate::scene::format::lines::{number, refuse_wide_text};
+use crate::scene::format::lines::{Lines, number, refuse_wide_text};
 use crate::scene::format::place::Place;
 use crate::scene::material::{Light, Material};
 use crate::scene::note::{Note, NoteKind};
@@ -54,18 +54,20 @@ pub fn read(bytes: &[u8], progress: &Progress) -> Result<SceneParts, ReadError> 
     Ok(parts)
 }
 
-/// Refuses the Neutral File Format of Sense8's WorldToolKit, which begins with `nff` and a version.
+/// Refuses the Neutral File Format of Sense8's WorldToolKit, whose first word is `nff`, perhaps
+/// after lines of comments that begin with `//`.
 fn refuse_sense8(bytes: &[u8], progress: &Progress) -> Result<(), ReadError> {
-    let mut words = Words::new(bytes, progress);
-    let Some(first) = words.next()? else {
-        return Ok(());
-    };
-    let second = words.next()?;
-    let is = |word: &Word<'_>, text: &[u8]| word.bytes.eq_ignore_ascii_case(text);
-    if is(&first, b"nff") && second.is_some_and(|second| is(&second, b"version")) {
-        let expected = "the Neutral File Format of E. Haines";
-        let found = "that of Sense8's WorldToolKit, another format of the same name";
-        return Err(syntax(first.line, expected, found));
+    let mut lines = Lines::new(bytes, progress);
+    while let Some(line) = lines.next_with_words()? {
+        match line.words().next().unwrap_or_default() {
+            comment if comment.starts_with(b"//") || comment.starts_with(b"#") => {}
+            word if word.eq_ignore_ascii_case(b"nff") => {
+                let expected = "the Neutral File Format of E. Haines";
+                let found = "that of Sense8's WorldToolKit, another format of the same name";
+                return Err(ReadError::at(line.place(), expected, found));
+            }
+            _ => return Ok(()),
+        }
     }
     Ok(())
 }
