@@ -255,11 +255,7 @@ fn known_colors<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> 
 }
 
 fn known_coloring<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
-    names::one_of(
-        from,
-        "coloring of leaves",
-        COLORINGS.iter().map(|c| c.name),
-    )
+    names::one_of(from, "coloring of leaves", COLORINGS.iter().map(|c| c.name))
 }
 
 /// The 3D view.

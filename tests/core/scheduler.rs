@@ -121,26 +121,19 @@ impl Job for Virtual {
     }
 }
 
-fn one_of<T: Copy>(random: &mut Random, choices: &[T]) -> T {
-    choices[random.below(choices.len())]
-}
-
 fn random_steps(random: &mut Random) -> Vec<Step> {
     let count = 1 + random.below(4);
     let mut steps: Vec<_> = (0..count)
         .map(|_| {
-            one_of(
-                random,
-                &[
-                    Step::Unit,
-                    Step::Unit,
-                    Step::Timed,
-                    Step::Timed,
-                    Step::Send,
-                    Step::Send,
-                    Step::Hold,
-                ],
-            )
+            random.one_of(&[
+                Step::Unit,
+                Step::Unit,
+                Step::Timed,
+                Step::Timed,
+                Step::Send,
+                Step::Send,
+                Step::Hold,
+            ])
         })
         .collect();
     match random.below(8) {
@@ -232,7 +225,7 @@ fn sequence(seed: u64, totals: &Watch) {
                 };
                 let handle = scheduler.start(Virtual {
                     slot: SLOTS[place],
-                    priority: one_of(random, &PRIORITIES),
+                    priority: random.one_of(&PRIORITIES),
                     steps: steps.clone(),
                     id,
                     watch: Arc::clone(&watch),

@@ -1,13 +1,12 @@
-//! A report as a page, put together: the pictures of every run and the commands that repeat it.
+//! The report as a page: the pictures of each run, and the commands that repeat it.
 
 use super::{HeatSheet, encoded};
 use crate::measure::Measurement;
 use crate::measure::heat::{PixelCounts, RayFilter, heatmap};
 use crate::present::overlay::{COLORMAPS, Range, Scale};
 use crate::present::report::{Figure, Machine, Page, Report, now};
-use crate::setup::Setup;
+use crate::setup::{Setup, measure_command};
 use crate::trace::Picture;
-use crate::workspace::measure_command;
 use image::{ImageError, ImageFormat};
 use std::io::{Error, Result, Write};
 
@@ -78,7 +77,7 @@ fn heatmaps(
     HEATMAPS.into_iter().map(figure).collect()
 }
 
-/// The command that measures a run again.
+/// Returns the command that repeats a run.
 fn command(report: &Report, run: &Measurement) -> String {
     measure_command(&Setup {
         scene: report.scene.request.clone(),

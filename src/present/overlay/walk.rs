@@ -1,13 +1,13 @@
-//! The walk of a ray through the tree: the leaves it visited in order, and one step in detail.
+//! The traversal of a ray: the leaves that it visits in order, and one step in detail.
 
 use super::lines::{Line, box_lines, order_color};
 use crate::geometry::Vec3;
 use crate::structure::Tree;
 use crate::trace::{RayPath, Step};
 
-/// Colour of the ray inside the current cell.
+/// Color of the ray inside the current cell.
 pub const INTERVAL: [u8; 3] = [90, 255, 120];
-/// Colour of the cells that wait.
+/// Color of the cells that wait.
 pub const WAITING: [u8; 3] = [200, 200, 200];
 
 const SOLID: u8 = 255;
@@ -17,7 +17,7 @@ fn rgba([r, g, b]: [u8; 3], strokes: u8) -> [u8; 4] {
     [r, g, b, strokes]
 }
 
-/// The outlines of the leaves that a ray visited, coloured by their order; empty ones are dashed,
+/// The outlines of the leaves that a ray visited, colored by their order; empty ones are dashed,
 /// and those after the current step thin.
 pub fn visited_lines(path: &RayPath, step: usize, center: Vec3) -> Vec<Line> {
     let n = path.leaves().count();
