@@ -19,7 +19,8 @@ mod scenes;
 #[path = "peers/terrain.rs"]
 mod terrain;
 
-use bspscope::trace::{Hit, SimdTree};
+use bspscope::structure::SimdTree;
+use bspscope::trace::Hit;
 use clap::Parser;
 use kernels::{Found, Kernel, NarrowRay, Rays};
 use rays::{RaySet, ray_sets};

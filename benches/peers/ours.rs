@@ -4,9 +4,10 @@ use super::kernels::{Found, Kernel, Rays};
 use bspscope::primitive::{Precision, Shapes};
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
+use bspscope::structure::SimdTree;
 use bspscope::structure::{BuildSettings, MaxDepth, Method, Tree, build as build_tree};
 use bspscope::trace::{
-    Batch, Hit, InstructionSet, RayKind, RayTracer, ScalarKernel, SimdKernel, SimdMode, SimdTree,
+    Batch, Hit, InstructionSet, RayKind, RayTracer, ScalarKernel, SimdKernel, SimdMode,
 };
 
 /// Builds the tree of all our kernels, on one thread as the others'.

@@ -24,7 +24,7 @@ pub enum Unequal {
     },
     /// The camera (`OP_CAMERA`).
     Camera,
-    /// So many pixels have another colour; the first few by column and row.
+    /// So many pixels have another color; the first few by column and row.
     Pixels { count: usize, first: Vec<[u32; 2]> },
     /// The pictures have another size.
     Size,
@@ -91,7 +91,7 @@ pub fn unequal(a: (&Measurement, &Picture), b: (&Measurement, &Picture)) -> Vec<
     found
 }
 
-/// The pixels whose colours differ, counted row by row; none if the pictures have another size.
+/// The pixels whose colors differ, counted row by row; none if the pictures have another size.
 pub fn differing_pixels(a: &Picture, b: &Picture) -> Vec<u32> {
     if (a.width, a.height) != (b.width, b.height) {
         return Vec::new();

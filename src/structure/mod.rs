@@ -5,7 +5,6 @@
 
 mod build;
 mod cost;
-mod derived;
 mod find;
 mod frame;
 mod index;
@@ -14,6 +13,7 @@ mod moment;
 mod node;
 mod registry;
 mod settings;
+pub(crate) mod simd_tree;
 pub mod split;
 mod tree;
 mod validate;
@@ -27,6 +27,7 @@ pub use index::{NodeFacts, TreeIndex};
 pub use moment::Moment;
 pub use node::{Node, NodeKind, StopReason};
 pub use settings::{BuildSettings, Constants, MaxDepth, Method, OverlapRule, SettingsError};
+pub use simd_tree::SimdTree;
 pub use tree::{CellOfNode, Tree};
 pub use validate::{Invalid, validate};
 pub use voxels::Voxels;

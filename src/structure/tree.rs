@@ -1,11 +1,12 @@
 //! The finished tree: nodes, references, cells.
 
-use super::derived::Derived;
 use super::frame::Frame;
 use super::node::{Node, NodeKind, StopReason};
 use super::settings::BuildSettings;
+use super::simd_tree::SimdTree;
 use super::voxels::Voxels;
 use crate::geometry::{Aabb, Axis};
+use std::sync::OnceLock;
 
 /// A finished, immutable tree. Node 0 is the root, at depth 0.
 ///
@@ -20,7 +21,8 @@ pub struct Tree {
     pub(super) settings: BuildSettings,
     pub(super) depth_limit: u32,
     pub(super) depth_reached: u32,
-    pub(super) derived: Derived,
+    /// Built when a SIMD kernel first needs it.
+    pub(super) simd_tree: OnceLock<SimdTree>,
 }
 
 /// A node with its cell, as returned by [`Tree::cells`].
@@ -88,14 +90,6 @@ impl Tree {
     /// Returns the maximum depth of all leaves, `D_REACH`.
     pub fn depth_reached(&self) -> u32 {
         self.depth_reached
-    }
-
-    /// What another module makes of the tree, once: one thing a tree, kept as long as it.
-    ///
-    /// # Panics
-    /// If something of another type is kept already.
-    pub(crate) fn derived<T: Send + Sync + 'static>(&self, make: impl FnOnce() -> T) -> &T {
-        self.derived.get(make)
     }
 
     /// Returns the bytes of nodes, references and voxels.

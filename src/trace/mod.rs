@@ -52,7 +52,7 @@ pub use render::{
 pub use render_error::RenderError;
 pub use scalar_kernel::ScalarKernel;
 pub use settings::RenderSettings;
-pub use simd::{InstructionSet, SimdKernel, SimdMode, SimdTree};
+pub use simd::{InstructionSet, SimdKernel, SimdMode};
 pub use stack::Scratch;
 pub use timed_kernel::TimedKernel;
 #[cfg(test)]

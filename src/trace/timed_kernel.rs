@@ -1,11 +1,12 @@
 //! The kernel of timed rendering.
 
-use super::{Batch, Hit, KernelChoice, RayTracer, ScalarKernel, SimdKernel, SimdTree};
+use super::{Batch, Hit, KernelChoice, RayTracer, ScalarKernel, SimdKernel};
 use crate::geometry::Ray;
 use crate::primitive::Shapes;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::structure::Tree;
+use crate::structure::simd_tree::SimdTree;
 
 /// Batches with fewer rays go to the scalar kernel. It is as fast for them, as most lanes would idle
 /// (`cargo bench --bench peers`).

@@ -251,15 +251,11 @@ fn known_scale<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
 }
 
 fn known_colors<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
-    names::one_of(from, "colour map", COLORMAPS.iter().map(|map| map.name))
+    names::one_of(from, "color map", COLORMAPS.iter().map(|map| map.name))
 }
 
 fn known_coloring<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
-    names::one_of(
-        from,
-        "colouring of leaves",
-        COLORINGS.iter().map(|c| c.name),
-    )
+    names::one_of(from, "coloring of leaves", COLORINGS.iter().map(|c| c.name))
 }
 
 /// The 3D view.

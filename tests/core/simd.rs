@@ -5,10 +5,11 @@ use bspscope::geometry::{Ray, Vec3};
 use bspscope::primitive::{Cone, Polygon, Precision, Primitive, Sphere, Triangle};
 use bspscope::progress::Progress;
 use bspscope::scene::{Camera, Material, Scene, SceneParts, SceneRequest, load};
+use bspscope::structure::SimdTree;
 use bspscope::structure::{BuildSettings, MaxDepth, Method, OverlapRule, Tree, build};
 use bspscope::trace::{
     Hit, InstructionSet, KernelChoice, Picture, RenderSettings, Scratch, SimdKernel, SimdMode,
-    SimdTree, any_hit, closest_hit, render_timed, thread_pool,
+    any_hit, closest_hit, render_timed, thread_pool,
 };
 use std::io::Write;
 use std::sync::{Mutex, Once};

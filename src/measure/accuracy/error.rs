@@ -7,9 +7,9 @@ use serde::Serialize;
 /// The error of a picture p against a reference r of the same size.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ImageError {
-    /// Square root of the mean of (p − r)² over all pixels and colours; 0 if equal.
+    /// Square root of the mean of (p − r)² over all pixels and colors; 0 if equal.
     pub rmse: f64,
-    /// Largest |p − r| of any pixel and colour.
+    /// Largest |p − r| of any pixel and color.
     pub max: f64,
     /// Peak signal-to-noise ratio, −20 log₁₀ RMSE, in decibels; `None` (infinite) if equal.
     pub psnr: Option<f64>,
@@ -44,7 +44,7 @@ impl ImageError {
 }
 
 /// The error of every pixel of a picture p against a reference r: the square root of the mean of
-/// (p − r)² over its colours, 0 to 1. The RMSE is the square root of the mean of their squares.
+/// (p − r)² over its colors, 0 to 1. The RMSE is the square root of the mean of their squares.
 ///
 /// # Panics
 /// If there are not as many pixels in both.
@@ -59,7 +59,7 @@ pub fn pixel_errors(picture: &[[f32; 3]], reference: &[[f32; 3]]) -> Vec<f32> {
         .collect()
 }
 
-/// What a pixel has more than another, colour by colour.
+/// What a pixel has more than another, color by color.
 fn off(p: &[f32; 3], r: &[f32; 3]) -> [f64; 3] {
     std::array::from_fn(|i| f64::from(p[i].clamp(0.0, 1.0)) - f64::from(r[i].clamp(0.0, 1.0)))
 }

@@ -16,7 +16,7 @@ pub fn gaussian(radius: i32, sigma: f64) -> Kernel {
     kernel
 }
 
-/// `values` of a picture of so many pixels a row, each the sum of its neighbours by `rows`, then by
+/// `values` of a picture of so many pixels a row, each the sum of its neighbors by `rows`, then by
 /// `columns`. Beyond the border the outermost pixels go on.
 pub fn filtered(values: &[f64], width: usize, rows: &[f64], columns: &[f64]) -> Vec<f64> {
     let height = values.len() / width;

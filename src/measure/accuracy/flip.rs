@@ -2,7 +2,7 @@
 //! Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A Difference Evaluator for Alternating
 //! Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), 2020).
 //!
-//! Its one implementation as a library takes a C++ compiler and pictures of 8 bits a colour; this
+//! Its one implementation as a library takes a C++ compiler and pictures of 8 bits a color; this
 //! works on linear light as it is. Constants are those of the article.
 
 use super::filter::{Kernel, filtered, gaussian, kernel};
@@ -37,13 +37,13 @@ const TO_XYZ: [[f64; 3]; 3] = [
 pub fn flip(picture: &[[f32; 3]], reference: &[[f32; 3]], width: usize) -> f64 {
     let seen = [picture, reference].map(|pixels| Seen::new(pixels, width));
     let [p, r] = &seen;
-    let limit = largest_colour_difference();
+    let limit = largest_color_difference();
     let sum: f64 = (0..picture.len())
         .map(|i| {
-            let colour = redistributed(difference(p.lab[i], r.lab[i]).powf(0.7), limit);
+            let color = redistributed(difference(p.lab[i], r.lab[i]).powf(0.7), limit);
             let off = |a: f64, b: f64| (a - b).abs();
             let feature = off(p.edges[i], r.edges[i]).max(off(p.points[i], r.points[i]));
-            colour.powf(1.0 - (feature / SQRT_2).sqrt())
+            color.powf(1.0 - (feature / SQRT_2).sqrt())
         })
         .sum();
     sum / picture.len().max(1) as f64
@@ -51,7 +51,7 @@ pub fn flip(picture: &[[f32; 3]], reference: &[[f32; 3]], width: usize) -> f64 {
 
 /// A picture as the eye has it.
 struct Seen {
-    /// Lightness and colour after what the eye cannot resolve has blurred.
+    /// Lightness and color after what the eye cannot resolve has blurred.
     lab: Vec<[f64; 3]>,
     /// How much of an edge every pixel is.
     edges: Vec<f64>,
@@ -72,11 +72,11 @@ impl Seen {
             resolved(&channel(2), width, &[(34.1, 0.04), (13.5, 0.025)]),
         ];
         let lab = (0..pixels.len()).map(|i| lab([blurred[0][i], blurred[1][i], blurred[2][i]]));
-        let grey: Vec<f64> = opponent.iter().map(|v| (v[0] + 16.0) / 116.0).collect();
+        let gray: Vec<f64> = opponent.iter().map(|v| (v[0] + 16.0) / 116.0).collect();
         let [across, slope, bend] = features();
         let size = |kernel: &Kernel| -> Vec<f64> {
-            let x = filtered(&grey, width, kernel, &across);
-            let y = filtered(&grey, width, &across, kernel);
+            let x = filtered(&gray, width, kernel, &across);
+            let y = filtered(&gray, width, &across, kernel);
             x.iter().zip(y).map(|(x, y)| x.hypot(y)).collect()
         };
         Seen {
@@ -87,7 +87,7 @@ impl Seen {
     }
 }
 
-/// The colour space YCxCz of linear light.
+/// The color space YCxCz of linear light.
 fn opponent(rgb: [f64; 3]) -> [f64; 3] {
     let [x, y, z] = of_white(rgb);
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
@@ -101,8 +101,8 @@ fn of_white(rgb: [f64; 3]) -> [f64; 3] {
     })
 }
 
-/// CIELAB whose colour fades with darkness (Hunt), of a YCxCz that stands for a visible colour, or of
-/// the visible colour nearest by clipping.
+/// CIELAB whose color fades with darkness (Hunt), of a YCxCz that stands for a visible color, or of
+/// the visible color nearest by clipping.
 fn lab([y, cx, cz]: [f64; 3]) -> [f64; 3] {
     let y = (y + 16.0) / 116.0;
     let xyz = [y + cx / 500.0, y, y - cz / 200.0];
@@ -173,13 +173,13 @@ fn features() -> [Kernel; 3] {
     ]
 }
 
-/// How far colours are apart (HyAB).
+/// How far colors are apart (HyAB).
 fn difference(a: [f64; 3], b: [f64; 3]) -> f64 {
     (a[0] - b[0]).abs() + (a[1] - b[1]).hypot(a[2] - b[2])
 }
 
 /// The largest difference that there is, that of green and blue, to the power of 0.7.
-fn largest_colour_difference() -> f64 {
+fn largest_color_difference() -> f64 {
     difference(lab_of([0.0, 1.0, 0.0]), lab_of([0.0, 0.0, 1.0])).powf(0.7)
 }
 
@@ -208,7 +208,7 @@ mod tests {
         light as f32
     }
 
-    /// Slopes and edges of all colours.
+    /// Slopes and edges of all colors.
     fn picture(seed: u32, width: u32, height: u32) -> Vec<[f32; 3]> {
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         pixels
@@ -244,7 +244,7 @@ mod tests {
             ([128, 128, 128], [120, 120, 120], 0.1285912),
             ([200, 30, 30], [30, 200, 30], 0.9702024),
         ] {
-            let [a, b] = [a, b].map(|colour| vec![colour.map(linear); 64]);
+            let [a, b] = [a, b].map(|color| vec![color.map(linear); 64]);
             let flip = flip(&a, &b, 8);
             assert!((flip - expected).abs() < 1e-4, "{flip} and {expected}");
         }

@@ -14,13 +14,13 @@ pub struct ErrorMeasure {
 pub static ERROR_MEASURES: &[ErrorMeasure] = &[
     ErrorMeasure {
         name: "RMSE",
-        about: "Square root of the mean squared difference over all pixels and colours, on linear \
+        about: "Square root of the mean squared difference over all pixels and colors, on linear \
                 light, 0 to 1.",
         value: |outcome| outcome.error.rmse,
     },
     ErrorMeasure {
         name: "max",
-        about: "Largest difference of any pixel and colour, on linear light, 0 to 1.",
+        about: "Largest difference of any pixel and color, on linear light, 0 to 1.",
         value: |outcome| outcome.error.max,
     },
     ErrorMeasure {

@@ -56,7 +56,7 @@ pub const CASES: &[Case] = &[
     ),
     case(
         "polygons",
-        "concave outlines, vertices on a line, equal neighbours and outlines that cross themselves \
+        "concave outlines, vertices on a line, equal neighbors and outlines that cross themselves \
          (inside by the even-odd rule): right hits",
         polygons,
     ),

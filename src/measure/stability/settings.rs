@@ -177,7 +177,7 @@ fn all_finite(picture: &Picture) -> Result<(), String> {
     let finite = picture.pixels().iter().flatten().all(|x| x.is_finite());
     finite
         .then_some(())
-        .ok_or_else(|| "a colour is not a number".to_owned())
+        .ok_or_else(|| "a color is not a number".to_owned())
 }
 
 /// A camera inside a box of mirrors around the origin.

@@ -32,7 +32,7 @@ pub enum ChartError {
 
 const FONT: &str = "sans-serif";
 
-/// Colours that colour-blind people can tell apart (M. Okabe and K. Ito, 2008), one a method.
+/// Colors that color-blind people can tell apart (M. Okabe and K. Ito, 2008), one a method.
 const COLORS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),

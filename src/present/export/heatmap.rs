@@ -1,4 +1,4 @@
-//! A heatmap as a file: in colours with its legend, or its raw values.
+//! A heatmap as a file: in colors with its legend, or its raw values.
 
 use super::png;
 use crate::measure::heat::{HeatImage, HeatStatistics, Heatmap, RayFilter, Whole};
@@ -31,7 +31,7 @@ pub struct HeatSheet<'a> {
 }
 
 impl HeatSheet<'_> {
-    /// The picture with title, colour bar, histogram and figures.
+    /// The picture with title, color bar, histogram and figures.
     pub fn drawn(&self) -> RgbImage {
         let HeatSheet { image, colors, .. } = self;
         let scale = HeatScale::new(image, self.scale, self.range, colors);
@@ -135,7 +135,7 @@ impl HeatSheet<'_> {
             let without = image.values.len() - pixels;
             if without > 0 {
                 let color = if self.colors.diverging {
-                    "grey"
+                    "gray"
                 } else {
                     "white"
                 };

@@ -1,9 +1,9 @@
-//! What leaves can be coloured by. A colouring is one entry of [`COLORINGS`].
+//! What leaves can be colored by. A coloring is one entry of [`COLORINGS`].
 
 use crate::structure::{CellOfNode, NodeKind, Tree};
 use crate::trace::Visits;
 
-/// A leaf as colourings, filters and histograms see it.
+/// A leaf as colorings, filters and histograms see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leaf {
     pub depth: u32,
@@ -30,7 +30,7 @@ impl Leaf {
     }
 }
 
-/// How values spread over the colours.
+/// How values spread over the colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Scale {
     /// From 0.
@@ -43,7 +43,7 @@ enum Scale {
     TwoValues([&'static str; 2]),
 }
 
-/// A way to colour leaves.
+/// A way to color leaves.
 pub struct Coloring {
     /// Name in settings.
     pub name: &'static str,
@@ -63,7 +63,7 @@ pub struct Mark {
     pub text: String,
 }
 
-/// All colourings.
+/// All colorings.
 pub static COLORINGS: &[Coloring] = &[
     Coloring {
         name: "depth",
@@ -107,13 +107,13 @@ pub static COLORINGS: &[Coloring] = &[
     },
 ];
 
-/// The colouring of this name.
+/// The coloring of this name.
 pub fn coloring(name: &str) -> Option<&'static Coloring> {
     COLORINGS.iter().find(|c| c.name == name)
 }
 
 impl Coloring {
-    /// The value of a leaf, of which the legend tells the colours; `None` for visits that were not
+    /// The value of a leaf, of which the legend tells the colors; `None` for visits that were not
     /// counted.
     pub fn value(&self, leaf: &Leaf) -> Option<f64> {
         (self.value)(leaf)
@@ -142,19 +142,19 @@ impl Coloring {
         [lo.min(hi), hi]
     }
 
-    /// sRGB colour of a value in this range.
+    /// sRGB color of a value in this range.
     pub fn color(&self, value: f64, range: [f64; 2]) -> [u8; 3] {
         self.color_at(self.place(value, range))
     }
 
-    /// sRGB colour at a place of the legend, 0 to 1.
+    /// sRGB color at a place of the legend, 0 to 1.
     pub fn color_at(&self, place: f64) -> [u8; 3] {
         // The darkest fifth could not be told from the dark ground.
         let color = self.gradient.eval_continuous(0.2 + 0.8 * place);
         [color.r, color.g, color.b]
     }
 
-    /// Whether colours run from one end of the legend to the other.
+    /// Whether colors run from one end of the legend to the other.
     pub fn is_continuous(&self) -> bool {
         !matches!(self.scale, Scale::TwoValues(_))
     }
@@ -166,7 +166,7 @@ impl Coloring {
             Scale::Powers => (value.ln() - lowest.ln()) / (highest.ln() - lowest.ln()),
             Scale::TwoValues(_) => value,
         };
-        // Where all values are equal, all colours are the lowest.
+        // Where all values are equal, all colors are the lowest.
         if place.is_nan() {
             0.0
         } else {

@@ -1,12 +1,12 @@
-//! Colours for numbers, all readable by colour-blind people. A map is one entry of [`COLORMAPS`].
+//! Colors for numbers, all readable by color-blind people. A map is one entry of [`COLORMAPS`].
 
-/// A way from 0 to 1 through colours.
+/// A way from 0 to 1 through colors.
 pub struct Colormap {
     /// Name in settings.
     pub name: &'static str,
     /// One phrase for people.
     pub about: &'static str,
-    /// Two colours that part at a light middle, for differences; the others get lighter from end
+    /// Two colors that part at a light middle, for differences; the others get lighter from end
     /// to end.
     pub diverging: bool,
     gradient: colorous::Gradient,
@@ -14,7 +14,7 @@ pub struct Colormap {
     reversed: bool,
 }
 
-/// All colour maps: the first is the default, the first diverging one that for differences.
+/// All color maps: the first is the default, the first diverging one that for differences.
 pub static COLORMAPS: &[Colormap] = &[
     Colormap {
         name: "viridis",
@@ -25,7 +25,7 @@ pub static COLORMAPS: &[Colormap] = &[
     },
     Colormap {
         name: "cividis",
-        about: "blue, grey, yellow: nearly the same to every eye",
+        about: "blue, gray, yellow: nearly the same to every eye",
         diverging: false,
         gradient: colorous::CIVIDIS,
         reversed: false,
@@ -67,13 +67,13 @@ pub static COLORMAPS: &[Colormap] = &[
     },
 ];
 
-/// The colour map of this name.
+/// The color map of this name.
 pub fn colormap(name: &str) -> Option<&'static Colormap> {
     COLORMAPS.iter().find(|map| map.name == name)
 }
 
 impl Colormap {
-    /// sRGB colour at a place, 0 to 1; beyond, that of the nearer end.
+    /// sRGB color at a place, 0 to 1; beyond, that of the nearer end.
     pub fn color(&self, place: f64) -> [u8; 3] {
         let place = place.clamp(0.0, 1.0);
         let place = if self.reversed { 1.0 - place } else { place };
@@ -81,7 +81,7 @@ impl Colormap {
         [color.r, color.g, color.b]
     }
 
-    /// What has no value: a colour that the map does not have.
+    /// What has no value: a color that the map does not have.
     pub const fn no_value(&self) -> [u8; 3] {
         if self.diverging { [128; 3] } else { [255; 3] }
     }

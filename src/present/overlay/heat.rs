@@ -1,10 +1,10 @@
-//! From the values of a heatmap to places on a scale, colours, ticks and a histogram.
+//! From the values of a heatmap to places on a scale, colors, ticks and a histogram.
 
 use super::Colormap;
 use crate::measure::heat::HeatImage;
 use crate::present::number::{grouped, significant};
 
-/// How values spread over the colours.
+/// How values spread over the colors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
     #[default]
@@ -31,13 +31,13 @@ impl Scale {
     }
 }
 
-/// Which values the colours span.
+/// Which values the colors span.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Range {
     /// From the least value to the greatest; with a diverging map, as far below zero as above.
     #[default]
     Automatic,
-    /// The same for every picture: colours can be compared. Values beyond get the ends' colours.
+    /// The same for every picture: colors can be compared. Values beyond get the ends' colors.
     Fixed { lo: f64, hi: f64 },
 }
 
@@ -50,7 +50,7 @@ pub struct Tick {
     pub text: String,
 }
 
-/// Values and their places on a colour bar.
+/// Values and their places on a color bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeatScale {
     pub scale: Scale,
@@ -190,7 +190,7 @@ impl HeatScale {
         ticks
     }
 
-    /// How many values fall into each of `bins` equal stretches of the colour bar; those beyond the
+    /// How many values fall into each of `bins` equal stretches of the color bar; those beyond the
     /// range into the outer ones.
     pub fn histogram(&self, image: &HeatImage, bins: usize) -> Vec<u64> {
         let mut counts = vec![0; bins];
@@ -227,7 +227,7 @@ fn with_step(value: f64, step: f64) -> String {
     }
 }
 
-/// sRGB colours of all pixels, row by row. Without a scale no pixel has a value.
+/// sRGB colors of all pixels, row by row. Without a scale no pixel has a value.
 pub fn heat_colors(
     image: &HeatImage,
     scale: Option<&HeatScale>,
@@ -238,7 +238,7 @@ pub fn heat_colors(
     image.values.iter().map(color).collect()
 }
 
-/// Mixes colours over others, as their sRGB numbers: 0 leaves those below, 1 hides them.
+/// Mixes colors over others, as their sRGB numbers: 0 leaves those below, 1 hides them.
 pub fn blend(over: &[[u8; 3]], below: &[[u8; 3]], opacity: f64) -> Vec<[u8; 3]> {
     let mix = |(a, b): (u8, u8)| {
         (f64::from(b) + (f64::from(a) - f64::from(b)) * opacity.clamp(0.0, 1.0)).round() as u8

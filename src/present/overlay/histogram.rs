@@ -121,7 +121,7 @@ pub fn ranges_need_visits(ranges: &Ranges) -> bool {
     pairs.any(|(histogram, range)| range.is_some() && histogram.needs_visits())
 }
 
-/// All leaves of a tree as colourings, filters and histograms see them.
+/// All leaves of a tree as colorings, filters and histograms see them.
 pub fn leaves(tree: &Tree, visits: Option<&Visits>) -> Vec<Leaf> {
     tree.cells()
         .filter_map(|cell| Leaf::of(tree, &cell, visits))

@@ -1,4 +1,4 @@
-//! The cells of leaves as coloured boxes, filtered.
+//! The cells of leaves as colored boxes, filtered.
 
 use super::{Coloring, Leaf, Ranges, in_ranges, ranges_need_visits};
 use crate::geometry::Vec3;
@@ -90,7 +90,7 @@ impl Filter {
     }
 }
 
-/// A box to draw, relative to a centre.
+/// A box to draw, relative to a center.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Instance {
@@ -101,7 +101,7 @@ pub struct Instance {
     pub color: [u8; 4],
 }
 
-/// The colour of cells that were not decided yet: no colouring of leaves has it.
+/// The color of cells that were not decided yet: no coloring of leaves has it.
 pub const UNDECIDED_COLOR: [u8; 3] = [235; 3];
 
 /// The boxes of a tree's leaves.
@@ -116,9 +116,9 @@ pub struct LeafBoxes {
     pub range: [f64; 2],
 }
 
-/// The boxes of the leaves that pass the filter, coloured, relative to `center` to stay precise in
-/// 32 bits. The legend spans all leaves of the tree, so that a filter changes no colour. Filters and
-/// colourings by visits need them; without, no leaf has a colour or passes. At a moment of the build,
+/// The boxes of the leaves that pass the filter, colored, relative to `center` to stay precise in
+/// 32 bits. The legend spans all leaves of the tree, so that a filter changes no color. Filters and
+/// colorings by visits need them; without, no leaf has a color or passes. At a moment of the build,
 /// cells that were not decided yet pass by their depth alone.
 pub fn leaf_boxes(
     tree: &Tree,
@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn an_instance_takes_28_bytes_and_colours_differ() {
+    fn an_instance_takes_28_bytes_and_colors_differ() {
         assert_eq!(size_of::<Instance>(), 28);
         let depth = coloring("depth").unwrap();
         assert_ne!(

@@ -1,4 +1,4 @@
-//! A heatmap as a picture to keep: with a title, a colour bar, its numbers and a histogram.
+//! A heatmap as a picture to keep: with a title, a color bar, its numbers and a histogram.
 
 use super::text::Pen;
 use super::{Colormap, HeatScale};
@@ -12,7 +12,7 @@ pub struct Captions {
     pub title: String,
     /// Below the title: what is shown of what.
     pub subtitle: String,
-    /// Below the colour bar: what it counts.
+    /// Below the color bar: what it counts.
     pub unit: String,
     /// At the foot: figures of the whole picture.
     pub figures: String,
@@ -49,7 +49,7 @@ impl Sizes {
     }
 }
 
-/// A heatmap in colours.
+/// A heatmap in colors.
 pub struct HeatPicture<'a> {
     pub image: &'a HeatImage,
     /// sRGB, one for each of the image's, row by row.
@@ -112,7 +112,7 @@ pub fn with_legend(picture: &HeatPicture<'_>, captions: &Captions) -> RgbImage {
     sheet
 }
 
-/// Heights of the parts of the colour bar, in pixels.
+/// Heights of the parts of the color bar, in pixels.
 struct BarLayout {
     histogram: u32,
     bar: u32,
@@ -168,15 +168,15 @@ impl BarLayout {
         for tick in &ticks {
             let x = left + ((f64::from(width - sizes.unit)) * tick.place).round() as u32;
             fill(sheet, [x, bar_top + self.bar, sizes.unit, self.tick], INK);
-            // The ends' colours stand for all that lies beyond, too.
+            // The ends' colors stand for all that lies beyond, too.
             let text = match tick.place {
                 place if place <= 0.0 && below > 0 => format!("≤ {}", tick.text),
                 place if place >= 1.0 && above > 0 => format!("≥ {}", tick.text),
                 _ => tick.text.clone(),
             };
             let text_width = sizes.number.width(&text);
-            let centred = x.saturating_sub(text_width / 2);
-            let text_left = centred.clamp(left, left + width.saturating_sub(text_width));
+            let centered = x.saturating_sub(text_width / 2);
+            let text_left = centered.clamp(left, left + width.saturating_sub(text_width));
             if text_left >= free_from {
                 sizes.number.draw(sheet, text_left, number_top, &text);
                 free_from = text_left + text_width + 6 * sizes.unit;

@@ -3,7 +3,7 @@
 use crate::geometry::{Aabb, Vec3};
 use crate::scene::Camera;
 
-/// A line to draw, relative to a centre.
+/// A line to draw, relative to a center.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Line {
@@ -51,7 +51,7 @@ pub fn box_lines(bounds: &Aabb, center: Vec3, color: [u8; 4], width: f32) -> Vec
         .collect()
 }
 
-/// The colour of the `i`-th of `n` leaves along a ray, from light pink to purple: no colouring of
+/// The color of the `i`-th of `n` leaves along a ray, from light pink to purple: no coloring of
 /// leaves has these.
 pub fn order_color(i: usize, n: usize) -> [u8; 3] {
     let place = i as f64 / (n.max(2) - 1) as f64;

@@ -1,4 +1,4 @@
-//! What is drawn over scenes and pictures, as plain colours, boxes and lines; knows no window.
+//! What is drawn over scenes and pictures, as plain colors, boxes and lines; knows no window.
 
 mod coloring;
 mod colormap;

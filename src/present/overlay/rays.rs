@@ -1,10 +1,10 @@
-//! All rays of a pixel as lines: what kind they are by colour and strokes, how they end by a mark.
+//! All rays of a pixel as lines: what kind they are by color and strokes, how they end by a mark.
 
 use super::Line;
 use crate::geometry::{Aabb, Ray, Vec3};
 use crate::trace::{PixelRecord, RayKind, RayPath};
 
-/// How rays of a kind are drawn; colour and strokes each tell the kind alone.
+/// How rays of a kind are drawn; color and strokes each tell the kind alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayStyle {
     /// sRGB.
@@ -166,7 +166,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn kinds_differ_in_colour_and_in_strokes() {
+    fn kinds_differ_in_color_and_in_strokes() {
         for (i, a) in RayKind::ALL.into_iter().enumerate() {
             for b in RayKind::ALL.into_iter().skip(i + 1) {
                 assert_ne!(ray_style(a).color, ray_style(b).color);

@@ -4,7 +4,7 @@ use super::lines::{Line, box_lines};
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
 use crate::structure::{CellOfNode, NodeKind, Tree};
 
-/// A corner of a translucent triangle, relative to a centre.
+/// A corner of a translucent triangle, relative to a center.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct FaceCorner {
@@ -13,11 +13,11 @@ pub struct FaceCorner {
     pub color: [u8; 4],
 }
 
-/// The colour of the selected cell, and of its plane: no colouring of leaves and no ray has these.
+/// The color of the selected cell, and of its plane: no coloring of leaves and no ray has these.
 pub const CELL_COLOR: [u8; 3] = [255, 176, 0];
 pub const PLANE_COLOR: [u8; 3] = [90, 200, 255];
 
-/// The colour of the leaves that refer to the selected object.
+/// The color of the leaves that refer to the selected object.
 pub const REFERRING_COLOR: [u8; 3] = [255, 80, 70];
 
 /// The edges of a cell, and the outline and diagonals of its plane, if there is one.

@@ -3,7 +3,7 @@
 use ab_glyph::{Font, FontRef, PxScale, ScaleFont, point};
 use image::{Rgb, RgbImage};
 
-/// Text of one size and colour.
+/// Text of one size and color.
 pub struct Pen {
     font: FontRef<'static>,
     scale: PxScale,

@@ -5,9 +5,9 @@ use crate::geometry::Vec3;
 use crate::structure::Tree;
 use crate::trace::{RayPath, Step};
 
-/// Colour of the ray inside the current cell.
+/// Color of the ray inside the current cell.
 pub const INTERVAL: [u8; 3] = [90, 255, 120];
-/// Colour of the cells that wait.
+/// Color of the cells that wait.
 pub const WAITING: [u8; 3] = [200, 200, 200];
 
 const SOLID: u8 = 255;
@@ -17,7 +17,7 @@ fn rgba([r, g, b]: [u8; 3], strokes: u8) -> [u8; 4] {
     [r, g, b, strokes]
 }
 
-/// The outlines of the leaves that a ray visited, coloured by their order; empty ones are dashed,
+/// The outlines of the leaves that a ray visited, colored by their order; empty ones are dashed,
 /// and those after the current step thin.
 pub fn visited_lines(path: &RayPath, step: usize, center: Vec3) -> Vec<Line> {
     let n = path.leaves().count();

@@ -20,6 +20,7 @@ use crate::structure::split::rule::{Cell, Decision, SplitRule};
 use crate::structure::tree::Tree;
 use crate::structure::voxels::Voxels;
 use rayon::prelude::*;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Builds the tree of a scene on the threads of the current `rayon` pool, or of the global pool.
@@ -112,7 +113,7 @@ fn in_pool(
         settings: settings.clone(),
         depth_limit,
         depth_reached,
-        derived: Default::default(),
+        simd_tree: OnceLock::new(),
     })
 }
 

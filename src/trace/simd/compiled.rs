@@ -4,13 +4,13 @@ use super::arithmetic::portable::Portable;
 #[cfg(target_arch = "x86_64")]
 use super::arithmetic::{avx2::Avx2, avx512::Avx512};
 use super::block::Block;
-use super::block_tree::BlockTree;
 use super::candidate::{Candidate, ExactTests};
 use super::instruction_set::InstructionSet;
 use super::packet::{self, Coherence, PendingNode};
 use super::queue::RayQueue;
 use super::ray::RayBuffer;
 use super::stream::{self, Stacks};
+use crate::structure::simd_tree::BlockTree;
 use std::ops::Range;
 
 /// Defines the kernels for an instruction set, as functions that are compiled for it as a whole.

@@ -1,11 +1,11 @@
 //! The exact test of rays and triangles, in `f64`, for many pairs at once.
 
 use super::array::three;
-use super::block::Triangles;
 use super::instruction_set::InstructionSet;
 use super::ray::SimdRay;
 use crate::geometry::Vec3;
 use crate::primitive::PackedTriangle;
+use crate::structure::simd_tree::Triangles;
 
 /// Pairs per batch: enough that stores of the first pair have reached the cache when it is read.
 pub(super) const BATCH: usize = 32;

@@ -1,13 +1,13 @@
 //! The exact tests: those of the scalar kernel, on the same numbers.
 
 use super::array::three;
-use super::block::{Spheres, Triangles};
 use super::candidate::{Candidate, ExactTests};
 use super::crossings::{BATCH, Crossings};
 use super::instruction_set::InstructionSet;
 use super::ray::{RayBuffer, SimdRay};
 use crate::geometry::Ray;
 use crate::primitive::{Form, PackedTriangle};
+use crate::structure::simd_tree::{Spheres, Triangles};
 use crate::trace::Hit;
 use std::hint::select_unpredictable;
 use std::marker::PhantomData;

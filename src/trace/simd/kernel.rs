@@ -20,11 +20,11 @@ use super::mode::SimdMode;
 use super::packet::PendingNode;
 use super::queue::{RayQueue, end_all};
 use super::ray::{CHUNKS, RayBuffer, RaySetup};
-use super::simd_tree::{AnyBlockTree, SimdTree, with_block_tree};
 use super::stream::Stacks;
 use crate::geometry::Ray;
 use crate::primitive::{Shapes, with_array};
 use crate::structure::Tree;
+use crate::structure::simd_tree::{AnyBlockTree, SimdTree, with_block_tree};
 use crate::trace::{Hit, Scratch, any_hit, closest_hit};
 use std::ops::Range;
 

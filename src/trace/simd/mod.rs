@@ -1,7 +1,7 @@
 //! SIMD kernels: batches of rays in the lanes of vectors, one ray per lane.
 //!
 //! Rays traverse the tree each on its own ([`stream`]) or in packets ([`packet`]). The tree is that of
-//! the scalar kernel, built by any method, in a form that is prepared once per tree ([`block_tree`]). The
+//! the scalar kernel, built by any method, in a form that is prepared once per tree ([`SimdTree`](crate::structure::SimdTree)). The
 //! hits are those of the scalar kernel, ray for ray and bit for bit. For that, only the exact tests must
 //! be the scalar kernel's ([`exact`]). Everything before them is done in `f32` and only rules out what is
 //! certainly missed: planes are as thick as rounding may move rays and objects, and objects are tested
@@ -14,9 +14,9 @@
 //!
 //! | layer | modules |
 //! |---|---|
-//! | vectors | [`arithmetic`], [`array`](mod@array), [`prefetch`], [`pages`], [`instruction_set`] |
+//! | vectors | [`arithmetic`], [`array`](mod@array), [`prefetch`], [`instruction_set`] |
 //! | rays | [`ray`], [`ray_packet`], [`candidate`], [`queue`] |
-//! | blocks | [`block`], [`block_tree`], [`simd_tree`] |
+//! | blocks | [`block`] |
 //! | exact tests | [`crossings`], [`exact`] |
 //! | traversal | [`packet`], [`stream`] |
 //! | kernel | [`mode`], [`compiled`], [`kernel`] |
@@ -24,7 +24,6 @@
 mod arithmetic;
 mod array;
 mod block;
-mod block_tree;
 mod candidate;
 mod compiled;
 mod crossings;
@@ -33,15 +32,12 @@ mod instruction_set;
 mod kernel;
 mod mode;
 mod packet;
-mod pages;
 mod prefetch;
 mod queue;
 mod ray;
 mod ray_packet;
-mod simd_tree;
 mod stream;
 
 pub use instruction_set::InstructionSet;
 pub use kernel::SimdKernel;
 pub use mode::SimdMode;
-pub use simd_tree::SimdTree;

@@ -24,13 +24,15 @@
 
 use super::arithmetic::{Simd, WIDEST};
 use super::array::three;
-use super::block::{BLOCK, Block, HitMasks};
-use super::block_tree::{ABOVE_EMPTY, BELOW_EMPTY, BlockTree, CHILD_SHIFT, LEAF, Node};
+use super::block::{Block, HitMasks};
 use super::candidate::{Candidate, ExactTests};
 use super::prefetch::prefetch;
 use super::queue::RayQueue;
 use super::ray::RayBuffer;
 use super::ray_packet::{Lanes, Packet, store};
+use crate::structure::simd_tree::{
+    ABOVE_EMPTY, BELOW_EMPTY, BLOCK, BlockTree, CHILD_SHIFT, LEAF, Node,
+};
 use std::ops::Range;
 
 /// Maximum number of pending candidates. A block adds up to [`BLOCK`] per ray.

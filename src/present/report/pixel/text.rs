@@ -30,7 +30,7 @@ pub fn write(report: &PixelReport<'_>, out: &mut dyn Write) -> Result<()> {
     writeln!(
         out,
         "Positions are in scene units. t is the distance from where a ray starts. Weights and \
-         colours\nare linear RGB. Rays are numbered in the order of the outline; a ray stands below \
+         colors\nare linear RGB. Rays are numbered in the order of the outline; a ray stands below \
          the one whose\nhit it starts from. Nodes are numbered by their place in the tree, 0 is the \
          root."
     )?;
@@ -45,7 +45,7 @@ fn write_record(scene: &Scene, record: &PixelRecord, out: &mut dyn Write) -> Res
     let [r, g, b] = record.color.as_vec3().to_array().map(srgb8);
     writeln!(
         out,
-        "Colour {}, in sRGB #{r:02x}{g:02x}{b:02x}\n",
+        "Color {}, in sRGB #{r:02x}{g:02x}{b:02x}\n",
         vector(record.color)
     )?;
     write_totals(record, out)?;

@@ -1,46 +1,13 @@
 //! Blocks of objects of any kind, by their bounds.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::interface::{BLOCK, Block, Column, HitInterval, HitMasks, NONE, T_ERROR, each_vector};
-use crate::primitive::{Primitive, Shape, UnitFrame};
+use super::interface::{Block, HitInterval, HitMasks, T_ERROR, each_vector};
+use crate::structure::simd_tree::{BLOCK, Boxes, NONE};
 use crate::trace::simd::arithmetic::Simd;
 use crate::trace::simd::ray::RayBuffer;
 use crate::trace::simd::ray_packet::{Lanes, Packet};
 
-/// A block of objects of any kind, by their bounds.
-#[derive(Clone, Copy)]
-#[repr(C, align(64))]
-pub(crate) struct Boxes {
-    /// Lower and upper corners, by axis.
-    corners: [[Column; 3]; 2],
-    objects: [u32; BLOCK],
-}
-
-impl Default for Boxes {
-    fn default() -> Self {
-        Boxes {
-            corners: [[[f32::NAN; BLOCK]; 3]; 2],
-            objects: [NONE; BLOCK],
-        }
-    }
-}
-
 impl Block for Boxes {
-    fn set(&mut self, place: usize, object: u32, primitive: &Primitive, frame: &UnitFrame) {
-        let bounds = primitive.bounds();
-        for (corner, columns) in [bounds.lo, bounds.hi].into_iter().zip(&mut self.corners) {
-            let corner = frame.point(corner).as_vec3();
-            for k in 0..3 {
-                columns[k][place] = corner[k];
-            }
-        }
-        self.objects[place] = object;
-    }
-
-    fn objects(&self) -> &[u32; BLOCK] {
-        &self.objects
-    }
-
     /// Tests slabs; faces are as thick as the planes of the tree.
     #[inline(always)]
     unsafe fn candidates<S: Simd>(

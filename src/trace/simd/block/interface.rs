@@ -2,19 +2,10 @@
 //! ray may hit in spite of rounding to `f32`. These few candidates then get the exact test.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use crate::primitive::{Primitive, UnitFrame};
+use crate::structure::simd_tree::{BLOCK, BlockData, NONE};
 use crate::trace::simd::arithmetic::Simd;
 use crate::trace::simd::ray::{RayBuffer, SimdRay};
 use crate::trace::simd::ray_packet::{Bundle, Packet};
-
-/// Objects per block.
-pub(crate) const BLOCK: usize = 16;
-
-/// One number per object.
-pub(super) type Column = [f32; BLOCK];
-
-/// Marks a place without an object.
-pub(super) const NONE: u32 = u32::MAX;
 
 /// Evaluates `$body` for each vector of objects in a block, from `$at` on, and joins the masks. The
 /// numbers of places without an object are NaN, which nothing hits.
@@ -33,13 +24,8 @@ macro_rules! each_vector {
 }
 pub(super) use each_vector;
 
-/// A block of objects of one kind, in the coordinates of the unit frame.
-pub(crate) trait Block: Copy + Default + Send + Sync {
-    /// Puts an object in a place.
-    fn set(&mut self, place: usize, object: u32, primitive: &Primitive, frame: &UnitFrame);
-
-    fn objects(&self) -> &[u32; BLOCK];
-
+/// The tests of a block of objects of one kind.
+pub(crate) trait Block: BlockData {
     /// Returns the objects that the ray in a slot may hit up to the distance `limit`, and if `any_hit` is
     /// set those that it certainly hits.
     ///

@@ -1,11 +1,8 @@
-//! Blocks of objects that SIMD kernels test at once: the trait, and one file per kind.
+//! Tests of blocks of objects: the trait, and one file per kind of block.
 
 mod boxes;
 mod interface;
 mod spheres;
 mod triangles;
 
-pub(super) use boxes::Boxes;
-pub(super) use interface::{BLOCK, Block, HitMasks};
-pub(super) use spheres::Spheres;
-pub(super) use triangles::Triangles;
+pub(super) use interface::{Block, HitMasks};

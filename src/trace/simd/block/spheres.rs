@@ -1,64 +1,18 @@
 //! Blocks of spheres, by center and radius.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::interface::{
-    BLOCK, Block, Column, HitInterval, HitMasks, NONE, dot, each_vector, splat3,
-};
-use crate::primitive::{PackedSphere, Primitive, UnitFrame};
+use super::interface::{Block, HitInterval, HitMasks, dot, each_vector, splat3};
+use crate::structure::simd_tree::{BLOCK, NONE, Spheres};
 use crate::trace::simd::arithmetic::Simd;
 use crate::trace::simd::array::three;
 use crate::trace::simd::ray::RayBuffer;
 use crate::trace::simd::ray_packet::{Lanes, Packet};
 
 /// Bound on the error of the distance between a center and the ray, as a multiple of `reach`: twice that
-/// of [`PackedSphere`].
+/// of [`crate::primitive::PackedSphere`].
 const OFFSET_ERROR: f32 = 96.0 * f32::EPSILON;
 
-/// A block of spheres.
-#[derive(Clone, Copy)]
-#[repr(C, align(64))]
-pub(crate) struct Spheres {
-    center: [Column; 3],
-    radius: Column,
-    objects: [u32; BLOCK],
-}
-
-impl Default for Spheres {
-    fn default() -> Self {
-        Spheres {
-            center: [[f32::NAN; BLOCK]; 3],
-            radius: [f32::NAN; BLOCK],
-            objects: [NONE; BLOCK],
-        }
-    }
-}
-
-impl Spheres {
-    /// Returns the sphere in a place.
-    #[inline(always)]
-    pub(crate) fn sphere(&self, place: usize) -> PackedSphere {
-        let center = three(|k| self.center[k][place]).into();
-        PackedSphere::from_center(center, self.radius[place])
-    }
-}
-
 impl Block for Spheres {
-    fn set(&mut self, place: usize, object: u32, primitive: &Primitive, frame: &UnitFrame) {
-        let Primitive::Sphere(sphere) = primitive else {
-            unreachable!("all objects are spheres");
-        };
-        let center = frame.point(sphere.center).as_vec3();
-        for k in 0..3 {
-            self.center[k][place] = center[k];
-        }
-        self.radius[place] = (sphere.radius * frame.scale()) as f32;
-        self.objects[place] = object;
-    }
-
-    fn objects(&self) -> &[u32; BLOCK] {
-        &self.objects
-    }
-
     #[inline(always)]
     unsafe fn candidates<S: Simd>(
         &self,

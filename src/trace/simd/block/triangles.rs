@@ -1,8 +1,8 @@
 //! Blocks of triangles, by their vertices.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::interface::{BLOCK, Block, Column, HitInterval, HitMasks, NONE, each_vector, splat3};
-use crate::primitive::{Primitive, UnitFrame};
+use super::interface::{Block, HitInterval, HitMasks, each_vector, splat3};
+use crate::structure::simd_tree::{BLOCK, NONE, Triangles};
 use crate::trace::simd::arithmetic::Simd;
 use crate::trace::simd::array::three;
 use crate::trace::simd::ray::RayBuffer;
@@ -16,42 +16,7 @@ use crate::trace::simd::ray_packet::{Lanes, Packet};
 /// errors times the size.
 const EDGE_ERROR: f32 = 48.0 * f32::EPSILON;
 
-/// A block of triangles.
-#[derive(Clone, Copy)]
-#[repr(C, align(64))]
-pub(crate) struct Triangles {
-    /// By vertex and axis.
-    vertices: [[Column; 3]; 3],
-    objects: [u32; BLOCK],
-}
-
-impl Default for Triangles {
-    fn default() -> Self {
-        Triangles {
-            vertices: [[[f32::NAN; BLOCK]; 3]; 3],
-            objects: [NONE; BLOCK],
-        }
-    }
-}
-
 impl Block for Triangles {
-    fn set(&mut self, place: usize, object: u32, primitive: &Primitive, frame: &UnitFrame) {
-        let Primitive::Triangle(triangle) = primitive else {
-            unreachable!("all objects are triangles");
-        };
-        for (vertex, columns) in triangle.vertices.iter().zip(&mut self.vertices) {
-            let vertex = frame.point(*vertex).as_vec3();
-            for k in 0..3 {
-                columns[k][place] = vertex[k];
-            }
-        }
-        self.objects[place] = object;
-    }
-
-    fn objects(&self) -> &[u32; BLOCK] {
-        &self.objects
-    }
-
     #[inline(always)]
     unsafe fn candidates<S: Simd>(
         &self,

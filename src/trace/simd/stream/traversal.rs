@@ -23,9 +23,9 @@
 
 use super::leaves::{Leaf, Leaves};
 use super::stacks::{PushBuffer, Stacks};
+use crate::structure::simd_tree::{ABOVE_EMPTY, BELOW_EMPTY, BLOCK, BlockTree, CHILD_SHIFT, LEAF};
 use crate::trace::simd::arithmetic::{Simd, WIDEST};
-use crate::trace::simd::block::{BLOCK, Block};
-use crate::trace::simd::block_tree::{ABOVE_EMPTY, BELOW_EMPTY, BlockTree, CHILD_SHIFT, LEAF};
+use crate::trace::simd::block::Block;
 use crate::trace::simd::candidate::{Candidate, ExactTests};
 use crate::trace::simd::prefetch::prefetch;
 use crate::trace::simd::queue::RayQueue;

@@ -9,7 +9,7 @@ use std::ops::{Deref, DerefMut};
 const PAGE: usize = 4096;
 
 /// An array of fixed capacity. Unused capacity takes no memory.
-pub(super) struct Pages<T> {
+pub(crate) struct Pages<T> {
     memory: MmapMut,
     count: usize,
     kind: PhantomData<T>,
@@ -18,7 +18,7 @@ pub(super) struct Pages<T> {
 impl<T: Copy> Pages<T> {
     /// # Panics
     /// If the memory cannot be mapped.
-    pub(super) fn with_capacity(capacity: usize) -> Self {
+    pub(crate) fn with_capacity(capacity: usize) -> Self {
         const { assert!(align_of::<T>() <= PAGE) };
         let bytes = capacity.checked_mul(size_of::<T>()).expect("too many");
         let memory = MmapMut::map_anon(bytes.max(1)).expect("memory for a tree");
@@ -34,7 +34,7 @@ impl<T: Copy> Pages<T> {
 
     /// # Panics
     /// If the array is full.
-    pub(super) fn push(&mut self, value: T) {
+    pub(crate) fn push(&mut self, value: T) {
         let capacity = self.memory.len() / size_of::<T>();
         assert!(self.count < capacity, "capacity of {capacity} exceeded");
         // SAFETY: there is capacity for one more, and memory is aligned.

@@ -1,59 +1,42 @@
-//! A tree prepared for SIMD traversal: siblings are adjacent, planes are in the coordinates of the unit
-//! frame, and leaves hold blocks of objects.
+//! Builds the tree for SIMD kernels from the nodes of a tree and the objects of its scene.
 
-use super::block::{BLOCK, Block};
+use super::block::{BLOCK, BlockData};
+use super::layout::{
+    ABOVE_EMPTY, AnyBlockTree, BELOW_EMPTY, BlockTree, CHILD_SHIFT, Node, SimdTree,
+};
 use super::pages::Pages;
 use crate::geometry::{Axis, Vec3};
 use crate::primitive::{Primitive, PrimitiveKind, Shape, UnitFrame};
-use crate::structure::{self, OverlapRule, Tree, is_inside};
-
-/// A node in 8 bytes.
-///
-/// | | inner node | leaf |
-/// |---|---|---|
-/// | `payload` | plane, as bits of an `f32` | index of the first block |
-/// | `word`, bits 0 and 1 | axis | 3 |
-/// | `word`, bits 2 and 3 | whether the lower and the upper child is an empty leaf | part of the next |
-/// | `word`, other bits | index of the lower child, which the upper one follows | number of blocks |
-#[derive(Clone, Copy, Default)]
-#[repr(C)]
-pub(super) struct Node {
-    pub(super) payload: u32,
-    pub(super) word: u32,
-}
-
-pub(super) const LEAF: u32 = 3;
-pub(super) const BELOW_EMPTY: u32 = 4;
-pub(super) const ABOVE_EMPTY: u32 = 8;
-/// Position of the child index in an inner node's word.
-pub(super) const CHILD_SHIFT: u32 = 4;
-
-impl Node {
-    fn leaf(first: usize, blocks: usize) -> Node {
-        Node {
-            payload: first as u32,
-            word: (blocks as u32) << 2 | LEAF,
-        }
-    }
-
-    fn is_empty_leaf(self) -> bool {
-        self.word == LEAF
-    }
-}
+use crate::scene::Scene;
+use crate::structure::frame::is_inside;
+use crate::structure::node;
+use crate::structure::settings::OverlapRule;
+use crate::structure::tree::Tree;
 
 /// Number of nodes that an index has bits for.
 const MAX_NODES: usize = 1 << (32 - CHILD_SHIFT);
 
-/// A tree prepared for SIMD traversal, with blocks of one kind.
-pub(super) struct BlockTree<B> {
-    pub(super) nodes: Pages<Node>,
-    pub(super) blocks: Pages<B>,
-    /// Maximum number of pending nodes on a ray's stack.
-    pub(super) max_pending: usize,
-    /// Half the thickness of every plane and face.
-    pub(super) half_thickness: f32,
-    /// Lower and upper corner of the scene's box, enlarged by `half_thickness`.
-    pub(super) corners: [[f32; 3]; 2],
+impl SimdTree {
+    /// Returns the prepared tree of this scene. It is built by the first call and kept with the tree.
+    pub fn of<'a>(scene: &Scene, tree: &'a Tree) -> &'a SimdTree {
+        tree.simd_tree.get_or_init(|| SimdTree::new(scene, tree))
+    }
+
+    /// # Panics
+    /// If the tree has 2²⁸ nodes or more, which take 2 GiB.
+    fn new(scene: &Scene, tree: &Tree) -> SimdTree {
+        let objects = scene.objects();
+        let frame = UnitFrame::around(&scene.bounds());
+        let all = |kind| !objects.is_empty() && objects.iter().all(|o| o.kind() == kind);
+        let tree = if all(PrimitiveKind::Triangle) {
+            AnyBlockTree::Triangles(BlockTree::new(tree, objects, &frame))
+        } else if all(PrimitiveKind::Sphere) {
+            AnyBlockTree::Spheres(BlockTree::new(tree, objects, &frame))
+        } else {
+            AnyBlockTree::Boxes(BlockTree::new(tree, objects, &frame))
+        };
+        SimdTree { frame, tree }
+    }
 }
 
 /// Half the thickness of planes: bound on the distance between a computed hit and the object, in lengths
@@ -64,7 +47,7 @@ pub(super) struct BlockTree<B> {
 /// 1 ε for an origin in `f32`, 4 ε for the arithmetic of the traversal, and 1 ε for a plane.
 const HALF_THICKNESS: f32 = 40.0 * f32::EPSILON;
 
-impl<B: Block> BlockTree<B> {
+impl<B: BlockData> BlockTree<B> {
     /// # Panics
     /// If the tree has more than [`MAX_NODES`] nodes.
     pub(super) fn new(tree: &Tree, objects: &[Primitive], frame: &UnitFrame) -> Self {
@@ -87,7 +70,7 @@ impl<B: Block> BlockTree<B> {
                 corner(bounds.hi, half_thickness),
             ]
         };
-        let blocks = |node: &structure::Node| match node.is_leaf() {
+        let blocks = |node: &node::Node| match node.is_leaf() {
             true => node.as_leaf().1.div_ceil(BLOCK),
             false => 0,
         };
@@ -109,11 +92,6 @@ impl<B: Block> BlockTree<B> {
         builder.node(0, 0, [[-1.0, 1.0]; 3], 0);
         builder.built
     }
-
-    /// Returns the memory that nodes and blocks take.
-    pub(super) fn bytes(&self) -> usize {
-        size_of_val(&*self.nodes) + size_of_val(&*self.blocks)
-    }
 }
 
 struct Builder<'a, B> {
@@ -125,7 +103,7 @@ struct Builder<'a, B> {
     built: BlockTree<B>,
 }
 
-impl<B: Block> Builder<'_, B> {
+impl<B: BlockData> Builder<'_, B> {
     /// Builds the node `from` of the tree, whose cell is `cell`, at index `to`. `depth` is the number of
     /// inner nodes above it.
     fn node(&mut self, from: usize, to: usize, cell: [[f32; 2]; 3], depth: usize) {

@@ -1,0 +1,39 @@
+//! Blocks of objects of any kind, by their bounds.
+
+use super::block::{BLOCK, BlockData, Column, NONE};
+use crate::primitive::{Primitive, Shape, UnitFrame};
+
+/// A block of objects of any kind, by their bounds.
+#[derive(Clone, Copy)]
+#[repr(C, align(64))]
+pub(crate) struct Boxes {
+    /// Lower and upper corners, by axis.
+    pub(crate) corners: [[Column; 3]; 2],
+    pub(crate) objects: [u32; BLOCK],
+}
+
+impl Default for Boxes {
+    fn default() -> Self {
+        Boxes {
+            corners: [[[f32::NAN; BLOCK]; 3]; 2],
+            objects: [NONE; BLOCK],
+        }
+    }
+}
+
+impl BlockData for Boxes {
+    fn set(&mut self, place: usize, object: u32, primitive: &Primitive, frame: &UnitFrame) {
+        let bounds = primitive.bounds();
+        for (corner, columns) in [bounds.lo, bounds.hi].into_iter().zip(&mut self.corners) {
+            let corner = frame.point(corner).as_vec3();
+            for k in 0..3 {
+                columns[k][place] = corner[k];
+            }
+        }
+        self.objects[place] = object;
+    }
+
+    fn objects(&self) -> &[u32; BLOCK] {
+        &self.objects
+    }
+}

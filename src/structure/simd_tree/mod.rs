@@ -1,0 +1,19 @@
+//! A tree laid out for SIMD kernels, which it keeps as long as it lives. The kernels are in
+//! [`crate::trace`].
+
+mod block;
+mod boxes;
+mod build;
+mod layout;
+mod pages;
+mod spheres;
+mod triangles;
+
+pub(crate) use block::{BLOCK, BlockData, NONE};
+pub(crate) use boxes::Boxes;
+pub use layout::SimdTree;
+pub(crate) use layout::{
+    ABOVE_EMPTY, AnyBlockTree, BELOW_EMPTY, BlockTree, CHILD_SHIFT, LEAF, Node, with_block_tree,
+};
+pub(crate) use spheres::Spheres;
+pub(crate) use triangles::Triangles;

@@ -1,0 +1,51 @@
+//! Blocks of spheres, by center and radius.
+
+use super::block::{BLOCK, BlockData, Column, NONE};
+use crate::primitive::{PackedSphere, Primitive, UnitFrame};
+
+/// A block of spheres.
+#[derive(Clone, Copy)]
+#[repr(C, align(64))]
+pub(crate) struct Spheres {
+    pub(crate) center: [Column; 3],
+    pub(crate) radius: Column,
+    pub(crate) objects: [u32; BLOCK],
+}
+
+impl Default for Spheres {
+    fn default() -> Self {
+        Spheres {
+            center: [[f32::NAN; BLOCK]; 3],
+            radius: [f32::NAN; BLOCK],
+            objects: [NONE; BLOCK],
+        }
+    }
+}
+
+impl Spheres {
+    /// Returns the sphere in a place.
+    #[inline(always)]
+    pub(crate) fn sphere(&self, place: usize) -> PackedSphere {
+        let [x, y, z] = &self.center;
+        let center = [x[place], y[place], z[place]].into();
+        PackedSphere::from_center(center, self.radius[place])
+    }
+}
+
+impl BlockData for Spheres {
+    fn set(&mut self, place: usize, object: u32, primitive: &Primitive, frame: &UnitFrame) {
+        let Primitive::Sphere(sphere) = primitive else {
+            unreachable!("all objects are spheres");
+        };
+        let center = frame.point(sphere.center).as_vec3();
+        for k in 0..3 {
+            self.center[k][place] = center[k];
+        }
+        self.radius[place] = (sphere.radius * frame.scale()) as f32;
+        self.objects[place] = object;
+    }
+
+    fn objects(&self) -> &[u32; BLOCK] {
+        &self.objects
+    }
+}
