@@ -7,7 +7,7 @@ use super::state::{Current, State};
 use super::symbol::grouped;
 use super::tasks::Latest;
 use crate::geometry::{Aabb, Vec3};
-use crate::present::overlay::{BOX_EDGES, CELL_COLOR, NODES_A_RAY, REFERRING_COLOR};
+use crate::present::overlay::{BOX_EDGES, CELL_COLOR, NODES_PER_RAY, REFERRING_COLOR};
 use crate::primitive::Shape as _;
 use crate::scene::View;
 use egui::{
@@ -60,7 +60,7 @@ impl PictureMarks {
         let Some((key, range)) = key(&state.inspect, state.current.as_ref()) else {
             return;
         };
-        let nodes = NODES_A_RAY.format_range(range);
+        let nodes = NODES_PER_RAY.format_range(range);
         let text = match self.dimmed.ready(&key) {
             Some(dimmed) => format!(
                 "{} pixels with a ray of {nodes} nodes; others hatched",

@@ -1,4 +1,4 @@
-//! What can be known of a scene and of a tree without tracing a ray.
+//! Facts of a scene and of a tree that need no ray.
 
 use crate::primitive::Shape;
 use crate::scene::Scene;

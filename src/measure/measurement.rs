@@ -14,7 +14,7 @@ use rayon::ThreadPool;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Why there is no measurement.
+/// Why a measurement failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeasureError {
     #[error(transparent)]
@@ -24,7 +24,7 @@ pub enum MeasureError {
 }
 
 impl MeasureError {
-    /// Whether nothing is wrong but that the task was told to stop.
+    /// Returns whether the task was cancelled.
     pub fn is_cancelled(&self) -> bool {
         matches!(
             self,
@@ -34,7 +34,7 @@ impl MeasureError {
     }
 }
 
-/// CPU time and time on the wall of one task.
+/// CPU time and wall-clock time of one task.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Times {
     pub cpu: Duration,
@@ -44,7 +44,7 @@ pub struct Times {
 }
 
 impl Times {
-    /// Runs a task in a pool of threads that has nothing else to do. CPU time is that of all of them.
+    /// Runs a task in an otherwise idle thread pool. CPU time is summed over its threads.
     pub fn of<R: Send>(pool: &ThreadPool, task: impl FnOnce() -> R + Send) -> (R, Times) {
         let cpu = || -> Duration {
             let clocks = pool.broadcast(|_| ThreadTime::now().as_duration());
@@ -62,7 +62,7 @@ impl Times {
     }
 }
 
-/// Everything that was specified, counted and timed. What is not measured yet is `None`.
+/// Everything that is specified, counted and timed; `None` for what is not measured yet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measurement {
     pub build: BuildSettings,
@@ -86,7 +86,7 @@ pub struct Measurement {
 }
 
 impl Measurement {
-    /// What is known once the tree stands.
+    /// Returns what is known once the tree is built.
     pub fn of_tree(
         scene: &Scene,
         tree: &Tree,
@@ -109,7 +109,7 @@ impl Measurement {
         }
     }
 
-    /// The same scene and tree with other render settings, not traced yet.
+    /// Returns the measurement of the same scene and tree with other render settings, before rendering.
     pub fn with_render(&self, scene: &Scene, render: &RenderSettings) -> Measurement {
         let precision = render.precision_for(scene);
         Measurement {
@@ -123,12 +123,12 @@ impl Measurement {
         }
     }
 
-    /// What rays of a kind did; `None` before they were counted.
+    /// Returns the counts of the rays of a kind; `None` before they are counted.
     pub fn tally(&self, kind: RayKind) -> Option<Tally> {
         Some(self.counted.as_ref()?.tallies[kind as usize])
     }
 
-    /// What secondary (reflected and refracted) rays did.
+    /// Returns the counts of secondary (reflected and refracted) rays.
     pub fn secondary(&self) -> Option<Tally> {
         Some(
             [RayKind::Reflected, RayKind::Refracted]
@@ -139,7 +139,7 @@ impl Measurement {
         .filter(|_| self.counted.is_some())
     }
 
-    /// What all rays did.
+    /// Returns the counts of all rays.
     pub fn all_rays(&self) -> Option<Tally> {
         Some(self.counted.as_ref()?.tallies.iter().copied().sum())
     }
@@ -150,11 +150,11 @@ impl Measurement {
 pub struct Measured {
     pub tree: Tree,
     pub measurement: Measurement,
-    /// One sample a pixel.
+    /// One sample per pixel.
     pub picture: Picture,
 }
 
-/// Builds a tree and takes every measurement of it: the timed pass first, then the counted one.
+/// Builds a tree and measures it: first the timed render, then the counted one.
 ///
 /// # Errors
 /// Settings out of range, a tree beyond the memory limit, no view, or cancellation.
@@ -167,7 +167,7 @@ pub fn measure(
     measure_with(scene, build_settings, render_settings, progress, |_| ())
 }
 
-/// As [`measure`], with what every pixel's rays did.
+/// As [`measure`], with the counts of each pixel.
 ///
 /// # Errors
 /// As [`measure`].

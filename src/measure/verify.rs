@@ -1,5 +1,5 @@
-//! Whether a tree gives the same hits as testing every object, on rays of every kind; where not, the
-//! judge says why.
+//! Verification: checks that a tree returns the same hits as testing every object, for rays of every
+//! kind. If not, exact arithmetic decides why.
 
 use super::judge::{Answer, Tally, Tolerance, Verdict, scale_of, settle};
 use crate::geometry::Ray;
@@ -13,13 +13,13 @@ use crate::trace::{
 };
 use rayon::prelude::*;
 
-/// Rays that a picture of the scene takes, by [`RayKind`].
+/// Rays of a picture of the scene, by [`RayKind`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RaySample {
     pub rays: [Vec<Ray>; 4],
 }
 
-/// What testing every object says of a [`RaySample`].
+/// The answers to a [`RaySample`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answers {
     /// By [`RayKind`]; empty for shadow rays.
@@ -28,7 +28,7 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// What is said of ray number `i` of a kind.
+    /// Returns the answer for ray number `i` of a kind.
     ///
     /// # Panics
     /// If there is no such ray.
@@ -40,31 +40,31 @@ impl Answers {
     }
 }
 
-/// What a comparison of a tree with testing every object found, by [`RayKind`].
+/// The result of comparing a tree with testing every object, by [`RayKind`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Verification {
     /// Rays compared.
     pub rays: [u64; 4],
-    /// Those with another answer, as the judge classed them.
+    /// Rays with different answers, by verdict.
     pub others: [Tally; 4],
     /// The first few faults.
     pub faults: Vec<(RayKind, Ray)>,
 }
 
 impl Verification {
-    /// Whether there is no fault.
+    /// Returns whether there is no fault.
     pub fn passed(&self) -> bool {
         self.others.iter().all(|tally| tally.faults == 0)
     }
 
-    /// Whether all answers are the same, bit by bit.
+    /// Returns whether all answers are the same, bit by bit.
     pub fn is_identical(&self) -> bool {
         self.others == [Tally::default(); 4]
     }
 }
 
 impl std::ops::AddAssign for Verification {
-    /// Both together; of the faults the first few.
+    /// Adds the counts and keeps the first few faults.
     fn add_assign(&mut self, other: Verification) {
         for k in 0..self.rays.len() {
             self.rays[k] += other.rays[k];
@@ -75,10 +75,10 @@ impl std::ops::AddAssign for Verification {
     }
 }
 
-/// How many faults are kept.
+/// Number of faults kept.
 const EXAMPLES: usize = 5;
 
-/// Keeps the rays that the renderer asks about.
+/// Records the rays that the renderer traces.
 struct Recorder<'a> {
     tracer: ScalarKernel<'a>,
     sample: RaySample,
@@ -96,9 +96,8 @@ impl RayTracer for Recorder<'_> {
     }
 }
 
-/// At least `per_kind` rays of every kind that a picture of the scene takes, evenly from all over
-/// it; pictures are traced with more and more samples until there are enough, 64 at most. A kind
-/// that the scene does not take stays empty.
+/// Returns at least `per_kind` rays of each kind that occurs in a picture of the scene, distributed
+/// evenly over it. Up to 64 samples per pixel are traced until there are enough.
 ///
 /// # Errors
 /// A camera without a view, or cancellation.
@@ -158,7 +157,7 @@ pub fn sample_rays(
     Ok(found)
 }
 
-/// Asks a tree about every ray of a sample, in a precision.
+/// Traces every ray of a sample in a precision.
 ///
 /// # Errors
 /// Cancellation.
@@ -205,7 +204,7 @@ pub fn answer(
     Ok(answers)
 }
 
-/// The tree without a split, which tests every object.
+/// Builds the tree without a split, which tests every object.
 ///
 /// # Errors
 /// Too many objects, or cancellation.
@@ -214,7 +213,7 @@ pub fn unsplit(scene: &Scene, progress: &Progress) -> Result<Tree, BuildError> {
     build(scene, &settings, progress)
 }
 
-/// What a tree says of one ray, in `f64`.
+/// Traces one ray in `f64`.
 pub fn ask(scene: &Scene, tree: &Tree, kind: RayKind, ray: &Ray) -> Answer {
     let (shapes, progress) = (scene.shapes(Precision::F64), Progress::new());
     let mut tracer = ScalarKernel::new(tree, shapes, &progress);
@@ -235,7 +234,7 @@ pub fn ask(scene: &Scene, tree: &Tree, kind: RayKind, ray: &Ray) -> Answer {
 }
 
 /// Samples rays as [`sample_rays`] and compares the tree's answers with testing every object, a few
-/// rays at a time; `so_far` is told what was found each time.
+/// rays at a time, and calls `so_far` with the result so far each time.
 ///
 /// # Errors
 /// As [`sample_rays`].
@@ -271,8 +270,8 @@ pub fn verify_sample(
     Ok(result)
 }
 
-/// Holds answers against those of testing every object, bit by bit: distance and object of every hit.
-/// Where they differ, the judge says why; `rounding` as in [`settle`], for all coordinates of the
+/// Compares answers with those of testing every object, bit by bit: distance and object of every hit.
+/// Where they differ, exact arithmetic decides why; `rounding` as in [`settle`], for all coordinates of the
 /// scene's size.
 pub fn compare(
     scene: &Scene,

@@ -6,7 +6,7 @@ use crate::measure::{Change, Parameter, Unit};
 use std::fmt;
 
 impl Unit {
-    /// Behind a number in text; empty for plain numbers.
+    /// Returns what follows a number; empty for plain numbers.
     pub const fn suffix(self) -> &'static str {
         match self {
             Unit::Count | Unit::Ratio => "",
@@ -17,7 +17,7 @@ impl Unit {
         }
     }
 
-    /// A value as people read it, without the unit.
+    /// Formats a value without its unit.
     pub fn number(self, value: f64) -> String {
         match self {
             Unit::Count | Unit::Bytes => grouped(value),
@@ -28,7 +28,7 @@ impl Unit {
 }
 
 impl Parameter {
-    /// The value as people read it, with its unit; `–` where there is none.
+    /// Formats a value with its unit; `–` if there is none.
     pub fn format(&self, value: Option<f64>) -> String {
         match value {
             None => "–".into(),
@@ -36,7 +36,7 @@ impl Parameter {
         }
     }
 
-    /// The value as people read it, without its unit.
+    /// Formats a value without its unit.
     pub fn number(&self, value: f64) -> String {
         self.unit.number(value)
     }
@@ -63,7 +63,7 @@ impl fmt::Display for Change {
     }
 }
 
-/// A whole number with thin groups of three digits.
+/// Formats a whole number in groups of three digits.
 pub fn grouped(value: f64) -> String {
     let digits = format!("{value:.0}");
     let mut out = String::new();
@@ -76,7 +76,7 @@ pub fn grouped(value: f64) -> String {
     out
 }
 
-/// Four significant digits or more.
+/// Formats a number with at least four significant digits.
 pub fn significant(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {

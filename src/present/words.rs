@@ -12,13 +12,13 @@ impl Table {
             Table::Scene => "Scene and image (Table 1)",
             Table::Static => "Static properties of the tree (Table 2)",
             Table::Dynamic => "Dynamic properties of the tree (Table 3)",
-            Table::Ours => "Beside the tables",
+            Table::Ours => "Not in the tables",
         }
     }
 }
 
 impl Measurement {
-    /// `D_MAX` in words, with how it was chosen.
+    /// Returns `D_MAX` in words, and whether it was automatic.
     pub fn depth_in_words(&self) -> String {
         match self.build.d_max {
             MaxDepth::Fixed(depth) => depth.to_string(),
@@ -43,7 +43,7 @@ impl fmt::Display for Unequal {
             }
             Unequal::Setting { name, a, b } => write!(f, "{name} is {a} in A and {b} in B"),
             Unequal::Camera => f.write_str("the cameras differ"),
-            Unequal::Size => f.write_str("the pictures have another size"),
+            Unequal::Size => f.write_str("the pictures have different sizes"),
             Unequal::Pixels { count, first } => {
                 let places: Vec<_> = first.iter().map(|[x, y]| format!("{x},{y}")).collect();
                 let more = if *count > first.len() { ", …" } else { "" };
@@ -87,7 +87,7 @@ impl Cell {
     }
 }
 
-/// The unit of a printed figure of a parameter; `ratio` for the column 2/1.
+/// Returns the unit of a printed figure of a parameter; `ratio` for the column 2/1.
 pub fn printed_unit(parameter: &Parameter, ratio: bool) -> &'static str {
     match (parameter.unit, ratio) {
         (Unit::Percent, true) => "points",
@@ -97,7 +97,7 @@ pub fn printed_unit(parameter: &Parameter, ratio: bool) -> &'static str {
 }
 
 impl Answer<'_> {
-    /// The answer in a sentence.
+    /// Returns the answer as a sentence.
     pub fn sentence(&self, shown: &Parameter) -> String {
         let of = |row: &Row| {
             let depth = parameter("D_MAX");

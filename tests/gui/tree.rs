@@ -248,7 +248,7 @@ fn rays_by_nodes_have_a_histogram_that_can_be_brushed() {
     wait(&mut window, "the visits", |w| {
         has(w, "leaves selected") && !has(w, "visits: counted") && !has(w, "counting visits")
     });
-    for name in ["Visits of a leaf", "Nodes a ray"] {
+    for name in ["Visits per leaf", "Nodes per ray"] {
         let clear = |w: &Window<'_>| {
             !w.get_by_label("Clear ranges")
                 .accesskit_node()
@@ -261,7 +261,7 @@ fn rays_by_nodes_have_a_histogram_that_can_be_brushed() {
         window.drop_at(at);
         window.run_steps(3);
         assert!(clear(&window), "{name}");
-        if name == "Nodes a ray" {
+        if name == "Nodes per ray" {
             // Exactly the pixels that the library finds are named.
             wait(&mut window, "the pixels", |w| has(w, "others hatched"));
             let text = first_text_with(&window, "others hatched");

@@ -7,7 +7,7 @@ use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::State;
 use crate::gui::symbol::grouped;
 use crate::present::overlay::{
-    Bars, HISTOGRAMS, HistogramAxis, Leaf, NODES_A_RAY, Spread, ray_bars,
+    Bars, HISTOGRAMS, HistogramAxis, Leaf, NODES_PER_RAY, Spread, ray_bars,
 };
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, pos2, vec2};
 use std::sync::Arc;
@@ -100,7 +100,7 @@ impl Histograms {
                     marked.and_then(|leaf| histogram.value(&leaf)),
                 )
             })
-            .chain([(&NODES_A_RAY, None)])
+            .chain([(&NODES_PER_RAY, None)])
             .collect();
         let ranges = state.inspect.ranges.iter_mut();
         let mut ranges: Vec<_> = ranges.chain([&mut state.inspect.nodes_a_ray]).collect();

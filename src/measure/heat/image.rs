@@ -1,17 +1,17 @@
 //! The values of all pixels.
 
-/// The values of a heatmap, or the differences of two.
+/// The values of a heatmap, or the differences between two.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatImage {
     pub width: u32,
     pub height: u32,
     /// Row by row; NaN where a pixel has no value. Rounded beyond 2²⁴ only.
     pub values: Vec<f32>,
-    /// The least difference that matters ([`Heatmap::grain`]).
+    /// The smallest difference that matters ([`Heatmap::grain`]).
     pub grain: f64,
 }
 
-/// What there is to say of all values of a [`HeatImage`] together.
+/// Statistics of the values of a [`HeatImage`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeatStatistics {
     pub lowest: f64,
@@ -23,7 +23,7 @@ pub struct HeatStatistics {
 }
 
 impl HeatImage {
-    /// The value of a pixel; `None` where it has none or lies outside.
+    /// Returns the value of a pixel; `None` if it has none or lies outside.
     pub fn get(&self, x: u32, y: u32) -> Option<f32> {
         if x >= self.width || y >= self.height {
             return None;
@@ -32,13 +32,13 @@ impl HeatImage {
         (!value.is_nan()).then_some(value)
     }
 
-    /// The values that there are.
+    /// Returns the values of the pixels that have one.
     pub fn present(&self) -> impl Iterator<Item = f64> + '_ {
         let present = self.values.iter().filter(|value| !value.is_nan());
         present.map(|&value| f64::from(value))
     }
 
-    /// `None` where no pixel has a value.
+    /// Returns `None` if no pixel has a value.
     pub fn statistics(&self) -> Option<HeatStatistics> {
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut sum, mut pixels) = (0.0, 0);
@@ -56,8 +56,8 @@ impl HeatImage {
         })
     }
 
-    /// Every pixel's value less that of `other`; no value where either has none. `None` for
-    /// pictures of different sizes.
+    /// Subtracts the values of `other`, pixel by pixel; no value where either has none. Returns `None`
+    /// for pictures of different sizes.
     pub fn difference(&self, other: &HeatImage) -> Option<HeatImage> {
         if (self.width, self.height) != (other.width, other.height) {
             return None;

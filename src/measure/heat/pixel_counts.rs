@@ -1,11 +1,11 @@
-//! Everything that was counted, and if asked for timed, of every pixel of a picture.
+//! The counts, and optionally the times, of all pixels of a picture.
 
 use crate::trace::{CountedTile, PixelTallies, RayKind, Tally};
 
 /// The most pixels whose counts are kept, at about 100 bytes per pixel.
 pub const PIXEL_COUNTS_LIMIT: u64 = 4_000_000;
 
-/// What was counted of every pixel, row by row from the upper left: about 100 bytes a pixel.
+/// The counts of all pixels, row by row from the upper left: about 100 bytes per pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelCounts {
     pub width: u32,
@@ -13,12 +13,12 @@ pub struct PixelCounts {
     pub tallies: Vec<PixelTallies>,
     /// Objects that each pixel's primary ray meets, hidden ones included.
     pub depth_complexity: Vec<u32>,
-    /// Time that each pixel took; `None` unless taken ([`crate::trace::pixel_times`]).
+    /// Time of each pixel; `None` unless measured ([`crate::trace::pixel_times`]).
     pub seconds: Option<Vec<f32>>,
 }
 
 impl PixelCounts {
-    /// Nothing counted yet.
+    /// Creates counts of zero.
     pub fn new(width: u32, height: u32) -> Self {
         let pixels = width as usize * height as usize;
         PixelCounts {
@@ -30,7 +30,7 @@ impl PixelCounts {
         }
     }
 
-    /// Takes in what was counted of a tile of this picture.
+    /// Adds the counts of a tile of this picture.
     pub fn add(&mut self, part: &CountedTile) {
         let columns = part.tile.width as usize;
         let rows = part.pixels.chunks_exact(columns);
@@ -42,7 +42,7 @@ impl PixelCounts {
         }
     }
 
-    /// What some of a pixel's rays did together.
+    /// Returns the counts of some of a pixel's rays.
     pub fn tally(&self, pixel: usize, rays: RayFilter) -> Tally {
         let tallies = &self.tallies[pixel];
         let kinds = rays.kinds().iter();
@@ -50,14 +50,14 @@ impl PixelCounts {
     }
 }
 
-/// Which rays are looked at.
+/// A selection of rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum RayFilter {
     #[default]
     All,
     Primary,
     Shadow,
-    /// Reflected and refracted ones.
+    /// Reflected and refracted rays.
     Secondary,
     Reflected,
     Refracted,
@@ -73,7 +73,7 @@ impl RayFilter {
         RayFilter::Refracted,
     ];
 
-    /// Name in settings; with "rays" behind it, for people.
+    /// Returns its name in settings; followed by "rays", its name for people.
     pub const fn name(self) -> &'static str {
         match self {
             RayFilter::All => "all",
@@ -90,7 +90,7 @@ impl RayFilter {
         RayFilter::ALL.into_iter().find(|f| f.name() == name)
     }
 
-    /// The kinds that are looked at.
+    /// Returns the selected kinds.
     pub const fn kinds(self) -> &'static [RayKind] {
         match self {
             RayFilter::All => &RayKind::ALL,

@@ -1,4 +1,4 @@
-//! A fault as a small file that can be run again.
+//! A fault as a small file that can be replayed.
 
 use super::verdict::{Answer, Verdict, settle};
 use crate::geometry::{Ray, Vec3};
@@ -10,21 +10,20 @@ use crate::structure::{BuildError, BuildSettings, build};
 use crate::trace::{Hit, RayKind};
 use serde::{Deserialize, Serialize};
 
-/// A ray of which a tree and testing every object say different things, with all that it takes to ask
-/// them again.
+/// A ray for which a tree and testing every object disagree, with everything needed to reproduce it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     pub scene: Scene,
     pub settings: BuildSettings,
     pub kind: RayKind,
     pub ray: Ray,
-    /// What testing every object said.
+    /// The answer of testing every object.
     pub expected: Answer,
-    /// What the tree said.
+    /// The answer of the tree.
     pub found: Answer,
 }
 
-/// Why a file is no case.
+/// Why a case could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum CaseError {
     #[error("not a case: {0}")]
@@ -83,7 +82,7 @@ impl From<FileAnswer> for Answer {
 }
 
 impl Case {
-    /// Asks about a ray; `None` where both say the same.
+    /// Traces a ray with both; `None` if they agree.
     ///
     /// # Errors
     /// No tree can be built.
@@ -106,12 +105,12 @@ impl Case {
         }))
     }
 
-    /// What the judge says, if both answers came from the same numbers.
+    /// Returns the verdict, given that both answers came from the same numbers.
     pub fn verdict(&self) -> Verdict {
         settle(&self.scene, &self.ray, [self.expected, self.found], None)
     }
 
-    /// The same fault with as few objects as a hundred attempts find.
+    /// Reduces the fault to as few objects as a hundred attempts find.
     pub fn shrunk(self) -> Case {
         const ATTEMPTS: usize = 100;
         let objects = fewest(self.scene.objects().len(), ATTEMPTS, |kept| {
@@ -120,7 +119,7 @@ impl Case {
         self.only(&objects).unwrap_or(self)
     }
 
-    /// The case with these objects alone, if it is still a fault.
+    /// Returns the case with these objects only, if it is still a fault.
     fn only(&self, objects: &[usize]) -> Option<Case> {
         let all = self.scene.parts();
         let parts = SceneParts {
@@ -133,7 +132,7 @@ impl Case {
             .filter(|case| matches!(case.verdict(), Verdict::Fault { .. }))
     }
 
-    /// The file's text.
+    /// Returns the text of the file.
     pub fn to_json(&self) -> String {
         let mut scene = Vec::new();
         nff::write(self.scene.parts(), &mut scene).expect("memory takes all that is written");
@@ -152,7 +151,7 @@ impl Case {
         serde_json::to_string_pretty(&file).expect("all of it can be written as JSON")
     }
 
-    /// Reads a file's text.
+    /// Reads the text of a file.
     ///
     /// # Errors
     /// It is not JSON, or not that of a case.
@@ -178,7 +177,7 @@ impl Case {
         })
     }
 
-    /// Asks again; `None` where both say the same now.
+    /// Traces the ray again; `None` if both agree now.
     ///
     /// # Errors
     /// No tree can be built.

@@ -18,7 +18,7 @@ pub struct Crossing {
 }
 
 impl Crossing {
-    /// The crossing within the ray's own stretch; `None` if it certainly lies outside.
+    /// Returns the crossing if it may lie in the interval of the ray.
     pub(super) fn within(mut self, ray: &Ray) -> Option<Crossing> {
         let start = Root::from(rational(ray.t_min));
         // What no number is large enough for is not met.
@@ -30,7 +30,7 @@ impl Crossing {
     }
 }
 
-/// A ray as the judge sees it.
+/// A ray with its numbers as intervals.
 pub struct Line<'a> {
     pub ray: &'a Ray,
     pub origin: SpanVec,

@@ -1,11 +1,11 @@
-//! The judge: where two answers about a ray differ, exact arithmetic says why.
+//! Exact arithmetic: decides why two answers about a ray differ.
 //!
-//! Every coordinate is a fraction. Triangles and polygons are met where a fraction says; spheres,
-//! cylinders and cones at a root of a quadratic equation with rational coefficients, and such roots
-//! compare exactly, too. So nothing is rounded and no two places on a ray are confused.
+//! Every coordinate is a fraction. A ray hits triangles and polygons at a rational distance, and spheres,
+//! cylinders and cones at a root of a quadratic equation with rational coefficients. Such roots compare
+//! exactly, too. So nothing is rounded, and distinct points of a ray stay distinct.
 //!
-//! The same arithmetic on intervals ([`span`]) says what is left open if all numbers were rounded
-//! first, by no more than a [`Tolerance`].
+//! The same arithmetic on intervals ([`span`]) decides what is possible if all numbers were rounded first
+//! by at most a [`Tolerance`].
 
 mod case;
 mod crossing;

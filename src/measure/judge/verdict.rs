@@ -10,7 +10,7 @@ use crate::scene::Scene;
 use crate::trace::Hit;
 use serde::Serialize;
 
-/// What was answered about a ray.
+/// The answer about a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Answer {
     /// The nearest hit.
@@ -25,7 +25,7 @@ pub enum Verdict {
     /// Both are exactly right: distances are exactly equal, or the ray meets an edge, touches a
     /// curved surface, or starts or ends on one.
     Tie,
-    /// Both are right but for rounding: for numbers within the tolerance of the scene's.
+    /// Both are right within rounding: for numbers within the tolerance of the scene's.
     Rounding,
     /// One is wrong, or both are.
     Fault {
@@ -36,7 +36,7 @@ pub enum Verdict {
     },
 }
 
-/// How many disagreements were judged, by [`Verdict`].
+/// Number of disagreements by [`Verdict`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
     pub ties: u64,
@@ -87,13 +87,13 @@ impl Evidence {
         Evidence(all.collect())
     }
 
-    /// Before where something is met for certain; `None` if nothing is.
+    /// Returns the nearest distance before which something is certainly hit; `None` if nothing is.
     fn limit(&self) -> Option<&Root> {
         let certain = self.0.iter().filter(|(_, c)| c.certain);
         certain.map(|(_, c)| &c.latest).min()
     }
 
-    /// The crossing that a hit tells of: of those of its object the nearest.
+    /// Returns the crossing of a hit: the nearest one of its object.
     fn crossing_of(&self, hit: &Hit) -> Option<&Crossing> {
         let off = |c: &Crossing| {
             let (lo, hi) = (c.earliest.to_f64(), c.latest.to_f64());
@@ -104,7 +104,7 @@ impl Evidence {
             .min_by(|a, b| off(a).total_cmp(&off(b)))
     }
 
-    /// Whether the answer can be right. Of how far away a hit is, only `slack` (relative) may be off.
+    /// Returns whether the answer can be right. The distance of a hit may be off by `slack` (relative).
     fn allows(&self, answer: Answer, slack: Option<f64>) -> bool {
         match answer {
             Answer::Blocked(true) => !self.0.is_empty(),
@@ -123,7 +123,7 @@ impl Evidence {
     }
 }
 
-/// Whether a ray may come near a box; only `false` is certain.
+/// Returns whether a ray may come near a box; only `false` is certain.
 fn may_meet(ray: &Ray, bounds: &Aabb, tolerance: &Tolerance) -> bool {
     const ROUNDING: f64 = 64.0 * f64::EPSILON;
     let far = bounds.magnitude() + ray.origin.abs().max_element();
@@ -147,7 +147,7 @@ fn may_meet(ray: &Ray, bounds: &Aabb, tolerance: &Tolerance) -> bool {
     enter <= exit && exit >= 0.0
 }
 
-/// The size of the numbers in a scene and a ray, a length: their largest coordinate.
+/// Returns the largest coordinate of a scene and a ray, a length.
 pub fn scale_of(scene: &Scene, ray: &Ray) -> f64 {
     let bounds = scene.bounds();
     let of_scene = if bounds.is_empty() {
@@ -158,9 +158,9 @@ pub fn scale_of(scene: &Scene, ray: &Ray) -> f64 {
     of_scene.max(ray.origin.abs().max_element())
 }
 
-/// Why two answers about a ray differ.
+/// Decides why two answers about a ray differ.
 ///
-/// Where both came from the same numbers by the same intersection tests, `rounding` is `None`, and
+/// If both came from the same numbers by the same intersection tests, `rounding` is `None`, and
 /// nothing but an exact tie excuses a difference. Otherwise it says by how much the numbers of
 /// either may have been rounded.
 pub fn settle(
@@ -191,7 +191,7 @@ pub fn settle(
     }
 }
 
-/// Whether two answers tell of the same crossing, at whatever distance.
+/// Returns whether two answers mean the same crossing, at whatever distance.
 fn same_hit(exact: &Evidence, a: Answer, b: Answer) -> bool {
     match (a, b) {
         (Answer::Nearest(a), Answer::Nearest(b)) => {
@@ -202,17 +202,17 @@ fn same_hit(exact: &Evidence, a: Answer, b: Answer) -> bool {
     }
 }
 
-/// How right one answer is.
+/// How correct one answer is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// It is what exact arithmetic says, or one of several that it allows.
     Right,
-    /// It is right but for rounding.
+    /// It is right within rounding.
     Rounded,
     Wrong,
 }
 
-/// Holds one answer against exact arithmetic.
+/// Checks one answer against exact arithmetic.
 pub fn examine(scene: &Scene, ray: &Ray, answer: Answer, tolerance: Tolerance) -> Standing {
     // How far away a hit is was rounded in any case.
     let allowed = |within: &Tolerance| {

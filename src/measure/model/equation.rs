@@ -3,7 +3,7 @@
 use crate::primitive::PrimitiveKind;
 use crate::scene::Scene;
 
-/// How equation (1) counts tests that hit.
+/// How equation (1) counts tests that hit an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Equation {
     /// As printed: `T_I` for every nearest hit of a primary or secondary ray, nothing for blocked
@@ -33,13 +33,12 @@ pub enum Term {
     Miss(PrimitiveKind),
     /// `T_I`: for every test of this kind that hits.
     Hit(PrimitiveKind),
-    /// What is the same for every tree of a scene: shading, and hits where they do not vary.
+    /// What is the same for all trees of a scene: shading, and hits if they do not vary.
     Constant,
 }
 
 impl Term {
-    /// The terms for a scene: `Constant` first, then those that are given up for it, if need be,
-    /// last.
+    /// Returns the terms for a scene: `Constant` first, and last those that a fit drops first.
     pub fn of(scene: &Scene) -> Vec<Term> {
         let kinds = || {
             scene
@@ -55,7 +54,7 @@ impl Term {
             .collect()
     }
 
-    /// What it stands for, in a sentence.
+    /// Returns its meaning, in a sentence.
     pub fn meaning(self) -> String {
         match self {
             Term::Node => {
@@ -71,13 +70,15 @@ impl Term {
                 "T_I: the time of one intersection test of a {} that hits.",
                 kind.name()
             ),
-            Term::Constant => "const: what is the same for every tree, such as shading and making \
-                               rays; shared out ray by ray."
-                .into(),
+            Term::Constant => {
+                "const: what is the same for every tree, such as shading and forming \
+                               rays; distributed over the rays."
+                    .into()
+            }
         }
     }
 
-    /// Its symbol in the paper, with the kind of primitive.
+    /// Returns its symbol in the paper, with the kind of primitive.
     pub fn name(self) -> String {
         match self {
             Term::Node => "T_T + T_P".into(),

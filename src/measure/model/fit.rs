@@ -56,7 +56,7 @@ impl Fit {
             .collect()
     }
 
-    /// The time of a term; `None` if it was given up.
+    /// Returns the time of a term; `None` if it was dropped.
     pub fn seconds(&self, term: Term) -> Option<f64> {
         let found = self.coefficients.iter().find(|c| c.term == term);
         found.map(|c| c.seconds)

@@ -45,9 +45,9 @@ struct Test {
     t_max: f64,
 }
 
-/// So many tests of a kind and result are kept; they fit the processor's caches as those of a leaf do.
+/// Number of tests kept per kind and result; they fit the processor's caches as those of a leaf do.
 const KEPT: usize = 4096;
-/// Of so many tests one is kept, so that they come from all of the picture.
+/// One test out of this many is kept, so that they come from the whole picture.
 const EVERY: usize = 17;
 /// How often the kept tests are made; the least time counts.
 const ROUNDS: u32 = 30;

@@ -31,7 +31,7 @@ pub struct Terms {
 }
 
 impl Terms {
-    /// What a term of the equation is multiplied with.
+    /// Returns the factor of a term of the equation.
     pub fn count(&self, term: Term, equation: Equation) -> f64 {
         let count = match (term, equation) {
             (Term::Constant, _) => 1,
@@ -143,7 +143,7 @@ impl Probe for Watcher {
     }
 }
 
-/// Traces a picture on this thread and tells of every ray.
+/// Traces a picture on this thread and reports every ray.
 pub(super) fn each_ray(
     scene: &Scene,
     tree: &Tree,
@@ -172,13 +172,13 @@ pub(super) fn each_ray(
     Ok(())
 }
 
-/// The kernel that tells of every ray.
+/// The kernel that reports every ray.
 struct Telling<'a, F> {
     tree: &'a Tree,
     shapes: &'a Shapes,
     scratch: Scratch,
     watcher: Watcher,
-    /// Of the tile that is traced.
+    /// Of the current tile.
     pixels: Vec<(u32, u32)>,
     tell: F,
 }

@@ -1,4 +1,5 @@
-//! Where the time of a picture goes: the counts of equation (1) for every pixel, and what they take.
+//! How the render time divides into the terms of equation (1): their counts for each pixel, and their
+//! times.
 
 use super::equation::Term;
 use super::fit::Fit;
@@ -28,7 +29,7 @@ pub struct RayTerms<N = u64> {
 }
 
 impl RayTerms {
-    /// How often the time of a term is spent; that of [`Term::Constant`] once a ray.
+    /// How often the time of a term is spent; that of [`Term::Constant`] once per ray.
     pub fn count(&self, term: Term) -> u64 {
         match term {
             Term::Constant => self.rays,
@@ -123,11 +124,11 @@ impl PictureTerms {
     }
 }
 
-/// What the terms of equation (1) take, in seconds; [`Term::Constant`] for a ray.
+/// Times of the terms of equation (1) in seconds; that of [`Term::Constant`] per ray.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TermTimes(Vec<(Term, f64)>);
 
-/// A term's part of the time of some rays.
+/// The share of a term in the time of some rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
     pub term: Term,
@@ -155,7 +156,7 @@ impl TermTimes {
         TermTimes(each.collect())
     }
 
-    /// Times taken in place: all but the constant.
+    /// Times measured in place: all but the constant.
     pub fn of_in_place(times: &InPlace) -> TermTimes {
         let kinds = || PrimitiveKind::ALL.into_iter();
         let terms = [Term::Node]
@@ -166,7 +167,7 @@ impl TermTimes {
         TermTimes(each.collect())
     }
 
-    /// What these counts take, term by term.
+    /// Returns the time of these counts, term by term.
     pub fn parts(&self, counts: &RayTerms) -> Vec<Part> {
         let each = self.0.iter();
         each.map(|&(term, each)| Part {

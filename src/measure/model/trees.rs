@@ -4,8 +4,8 @@ use super::observe::Observation;
 use crate::scene::Scene;
 use crate::structure::{BuildSettings, MaxDepth, Method};
 
-/// The trees that a model of a scene is made from: the paper's methods, depths around the automatic
-/// one, two leaf sizes.
+/// Returns the trees that a model of a scene is fitted to: the paper's methods, depths around the
+/// automatic one, two leaf sizes.
 pub fn trees(scene: &Scene) -> Vec<BuildSettings> {
     let automatic = MaxDepth::Automatic.resolve(scene.objects().len());
     let mut all = Vec::new();
@@ -24,8 +24,8 @@ pub fn trees(scene: &Scene) -> Vec<BuildSettings> {
     all
 }
 
-/// Observations parted in those that a model is fitted to and those it is tested on: every third
-/// one is left out of the fit.
+/// Splits observations into those that a model is fitted to and those that it is tested on: every third
+/// one is not fitted.
 pub fn parted(observations: &[Observation]) -> [Vec<&Observation>; 2] {
     let numbered = || observations.iter().enumerate();
     let left_out = |i: usize| i % 3 == 1;

@@ -1,4 +1,4 @@
-//! The paper's experiment: its printed Tables 4, 5 and 6 beside what is computed here.
+//! The paper's experiment: its printed Tables 4, 5 and 6 compared with computed figures.
 
 mod printed;
 
@@ -27,8 +27,8 @@ pub enum Mark {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
     pub printed: &'static str,
-    /// In the unit of what is printed: shares in per cent. `None` while it is not measured, or
-    /// where it has no value.
+    /// In the unit of the printed figure: shares in percent. `None` if it is not measured yet or has no
+    /// value.
     pub computed: Option<f64>,
     /// `None` without a computed figure.
     pub mark: Option<Mark>,
@@ -36,14 +36,14 @@ pub struct Cell {
     pub note: Option<&'static str>,
 }
 
-/// A line of a table.
+/// A row of a table.
 #[derive(Clone)]
 pub struct Row<const COLUMNS: usize> {
     pub parameter: &'static Parameter,
     pub cells: [Cell; COLUMNS],
 }
 
-/// What was measured of one of the paper's scenes, as far as it is there.
+/// The measurements of one of the paper's scenes that are available so far.
 #[derive(Clone)]
 pub struct Reproduction {
     pub scene: &'static PaperScene,
@@ -52,16 +52,16 @@ pub struct Reproduction {
     /// What keeps the two from being compared: nothing, if all is well. `None` until both are
     /// there.
     pub unequal: Option<Vec<Unequal>>,
-    /// What the scene says of itself.
+    /// The notes of the scene.
     pub notes: Vec<String>,
 }
 
-/// What every scene is measured under; the rest is the paper's own.
+/// Conditions of every scene; all others are the paper's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Conditions {
     /// Width and height in pixels; the paper's are 512.
     pub resolution: [u32; 2],
-    /// Threads; 0 takes as many as the machine has cores.
+    /// Number of threads; 0 for as many as the machine has cores.
     pub threads: usize,
 }
 
@@ -74,7 +74,7 @@ impl Default for Conditions {
     }
 }
 
-/// Why an experiment could not be repeated.
+/// Why an experiment could not be reproduced.
 #[derive(Debug, thiserror::Error)]
 pub enum PaperError {
     #[error(transparent)]
@@ -84,7 +84,7 @@ pub enum PaperError {
 }
 
 impl PaperError {
-    /// Whether nothing is wrong but that the task was told to stop.
+    /// Returns whether the task was cancelled.
     pub fn is_cancelled(&self) -> bool {
         match self {
             PaperError::Load(error) => matches!(error, LoadError::Cancelled(_)),
@@ -93,7 +93,7 @@ impl PaperError {
     }
 }
 
-/// The paper's scene of this name.
+/// Returns the paper's scene with this name.
 pub fn scene(name: &str) -> Option<&'static PaperScene> {
     SCENES.iter().find(|scene| scene.name == name)
 }
@@ -108,8 +108,8 @@ impl PaperScene {
 
 /// Measures a scene as the paper did, with both methods: cylinders as ten polygons, samples from
 /// the first to the last across the angle of view, D_AREC of Table 4, D_MAX 20, N_OILF 1.
-/// `on_measured` gets what is there whenever a method is measured; `progress` begins anew with each
-/// stage of each method.
+/// Calls `on_measured` with the results so far after each method; `progress` restarts with each stage
+/// of each method.
 ///
 /// # Errors
 /// No view or no threads under these conditions, too little memory, or cancellation.
@@ -210,7 +210,7 @@ impl Reproduction {
         })
     }
 
-    /// A value of a run in the unit of what is printed.
+    /// Returns a value of a run in the unit of the printed figure.
     fn value(&self, parameter: &Parameter, run: usize) -> Option<f64> {
         let value = parameter.value(self.runs[run].as_ref()?)?;
         Some(match parameter.unit {

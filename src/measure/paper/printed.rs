@@ -13,10 +13,10 @@ pub struct PaperScene {
     pub table: u8,
     /// Whether the scene itself was published; ours is a reconstruction if not.
     pub published: bool,
-    /// Its column of Table 4, in the order of [`CHARACTERISTICS`]; shares in per cent.
+    /// Its column of Table 4, in the order of [`CHARACTERISTICS`]; shares in percent.
     pub characteristics: [&'static str; 7],
     /// Its columns of Table 5 or 6, in the order of [`PROPERTIES`]: method 1, method 2, and 2/1 in
-    /// per cent, or in points where the property itself is a share.
+    /// percent, or in points where the property itself is a share.
     pub properties: [[&'static str; 3]; 10],
 }
 

@@ -1,8 +1,8 @@
-//! Right at the extremes: every case of [`CASES`] by every method and precision gives the right hits
-//! or a clear error. A case is one entry of a theme's file.
+//! Robustness at extremes: every case of [`CASES`] yields correct hits or a clear error with every
+//! method and precision. A case is one entry of a theme's file.
 //!
-//! Right means: the tree is valid; it gives the same answers as testing every object, or the judge
-//! says tie; and a sample of the answers is what exact arithmetic says, but for rounding
+//! Correct means that the tree is valid, that its answers are those of testing every object or exact
+//! ties, and that a sample of them agrees with exact arithmetic within rounding
 //! ([`super::judge::Tolerance`]).
 
 mod case;

@@ -1,4 +1,4 @@
-//! A parameter of a sweep over the greatest depth: a curve for every method and leaf size.
+//! The curves of a sweep: a parameter over the maximum depth, one curve per method and leaf size.
 
 use crate::measure::sweep::Row;
 use crate::measure::{Parameter, Unit, parameter};
@@ -21,13 +21,13 @@ pub struct Curve {
 pub struct CurvePoint {
     /// `D_MAX`.
     pub depth: f64,
-    /// Shares in per cent.
+    /// Shares in percent.
     pub value: f64,
     /// Place of its row.
     pub row: usize,
 }
 
-/// The curves in the order of rows; rows without a value are left out.
+/// Returns the curves in the order of rows, without the rows that have no value.
 pub fn curves(rows: &[Row], shown: &Parameter) -> Vec<Curve> {
     let factor = if shown.unit == Unit::Percent {
         100.0

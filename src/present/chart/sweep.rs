@@ -1,4 +1,4 @@
-//! A parameter of a sweep over the greatest depth, a curve for every method and leaf size, as PNG or
+//! Draws a parameter of a sweep over the maximum depth, one curve per method and leaf size, as PNG or
 //! SVG. The font is part of the program.
 
 use super::curves::{Curve, CurvePoint, curves, is_wide};
@@ -21,7 +21,7 @@ pub struct Chart<'a> {
     pub size: (u32, u32),
 }
 
-/// Why there is no chart.
+/// Why a chart could not be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ChartError {
     #[error("no row of the sweep has a value of {0}")]
@@ -32,7 +32,7 @@ pub enum ChartError {
 
 const FONT: &str = "sans-serif";
 
-/// Colors that color-blind people can tell apart (M. Okabe and K. Ito, 2008), one a method.
+/// One color per method, distinct for color-blind people (M. Okabe and K. Ito, 2008).
 const COLORS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -130,7 +130,7 @@ where
         .map_err(drawing)?;
     context
         .configure_mesh()
-        .x_desc("D_MAX, greatest depth")
+        .x_desc("D_MAX, maximum depth")
         .y_desc(format!("{}{}", p.symbol, p.unit.suffix()))
         .x_label_formatter(&|depth| format!("{depth:.0}"))
         .label_style((FONT, 15))

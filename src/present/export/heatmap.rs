@@ -130,7 +130,7 @@ impl HeatSheet<'_> {
         {
             let [lowest, mean, highest] = [lowest, mean, highest].map(number);
             words.push(format!(
-                "a pixel: lowest {lowest}, mean {mean}, highest {highest}"
+                "per pixel: lowest {lowest}, mean {mean}, highest {highest}"
             ));
             let without = image.values.len() - pixels;
             if without > 0 {

@@ -1,4 +1,4 @@
-//! A report as a page, put together: the pictures of every run and the commands that repeat it.
+//! The report as a page: the pictures of each run, and the commands that repeat it.
 
 use super::{HeatSheet, encoded};
 use crate::measure::Measurement;
@@ -78,7 +78,7 @@ fn heatmaps(
     HEATMAPS.into_iter().map(figure).collect()
 }
 
-/// The command that measures a run again.
+/// Returns the command that repeats a run.
 fn command(report: &Report, run: &Measurement) -> String {
     measure_command(&Setup {
         scene: report.scene.request.clone(),

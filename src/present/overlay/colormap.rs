@@ -25,7 +25,7 @@ pub static COLORMAPS: &[Colormap] = &[
     },
     Colormap {
         name: "cividis",
-        about: "blue, gray, yellow: nearly the same to every eye",
+        about: "blue, gray, yellow: nearly the same for all kinds of color vision",
         diverging: false,
         gradient: colorous::CIVIDIS,
         reversed: false,

@@ -1,4 +1,4 @@
-//! From the values of a heatmap to places on a scale, colors, ticks and a histogram.
+//! The scale of a heatmap: places, colors, ticks and a histogram of its values.
 
 use super::Colormap;
 use crate::measure::heat::HeatImage;

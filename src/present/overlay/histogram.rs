@@ -1,11 +1,11 @@
-//! Histograms of a tree's leaves, and ranges of them that select leaves; and one of a picture's
+//! Histograms of a tree's leaves, with ranges that select leaves, and a histogram of a picture's
 //! rays. A histogram of leaves is one entry of [`HISTOGRAMS`].
 
 use super::Leaf;
 use crate::structure::Tree;
 use crate::trace::Visits;
 
-/// How many histograms of leaves there are.
+/// Number of histograms of leaves.
 pub const HISTOGRAM_COUNT: usize = 4;
 
 /// All histograms of leaves.
@@ -23,7 +23,7 @@ pub static HISTOGRAMS: [Histogram; HISTOGRAM_COUNT] = [
     Histogram {
         name: "objects",
         axis: HistogramAxis {
-            title: "Objects a leaf",
+            title: "Objects per leaf",
             unit: "objects",
             counted: "leaves",
             spread: Spread::Whole,
@@ -43,7 +43,7 @@ pub static HISTOGRAMS: [Histogram; HISTOGRAM_COUNT] = [
     Histogram {
         name: "visits",
         axis: HistogramAxis {
-            title: "Visits of a leaf",
+            title: "Visits per leaf",
             unit: "rays, logarithmic",
             counted: "leaves",
             spread: Spread::Counts,
@@ -53,8 +53,8 @@ pub static HISTOGRAMS: [Histogram; HISTOGRAM_COUNT] = [
 ];
 
 /// The axis of the histogram of rays: nodes that a ray visited.
-pub static NODES_A_RAY: HistogramAxis = HistogramAxis {
-    title: "Nodes a ray",
+pub static NODES_PER_RAY: HistogramAxis = HistogramAxis {
+    title: "Nodes per ray",
     unit: "nodes visited, inner ones and leaves",
     counted: "rays",
     spread: Spread::Whole,
@@ -155,11 +155,11 @@ impl Histogram {
     }
 }
 
-/// At most `most` bars over all rays of [`NODES_A_RAY`]; none without rays.
+/// At most `most` bars over all rays of [`NODES_PER_RAY`]; none without rays.
 pub fn ray_bars(visits: &Visits, most: usize) -> Bars {
     let bins = visits.rays_by_nodes.iter().enumerate();
     let visited = bins.filter(|(_, rays)| **rays > 0);
-    NODES_A_RAY.bars(visited.map(|(nodes, rays)| (nodes as f64, 0, *rays)), most)
+    NODES_PER_RAY.bars(visited.map(|(nodes, rays)| (nodes as f64, 0, *rays)), most)
 }
 
 impl HistogramAxis {
@@ -331,7 +331,7 @@ mod tests {
         };
         let bars = ray_bars(&visits, 36);
         assert_eq!(bars.counts, [[4, 0], [0, 0], [7, 0], [1, 0]]);
-        assert_eq!(NODES_A_RAY.format_range([1.5, 2.5]), "2");
+        assert_eq!(NODES_PER_RAY.format_range([1.5, 2.5]), "2");
         let few = ray_bars(&visits, 2).counts;
         assert_eq!(few, [[4, 0], [8, 0]]);
         assert!(ray_bars(&Visits::default(), 36).counts.is_empty());

@@ -1,4 +1,4 @@
-//! What is drawn over scenes and pictures, as plain colors, boxes and lines; knows no window.
+//! What is drawn over scenes and pictures, as plain colors, boxes and lines, without a window.
 
 mod coloring;
 mod colormap;
@@ -16,7 +16,7 @@ pub use coloring::{COLORINGS, Coloring, Leaf, Mark, coloring};
 pub use colormap::{COLORMAPS, Colormap, colormap};
 pub use heat::{HeatScale, Range, Scale, Tick, blend, heat_colors};
 pub use histogram::{
-    Bars, HISTOGRAM_COUNT, HISTOGRAMS, Histogram, HistogramAxis, NODES_A_RAY, Ranges, Spread,
+    Bars, HISTOGRAM_COUNT, HISTOGRAMS, Histogram, HistogramAxis, NODES_PER_RAY, Ranges, Spread,
     in_ranges, leaves, ranges_need_visits, ray_bars,
 };
 pub use leaf_boxes::{Filter, Instance, LeafBoxes, UNDECIDED_COLOR, Visited, leaf_boxes};

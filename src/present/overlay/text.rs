@@ -1,4 +1,7 @@
 //! Text in pictures, drawn without a window.
+//!
+//! `imageproc` draws text, too, but it is a whole image-processing library with its dependencies, for
+//! what are 60 lines on top of `ab_glyph`.
 
 use ab_glyph::{Font, FontRef, PxScale, ScaleFont, point};
 use image::{Rgb, RgbImage};
@@ -77,7 +80,7 @@ impl Pen {
         });
     }
 
-    /// Tells of every glyph and how far along the line it starts; gives the line's width.
+    /// Calls back with each glyph and where it starts along the line; returns the width of the line.
     fn walk(&self, text: &str, mut each: impl FnMut(ab_glyph::GlyphId, f32)) -> f32 {
         let font = self.font.as_scaled(self.scale);
         let (mut along, mut last) = (0.0, None);

@@ -1,4 +1,4 @@
-//! The walk of a ray through the tree: the leaves it visited in order, and one step in detail.
+//! The traversal of a ray: the leaves that it visits in order, and one step in detail.
 
 use super::lines::{Line, box_lines, order_color};
 use crate::geometry::Vec3;

@@ -4,28 +4,28 @@ use crate::geometry::Aabb;
 use crate::measure::Measurement;
 use crate::scene::{Camera, Note, Requirements, Scene, SceneRequest};
 
-/// What was measured of one scene, with one or more methods.
+/// The measurements of one scene with one or more methods.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     pub scene: SceneSummary,
-    /// One for every method, in the order in which they were asked for.
+    /// One per method, in the order of the request.
     pub runs: Vec<Measurement>,
-    /// Whether what rays did is told kind by kind, too.
+    /// Whether there are tables for each kind of ray.
     pub per_kind: bool,
 }
 
-/// What a report says of the scene itself.
+/// The scene of a report.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSummary {
     pub name: String,
-    /// The file or the generator, and how cylinders were taken.
+    /// The file or the generator, and how cylinders are represented.
     pub request: SceneRequest,
     /// The tight box around all objects; empty without objects.
     pub bounds: Aabb,
     pub objects: usize,
     pub lights: usize,
     pub requirements: Requirements,
-    /// The load report: what the reader had to say about the file.
+    /// The load report: notes of the reader on the file.
     pub notes: Vec<Note>,
     /// The scene's own camera.
     pub camera: Camera,

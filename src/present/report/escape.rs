@@ -1,6 +1,6 @@
-//! Text with the characters that a markup language reserves escaped.
+//! Escapes the reserved characters of markup languages.
 
-/// Text with the characters that Markdown would take for markup escaped.
+/// Escapes the characters that are markup in Markdown.
 pub fn markdown(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
@@ -12,7 +12,7 @@ pub fn markdown(text: &str) -> String {
     out
 }
 
-/// Text with the characters that mean something to LaTeX, or that its old fonts lack, replaced.
+/// Replaces the characters that are reserved in LaTeX or missing from its older fonts.
 pub fn latex(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {

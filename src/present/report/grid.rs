@@ -4,7 +4,7 @@ use super::escape;
 use super::table::plain_table;
 use std::io::{Result, Write};
 
-/// A table: titles, and lines of as many cells each.
+/// A table: titles, and rows with as many cells.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
     pub title: String,

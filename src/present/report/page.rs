@@ -19,7 +19,7 @@ pub struct Page<'a> {
     pub date: String,
     /// What the user wrote down; empty for nothing.
     pub notes: String,
-    /// Commands that measure the same again, one a line.
+    /// Commands that repeat the measurements, one per line.
     pub commands: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! The paper's tables, printed figures beside computed ones.
+//! The paper's tables: printed figures next to computed ones.
 
 use super::escape;
 use super::grid::Grid;

@@ -1,4 +1,4 @@
-//! What rays of every kind did, kind by kind: tables for people, values for programs.
+//! The figures of each kind of ray: tables for people, values for programs.
 
 use super::content::Report;
 use super::exact::exact;
@@ -8,7 +8,7 @@ use crate::measure::{Change, RayFigure, change, ray_figures};
 use crate::trace::RayKind;
 use serde_json::{Map, Value, json};
 
-/// The kinds of which any run has rays, if they are asked for.
+/// Returns the kinds that occur in any run; none if the report has no such tables.
 fn kinds(report: &Report) -> impl Iterator<Item = RayKind> {
     let has_rays = |kind: &RayKind| {
         let mut tallies = report.runs.iter().filter_map(|run| run.tally(*kind));
@@ -34,7 +34,7 @@ fn values(
     (values, change)
 }
 
-/// A table for every kind of ray; none if they are not asked for.
+/// Returns one table per kind of ray.
 pub fn grids(report: &Report) -> Vec<Grid> {
     kinds(report)
         .map(|kind| Grid {
@@ -94,7 +94,7 @@ pub struct Line {
     pub value: Value,
 }
 
-/// A line for every value; none if they are not asked for.
+/// Returns one line per value.
 pub fn lines(report: &Report) -> Vec<Line> {
     let mut lines = Vec::new();
     for kind in kinds(report) {

@@ -3,7 +3,7 @@
 use super::content::Report;
 use crate::measure::{Class, DELTA, LAMBDA, Parameter, Table, change, parameter, parameters};
 
-/// What stands where there is no value.
+/// Shown in place of a missing value.
 pub const NO_VALUE: &str = "–";
 
 /// One table.

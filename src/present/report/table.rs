@@ -2,7 +2,7 @@
 
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
 
-/// An empty table with a line under its titles; columns from `first_number` on are set to the right.
+/// Returns an empty table with a line under its titles. Columns from `first_number` on are right-aligned.
 pub fn plain_table(titles: Vec<String>, first_number: usize) -> Table {
     let rule = LineStyle::none().fill('─').junction('─');
     let mut table = Table::new();

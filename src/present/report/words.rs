@@ -1,4 +1,4 @@
-//! What a report says in sentences: the scene, the settings, the times.
+//! The sentences of a report: the scene, the settings, the times.
 
 use super::content::Report;
 use crate::geometry::Vec3;
@@ -7,7 +7,7 @@ use crate::setup::{Group, Kind, Setting, Setup, Value};
 use crate::structure::MaxDepth;
 use crate::structure::split::Structure;
 
-/// The scene and what rendering it leaves out, a sentence a line.
+/// Describes the scene and which features it does not need, one sentence per line.
 pub fn scene(report: &Report) -> Vec<String> {
     let scene = &report.scene;
     let kinds: Vec<_> = scene
@@ -110,7 +110,7 @@ fn with_value(setting: &Setting, setup: &Setup) -> String {
     }
 }
 
-/// Times of every run with the threads they were taken on, a sentence a line.
+/// Describes the times of each run and its threads, one sentence per line.
 pub fn times(report: &Report) -> Vec<String> {
     report
         .runs

@@ -1,4 +1,4 @@
-//! A pixel's record for people: an outline, a line for every node that a ray came through.
+//! A pixel's record for people: an outline with one line per node that a ray visits.
 
 use super::report::PixelReport;
 use crate::geometry::Vec3;
