@@ -20,7 +20,7 @@
 //! | [`structure`] | 8-byte nodes, the build driver, voxels of grids, moments of the build, validation | |
 //! | [`structure::split`] | build methods: where a cell is split | a line in [`structure::split::SPLIT_RULES`] |
 //! | [`trace`] | traversal of trees and grids in two precisions; timed and counting kernels, scalar and SIMD; shading, rendering, recorded rays | |
-//! | [`setup`] | the whole experiment: scene, structure, render settings, camera | a field and an entry of [`setup::SETTINGS`] |
+//! | [`setup`] | the whole experiment: scene, structure, render settings, camera; the command that measures it | a field and an entry of [`setup::SETTINGS`] |
 //! | [`measure`] | counters, which serve as the parameters of the paper's Tables 1 to 3, as heatmaps and as counts per kind of ray; Δ and Λ; verification against testing every object | an entry of [`measure::COUNTERS`] |
 //! | [`measure::model`] | the time model of equation (1), by regression and in place; where the rendering time goes | |
 //! | [`measure::sweep`] | the parameters for every combination of settings: points, rows, shards | |
@@ -36,7 +36,7 @@
 //! | [`present::report`] | reports as text, JSON, CSV, Markdown, LaTeX and HTML | a line in [`present::report::WRITERS`] |
 //! | [`present::export`] | pictures, heatmaps with legends, leaf boxes, the whole report | a line in [`present::export::LEAF_WRITERS`] |
 //! | [`lesson`] | guided tours in plain text, and whether what they state is true | a line in [`lesson::LESSONS`] |
-//! | [`workspace`] | the state of a session as a file; settings as a command | a field with a default |
+//! | [`workspace`] | the state of a session as a file | a field with a default |
 //! | [`cli`], `gui` | the two user interfaces; neither imports the other, except to open the window | |
 //!
 //! # Data flow

@@ -554,8 +554,8 @@ mod tests {
     use super::*;
     use crate::scene::{SceneRequest, SceneSource};
     use crate::setup::Setup;
+    use crate::setup::measure_command;
     use crate::structure::BuildSettings;
-    use crate::workspace::measure_command;
     use clap::CommandFactory;
 
     #[test]

@@ -3,9 +3,9 @@
 use super::selection::Selection;
 use super::state::{Current, State, Wanted};
 use super::walk::Wish;
-use crate::setup::Setup;
+use crate::setup::{Setup, measure_command};
 use crate::structure::Moment;
-use crate::workspace::{Selected, Workspace, measure_command};
+use crate::workspace::{Selected, Workspace};
 use std::collections::BTreeMap;
 
 /// A selection to come back to once its picture is there.

@@ -2,10 +2,12 @@
 //! and from where. Each setting is declared once, in [`SETTINGS`]: options, widgets, files, axes of
 //! sweeps and lines in reports are made from that list.
 
+mod command;
 mod edits;
 mod setting;
 mod settings;
 
+pub use command::measure_command;
 pub use edits::{Edits, any_setting};
 pub use setting::{Affects, Choice, Group, Kind, Range, Setting, Value};
 pub use settings::{SETTINGS, setting};

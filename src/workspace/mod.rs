@@ -2,13 +2,11 @@
 //! depend on the window: [`side`] is one setup, [`view`] is what is shown, [`command`] writes
 //! settings as a command.
 
-mod command;
 mod names;
 mod scene;
 mod side;
 mod view;
 
-pub use command::measure_command;
 pub use view::{
     Arrangement, CutSettings, Heat, NODES_A_RAY, PicturePlace, Selected, View, View3dSettings,
     Which,

@@ -11,6 +11,7 @@ use bspscope::trace::{
     CountedRender, CountingKernel, KernelChoice, Picture, RayKind, RenderSettings, Shading, Tally,
     render_counted, render_timed, thread_pool, tiles, trace_samples,
 };
+use std::collections::HashSet;
 use std::sync::Mutex;
 use std::time::Duration;
 
@@ -67,8 +68,9 @@ fn picture(scene: &Scene, tree: &Tree, settings: &RenderSettings) -> Picture {
     picture.into_inner().unwrap()
 }
 
+/// One loop for all, so that each tree is built once.
 #[test]
-fn every_method_gives_the_hits_of_testing_every_object() {
+fn every_tree_is_valid_and_gives_the_hits_of_testing_every_object_and_the_same_picture() {
     let pool = thread_pool(0).unwrap();
     for name in scene_names() {
         let scene = scene_file(&name);
@@ -95,16 +97,29 @@ fn every_method_gives_the_hits_of_testing_every_object() {
             expected[0], expected[1],
             "the precisions differ in the last places"
         );
-        for method in Method::all().filter(|m| m.name != "none") {
+        let small = small_picture(&scene, 0);
+        let mut first: Option<Picture> = None;
+        for method in Method::all() {
             for overlap in OverlapRule::ALL {
                 let tree = tree_of(&scene, method, overlap);
+                if let Err(wrong) = validate(&scene, &tree) {
+                    panic!("{name} by {method:?}, {}: {wrong}", overlap.name());
+                }
+                if overlap == OverlapRule::Paper {
+                    let picture = picture(&scene, &tree, &small);
+                    let first = first.get_or_insert_with(|| picture.clone());
+                    assert!(picture == *first, "{name} by {method:?}");
+                }
+                if method.name == "none" {
+                    continue;
+                }
                 for (precision, expected) in Precision::ALL.into_iter().zip(&expected) {
                     let found = answer(&scene, &tree, precision, &rays, &pool, &progress).unwrap();
                     let result = compare(&scene, &rays, expected, &found, None);
                     assert!(
                         result.is_identical(),
-                        "{} by {method:?}, overlap {}, {precision:?}: wrong {:?} of {:?}, such as {:?}",
-                        name,
+                        "{name} by {method:?}, overlap {}, {precision:?}: wrong {:?} of {:?}, such \
+                         as {:?}",
                         overlap.name(),
                         result.others,
                         result.rays,
@@ -113,21 +128,8 @@ fn every_method_gives_the_hits_of_testing_every_object() {
                 }
             }
         }
-    }
-}
-
-#[test]
-fn every_tree_is_valid() {
-    for name in scene_names() {
-        let scene = scene_file(&name);
-        for method in Method::all() {
-            for overlap in OverlapRule::ALL {
-                let tree = tree_of(&scene, method, overlap);
-                if let Err(wrong) = validate(&scene, &tree) {
-                    panic!("{} by {method:?}, {}: {wrong}", name, overlap.name());
-                }
-            }
-        }
+        let colors: HashSet<_> = first.unwrap().to_srgb8().into_iter().collect();
+        assert!(colors.len() > 10, "nothing to see in {name}");
     }
 }
 
@@ -151,31 +153,18 @@ fn trees_do_not_depend_on_the_number_of_threads() {
     assert!(many.objects().len() > 60_000);
     for method in Method::all() {
         check(&many, &BuildSettings::for_method(method));
-        for name in scene_names() {
+    }
+    for name in scene_names() {
+        let scene = scene_file(&name);
+        for method in Method::all() {
             for overlap in OverlapRule::ALL {
                 let settings = BuildSettings {
                     overlap,
                     ..BuildSettings::for_method(method)
                 };
-                check(&scene_file(&name), &settings);
+                check(&scene, &settings);
             }
         }
-    }
-}
-
-#[test]
-fn every_method_gives_the_same_picture() {
-    for name in scene_names() {
-        let scene = scene_file(&name);
-        let settings = small_picture(&scene, 0);
-        let mut pictures = Method::all().map(|method| {
-            let tree = tree_of(&scene, method, OverlapRule::Paper);
-            picture(&scene, &tree, &settings)
-        });
-        let first = pictures.next().unwrap();
-        let colors: std::collections::HashSet<_> = first.to_srgb8().into_iter().collect();
-        assert!(colors.len() > 10, "nothing to see in {}", name);
-        assert!(pictures.all(|p| p == first), "{}", name);
     }
 }
 

@@ -1,6 +1,7 @@
 //! The scheduler of jobs: whatever is requested in whatever order, it comes to rest with the last
 //! request of every slot answered, and timed units run alone.
 
+use crate::support::random::Random;
 use bspscope::jobs::{
     Context, End, Handle, Job, JobError, Priority, Run, Scheduler, Slot, Standing,
 };
@@ -110,44 +111,27 @@ impl Job for Virtual {
     }
 }
 
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, limit: u64) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) % limit
+fn random_steps(random: &mut Random) -> Vec<Step> {
+    let count = 1 + random.below(4);
+    let mut steps: Vec<_> = (0..count)
+        .map(|_| {
+            random.one_of(&[
+                Step::Unit,
+                Step::Unit,
+                Step::Timed,
+                Step::Timed,
+                Step::Send,
+                Step::Send,
+                Step::Hold,
+            ])
+        })
+        .collect();
+    match random.below(8) {
+        0 => steps.push(Step::Fail),
+        1 => steps.push(Step::Panic),
+        _ => {}
     }
-
-    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[self.below(choices.len() as u64) as usize]
-    }
-
-    fn steps(&mut self) -> Vec<Step> {
-        let count = 1 + self.below(4);
-        let mut steps: Vec<_> = (0..count)
-            .map(|_| {
-                self.one_of(&[
-                    Step::Unit,
-                    Step::Unit,
-                    Step::Timed,
-                    Step::Timed,
-                    Step::Send,
-                    Step::Send,
-                    Step::Hold,
-                ])
-            })
-            .collect();
-        match self.below(8) {
-            0 => steps.push(Step::Fail),
-            1 => steps.push(Step::Panic),
-            _ => {}
-        }
-        steps
-    }
+    steps
 }
 
 const SLOTS: [Slot; 4] = [
@@ -215,11 +199,11 @@ fn sequence(seed: u64, totals: &Watch) {
     let scheduler = Scheduler::new(|| ());
     let mut last: [Option<Request>; SLOTS.len()] = [const { None }; SLOTS.len()];
     let mut replaced = Vec::new();
-    for id in 0..4 + random.below(8) {
-        let place = random.below(SLOTS.len() as u64) as usize;
+    for id in 0..4 + random.below(8) as u64 {
+        let place = random.below(SLOTS.len());
         match random.below(12) {
             0..5 => {
-                let steps = random.steps();
+                let steps = random_steps(random);
                 let request = |handle| Request {
                     handle,
                     id,

@@ -6,9 +6,9 @@ use bspscope::measure::{Measurement, measure};
 use bspscope::present::report::{Report, WRITERS};
 use bspscope::progress::Progress;
 use bspscope::scene::{SceneRequest, load};
-use bspscope::setup::{Affects, Edits, SETTINGS, Setting, Setup, any_setting};
+use bspscope::setup::{Affects, Edits, SETTINGS, Setting, Setup, any_setting, measure_command};
 use bspscope::structure::{BuildSettings, Method};
-use bspscope::workspace::{Workspace, measure_command};
+use bspscope::workspace::Workspace;
 use std::path::Path;
 
 /// Setups that differ from a plain one in one setting each, with that setting; constants of every

@@ -1,39 +1,19 @@
 //! The SIMD kernels return the scalar kernel's hits, ray for ray and bit for bit: for every kind of
 //! primitive, both precisions and every instruction set of this processor, difficult rays above all.
 
+use crate::support::random::Random;
+use crate::support::scenes::{self, tree_with};
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::primitive::{Cone, Polygon, Precision, Primitive, Sphere, Triangle};
 use bspscope::progress::Progress;
-use bspscope::scene::{Camera, Material, Scene, SceneParts, SceneRequest, load};
-use bspscope::structure::SimdTree;
-use bspscope::structure::{BuildSettings, MaxDepth, Method, OverlapRule, Tree, build};
+use bspscope::scene::{Camera, Material, Scene, SceneParts};
+use bspscope::structure::{BuildSettings, MaxDepth, Method, OverlapRule, SimdTree, Tree};
 use bspscope::trace::{
     Hit, InstructionSet, KernelChoice, Picture, RenderSettings, Scratch, SimdKernel, SimdMode,
     any_hit, closest_hit, render_timed, thread_pool,
 };
 use std::io::Write;
 use std::sync::{Mutex, Once};
-
-/// Pseudo-random numbers from −1 to 1, the same on every platform.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn vector(&mut self) -> Vec3 {
-        Vec3::new(self.next(), self.next(), self.next())
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (((self.next() + 1.0) * 0.5 * n as f64) as usize).min(n - 1)
-    }
-}
 
 fn scene(name: &str, objects: Vec<Primitive>) -> Scene {
     Scene::new(SceneParts {
@@ -57,8 +37,8 @@ fn scene(name: &str, objects: Vec<Primitive>) -> Scene {
 
 /// A mesh whose vertices lie on a lattice, so that many of them lie in split planes, and loose ones.
 fn triangles() -> Vec<Primitive> {
-    let mut numbers = Numbers(1);
-    let height: Vec<f64> = (0..81).map(|_| 0.25 * numbers.next()).collect();
+    let mut numbers = Random(1);
+    let height: Vec<f64> = (0..81).map(|_| 0.25 * numbers.signed()).collect();
     let at = |i: usize, j: usize| {
         let place = |k: usize| k as f64 / 4.0 - 1.0;
         Vec3::new(place(i), place(j), height[9 * j + i])
@@ -83,13 +63,13 @@ fn triangles() -> Vec<Primitive> {
 }
 
 fn spheres() -> Vec<Primitive> {
-    let mut numbers = Numbers(2);
+    let mut numbers = Random(2);
     (0..300)
         .map(|i| {
             let radius = if i % 50 == 0 {
                 0.0
             } else {
-                0.15 * numbers.next().abs()
+                0.15 * numbers.signed().abs()
             };
             Primitive::Sphere(Sphere::new(numbers.vector(), radius).unwrap())
         })
@@ -97,7 +77,7 @@ fn spheres() -> Vec<Primitive> {
 }
 
 fn polygons() -> Vec<Primitive> {
-    let mut numbers = Numbers(3);
+    let mut numbers = Random(3);
     (0..200)
         .filter_map(|_| {
             let (center, u, v) = (numbers.vector(), numbers.vector(), numbers.vector());
@@ -108,11 +88,11 @@ fn polygons() -> Vec<Primitive> {
 }
 
 fn cones() -> Vec<Primitive> {
-    let mut numbers = Numbers(4);
+    let mut numbers = Random(4);
     (0..200)
         .filter_map(|_| {
             let (base, along) = (numbers.vector(), 0.3 * numbers.vector());
-            let [r, s] = [(); 2].map(|()| 0.1 * numbers.next().abs());
+            let [r, s] = [(); 2].map(|()| 0.1 * numbers.signed().abs());
             Some(Primitive::Cone(Cone::new(base, r, base + along, s).ok()?))
         })
         .collect()
@@ -146,7 +126,7 @@ fn scenes() -> Vec<Scene> {
         ),
     ];
     for builtin in ["teaching", "tetra:3", "balls:2"] {
-        scenes.push(load(&SceneRequest::parse(builtin), &Progress::new()).unwrap());
+        scenes.push(scenes::scene(builtin));
     }
     scenes
 }
@@ -170,7 +150,7 @@ fn places(scene: &Scene, tree: &Tree) -> Vec<Vec3> {
 
 /// Returns difficult rays and common ones.
 fn rays(scene: &Scene, tree: &Tree) -> Vec<Ray> {
-    let mut numbers = Numbers(5);
+    let mut numbers = Random(5);
     let places = places(scene, tree);
     let (center, size) = (tree.root_cell().center(), tree.root_cell().size().length());
     let mut rays = Vec::new();
@@ -192,7 +172,7 @@ fn rays(scene: &Scene, tree: &Tree) -> Vec<Ray> {
                 for other in 0..3 {
                     direction[other] = zeros[numbers.below(zeros.len())];
                 }
-                direction[k] = if numbers.next() < 0.0 { -1.0 } else { 1.0 };
+                direction[k] = if numbers.signed() < 0.0 { -1.0 } else { 1.0 };
             }
             // In a plane across an axis.
             4 => direction[numbers.below(3)] = 0.0,
@@ -202,15 +182,15 @@ fn rays(scene: &Scene, tree: &Tree) -> Vec<Ray> {
             _ => {}
         }
         let origin = match i % 9 {
-            0..3 => target - direction * numbers.next() * size,
+            0..3 => target - direction * numbers.signed() * size,
             3 => target,
             _ => origin,
         };
         let mut ray = Ray::new(origin, direction);
         match i % 5 {
-            0 => ray.t_max = to.length() * numbers.next().abs(),
+            0 => ray.t_max = to.length() * numbers.signed().abs(),
             1 => ray.t_max = to.length(),
-            2 => ray.t_min = 0.5 * to.length() * numbers.next().abs(),
+            2 => ray.t_min = 0.5 * to.length() * numbers.signed().abs(),
             _ => {}
         }
         if i % 97 == 0 {
@@ -298,7 +278,7 @@ fn hits_are_those_of_the_scalar_kernel_bit_for_bit() {
                     d_max: MaxDepth::Automatic,
                     ..BuildSettings::for_method(method)
                 };
-                let tree = build(&scene, &settings, &Progress::new()).unwrap();
+                let tree = tree_with(&scene, &settings);
                 let what = format!("{}, {method:?}, {}", scene.name(), overlap.name());
                 hits += assert_same(&scene, &tree, &rays(&scene, &tree), &what);
             }
@@ -312,11 +292,11 @@ fn hits_are_those_of_the_scalar_kernel_bit_for_bit() {
 }
 
 /// Triangles in a plane, of any size, or each alone and very small.
-fn flat_or_small(numbers: &mut Numbers, small: bool) -> Vec<[Vec3; 3]> {
+fn flat_or_small(numbers: &mut Random, small: bool) -> Vec<[Vec3; 3]> {
     let [u, v] = [Vec3::new(0.6, 0.64, 0.48), Vec3::new(-0.8, 0.48, 0.36)];
     let mut corners = Vec::new();
     while corners.len() < 64 {
-        let mut triangle = [(); 3].map(|()| numbers.next() * u + numbers.next() * v);
+        let mut triangle = [(); 3].map(|()| numbers.signed() * u + numbers.signed() * v);
         if small {
             let center = numbers.vector();
             triangle = triangle.map(|corner| center + 1e-6 * corner);
@@ -333,35 +313,35 @@ fn flat_or_small(numbers: &mut Numbers, small: bool) -> Vec<[Vec3; 3]> {
 #[test]
 fn hits_that_are_hard_to_decide_are_those_of_the_scalar_kernel() {
     for small in [false, true] {
-        let mut numbers = Numbers(7);
+        let mut numbers = Random(7);
         let corners = flat_or_small(&mut numbers, small);
         let objects = corners
             .iter()
             .map(|&triangle| Primitive::Triangle(Triangle::new(triangle, None).unwrap()));
         let scene = scene(if small { "small" } else { "flat" }, objects.collect());
-        let settings = BuildSettings::for_method(Method::named("sah").unwrap());
-        let tree = build(&scene, &settings, &Progress::new()).unwrap();
+        let settings = scenes::settings("sah");
+        let tree = tree_with(&scene, &settings);
         let shapes = scene.shapes(Precision::F32);
         let mut scratch = Scratch::default();
         let mut rays = Vec::new();
         for _ in 0..10_000 {
             let [a, b, c] = corners[numbers.below(corners.len())];
-            let (s, t) = (0.5 + 0.5 * numbers.next(), 0.5 + 0.5 * numbers.next());
+            let (s, t) = (0.5 + 0.5 * numbers.signed(), 0.5 + 0.5 * numbers.signed());
             let target = a + s * (b - a) + s * t * (c - b);
-            let slope = 10_f64.powf(-6.0 + 3.0 * numbers.next());
-            let along = numbers.next() * (b - a) + numbers.next() * (c - a);
+            let slope = 10_f64.powf(-6.0 + 3.0 * numbers.signed());
+            let along = numbers.signed() * (b - a) + numbers.signed() * (c - a);
             let normal = (b - a).cross(c - a).normalize();
             let direction = if small {
                 numbers.vector().normalize()
             } else {
                 (along.normalize() + slope * normal).normalize()
             };
-            let distance = 1.0 + 0.9 * numbers.next();
+            let distance = 1.0 + 0.9 * numbers.signed();
             let ray = Ray::new(target - distance * direction, direction);
             rays.push(ray);
             let hit = closest_hit(&tree, shapes, &ray, &mut scratch, &mut ());
             if hit.is_hit() {
-                let next_to = hit.t * (1.0 + 1e-7 * numbers.next());
+                let next_to = hit.t * (1.0 + 1e-7 * numbers.signed());
                 for t in [hit.t, next_to] {
                     rays.push(Ray { t_max: t, ..ray });
                     rays.push(Ray { t_min: t, ..ray });
@@ -376,8 +356,8 @@ fn hits_that_are_hard_to_decide_are_those_of_the_scalar_kernel() {
 #[test]
 fn any_number_of_rays_is_answered() {
     let scene = scene("triangles", triangles());
-    let settings = BuildSettings::for_method(Method::named("sah").unwrap());
-    let tree = build(&scene, &settings, &Progress::new()).unwrap();
+    let settings = scenes::settings("sah");
+    let tree = tree_with(&scene, &settings);
     let rays = rays(&scene, &tree);
     let shapes = scene.shapes(Precision::F32);
     for (instructions, mode) in simd_kernels() {
@@ -411,9 +391,9 @@ fn however_many_candidates_wait_there_is_room() {
     let scene = scene("a leaf", on_an_edge.chain(on_a_tip).collect());
     let settings = BuildSettings {
         d_max: MaxDepth::Fixed(0),
-        ..BuildSettings::for_method(Method::named("midpoint").unwrap())
+        ..scenes::settings("midpoint")
     };
-    let tree = build(&scene, &settings, &Progress::new()).unwrap();
+    let tree = tree_with(&scene, &settings);
     let down = -Vec3::Z;
     let rays: Vec<Ray> = (0..15)
         .map(|x| Ray::new(Vec3::new(f64::from(x), 0.0, 20.0), down))
@@ -436,9 +416,9 @@ fn however_many_candidates_wait_there_is_room() {
 #[test]
 fn every_kernel_gives_the_same_picture() {
     for name in ["balls:2", "teaching"] {
-        let scene = load(&SceneRequest::parse(name), &Progress::new()).unwrap();
-        let settings = BuildSettings::for_method(Method::named("sah").unwrap());
-        let tree = build(&scene, &settings, &Progress::new()).unwrap();
+        let scene = scenes::scene(name);
+        let settings = scenes::settings("sah");
+        let tree = tree_with(&scene, &settings);
         let pool = thread_pool(2).unwrap();
         let pictures = KernelChoice::ALL.map(|kernel| {
             let render = RenderSettings {

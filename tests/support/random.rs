@@ -18,9 +18,18 @@ impl Random {
         (self.bits() % n.max(1) as u64) as usize
     }
 
+    pub fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+        choices[self.below(choices.len())]
+    }
+
     /// Returns a number from `lo` up to but not including `hi`.
     pub fn within(&mut self, lo: f64, hi: f64) -> f64 {
         lo + (hi - lo) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Returns a number between −1 and 1.
+    pub fn signed(&mut self) -> f64 {
+        self.within(-1.0, 1.0)
     }
 
     pub fn point(&mut self, b: &Aabb) -> Vec3 {

@@ -5,9 +5,8 @@ use crate::measure::Measurement;
 use crate::measure::heat::{PixelCounts, RayFilter, heatmap};
 use crate::present::overlay::{COLORMAPS, Range, Scale};
 use crate::present::report::{Figure, Machine, Page, Report, now};
-use crate::setup::Setup;
+use crate::setup::{Setup, measure_command};
 use crate::trace::Picture;
-use crate::workspace::measure_command;
 use image::{ImageError, ImageFormat};
 use std::io::{Error, Result, Write};
 

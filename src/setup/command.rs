@@ -1,7 +1,7 @@
 //! A setup as a command.
 
+use super::{SETTINGS, Setup};
 use crate::scene::SceneSource;
-use crate::setup::{SETTINGS, Setup};
 use std::path::absolute;
 
 /// Settings that are always written, even at their defaults.
