@@ -188,14 +188,18 @@ impl Current {
         self.wish.or(picked).filter(|_| same)
     }
 
-    /// The settings of what is shown, in one line.
+    /// The settings of what is shown, in one line: those that the paper gives, and all others that
+    /// are not at their defaults.
     pub fn settings_text(&self) -> String {
+        /// Settings that always have their place.
+        const GIVEN: [&str; 5] = ["method", "d-max", "n-oilf", "d-arec", "resolution"];
         let Shown {
+            setup,
             scene,
             measurement: m,
             ..
         } = &self.shown;
-        format!(
+        let mut text = format!(
             "{} · {} · D_MAX {} · N_OILF {} · D_AREC {} · {} × {} pixels",
             scene.name(),
             m.build.method.name,
@@ -204,7 +208,12 @@ impl Current {
             m.render.d_arec,
             m.render.width,
             m.render.height,
-        )
+        );
+        let others = setup.differences().filter(|s| !GIVEN.contains(&s.name));
+        for setting in others {
+            text += &format!(" · {} {}", setting.word(), setting.text(setup));
+        }
+        text
     }
 }
 

@@ -74,10 +74,9 @@ impl Setup {
         pairs.collect::<Vec<_>>().join(",")
     }
 
-    /// Returns everything that differs from its default, as `NAME VALUE`, separated by commas.
-    pub fn differences(&self) -> Vec<(Setting, String)> {
-        let differ = self.settings().filter(|s| !s.is_default(self));
-        differ.map(|s| (s, s.text(self))).collect()
+    /// Returns the settings that are not at their defaults.
+    pub fn differences(&self) -> impl Iterator<Item = Setting> {
+        self.settings().filter(|s| !s.is_default(self))
     }
 }
 

@@ -307,10 +307,9 @@ impl Setting {
         Ok(values)
     }
 
-    /// Returns some values other than the default, for tests over all settings.
+    /// Returns some values that are allowed, for tests that go through all settings.
     pub fn examples(&self) -> Vec<Value> {
-        let default = self.default(&Setup::default());
-        let values = match self.kind {
+        match self.kind {
             Kind::Number(range) | Kind::Angle(range) if range.whole => {
                 vec![
                     Value::Number(range.lowest + 2.0),
@@ -338,11 +337,7 @@ impl Setting {
                 .map(Value::Depth)
                 .to_vec(),
             Kind::Cylinders => vec![Value::Cylinders(Cylinders::Polygons(10))],
-        };
-        values
-            .into_iter()
-            .filter(|value| *value != default)
-            .collect()
+        }
     }
 
     fn has_ranges(&self) -> bool {

@@ -1,6 +1,5 @@
 //! Workspaces: the state of a session as an editable text file (`.bspscope`, TOML). The data do not
-//! depend on the window: [`side`] is one setup, [`view`] is what is shown, [`command`] writes
-//! settings as a command.
+//! depend on the window: [`side`] is one setup, [`view`] is what is shown.
 
 mod names;
 mod scene;

@@ -143,21 +143,21 @@ impl<'de> Visitor<'de> for Table {
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Settings, A::Error> {
         let mut pairs = Vec::new();
-        while let Some(key) = map.next_key::<String>()? {
-            if let Some(table) = Table::within(&key) {
-                pairs.extend(map.next_value_seed(table)?.0);
-            } else if NEAR_PLANE.contains(&key.as_str()) {
-                map.next_value::<serde::de::IgnoredAny>()?;
-            } else if key == "memory_limit" {
-                // Version 1 gave bytes.
-                let bytes: u64 = map.next_value()?;
-                let mib = (bytes >> 20).max(1);
-                pairs.push(("memory-limit".into(), Value::Number(mib as f64)));
-            } else {
-                let setting = self.setting(&key.replace('_', "-"));
-                let setting = setting.map_err(A::Error::custom)?;
-                let value = map.next_value_seed(ValueOf(setting))?;
-                pairs.push((setting.name.to_owned(), value));
+        while let Some(key) = map.next_key_seed(KeyIn(self))? {
+            match key {
+                Key::Table(table) => pairs.extend(map.next_value_seed(table)?.0),
+                Key::NearPlane => {
+                    map.next_value::<serde::de::IgnoredAny>()?;
+                }
+                Key::Bytes => {
+                    let bytes: u64 = map.next_value()?;
+                    let mib = (bytes >> 20).max(1);
+                    pairs.push(("memory-limit".into(), Value::Number(mib as f64)));
+                }
+                Key::Setting(setting) => {
+                    let value = map.next_value_seed(ValueOf(setting))?;
+                    pairs.push((setting.name.to_owned(), value));
+                }
             }
         }
         Ok(Settings(pairs))
@@ -185,5 +185,36 @@ impl<'de> DeserializeSeed<'de> for ValueOf {
         self.0
             .parse(&text)
             .map_err(|reason| D::Error::custom(format!("{}: {reason}", self.0.name)))
+    }
+}
+
+/// What a key of a table stands for.
+enum Key {
+    Table(Table),
+    Setting(Setting),
+    /// The memory limit of version 1, in bytes.
+    Bytes,
+    NearPlane,
+}
+
+/// Reads a key of a table. An unknown key is reported with its line.
+struct KeyIn(Table);
+
+impl<'de> DeserializeSeed<'de> for KeyIn {
+    type Value = Key;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Key, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        if let Some(table) = Table::within(&name) {
+            return Ok(Key::Table(table));
+        }
+        if name == "memory_limit" {
+            return Ok(Key::Bytes);
+        }
+        if NEAR_PLANE.contains(&name.as_str()) {
+            return Ok(Key::NearPlane);
+        }
+        let setting = self.0.setting(&name.replace('_', "-"));
+        setting.map(Key::Setting).map_err(D::Error::custom)
     }
 }

@@ -592,7 +592,7 @@ fn what_rays_did_is_told_kind_by_kind_in_every_form() {
     ] {
         let text = program.done(&format!("{compare} {form} --per-kind"));
         assert!(
-            text.contains(title) && text.contains("nodes of a ray, most"),
+            text.contains(title) && text.contains("nodes per ray, maximum"),
             "{text}"
         );
         assert!(!text.contains("Refracted rays"), "{text}");

@@ -170,7 +170,7 @@ fn any_setting_is_an_axis() {
     for (wrong, why) in [
         ("--vary colour=1,2", "no setting 'colour'"),
         ("--vary precision=f16", "expected one of f32, f64, auto"),
-        ("--vary d-max=3 --d-max 4", "d-max is varied twice"),
+        ("--vary d-max=3 --d-max 4", "varied twice"),
         (
             "--vary gap-fraction=0.1 --method midpoint",
             "no chosen method",

@@ -15,11 +15,13 @@ struct Watch {
     /// Units that run now, without those of light jobs.
     units: AtomicI64,
     timed: AtomicI64,
+    /// Those of each of [`SLOTS`].
+    by_slot: [AtomicI64; SLOTS.len()],
     /// Units that have run, to show that something is tested.
     all_units: AtomicU64,
     all_timed: AtomicU64,
     interrupted: AtomicU64,
-    /// Whether a timed unit ran beside another unit.
+    /// Whether a timed unit ran beside another unit, or two units of one slot at once.
     disturbed: AtomicBool,
     /// Whether jobs that hold on may end.
     released: AtomicBool,
@@ -49,6 +51,11 @@ impl Virtual {
     fn work(&self, timed: bool, progress: &Progress, step: Step) -> Result<(), Cancelled> {
         let watch = &self.watch;
         let counts = self.priority.takes_turns();
+        let place = SLOTS.iter().position(|slot| *slot == self.slot);
+        let of_slot = place.map(|place| &watch.by_slot[place]).filter(|_| counts);
+        if of_slot.is_some_and(|units| units.fetch_add(1, SeqCst) > 0) {
+            watch.disturbed.store(true, SeqCst);
+        }
         if counts {
             let before = watch.units.fetch_add(1, SeqCst);
             if timed {
@@ -76,6 +83,9 @@ impl Virtual {
                 watch.timed.fetch_sub(1, SeqCst);
             }
             watch.units.fetch_sub(1, SeqCst);
+        }
+        if let Some(units) = of_slot {
+            units.fetch_sub(1, SeqCst);
         }
         result
     }

@@ -454,6 +454,24 @@ fn normals_of_ply_that_are_not_finite_are_replaced_in_text_and_binary_alike() {
     );
 }
 
+/// After a header with any line breaks, the first value may be a line feed.
+#[test]
+fn line_breaks_of_a_header_are_no_values() {
+    for line_break in ["\n", "\r", "\r\n"] {
+        let header = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\n\
+             property uchar y\nproperty uchar z\nelement face 1\n\
+             property list uchar uchar vertex_index\nend_header\n";
+        let mut file = header.replace('\n', line_break).into_bytes();
+        file.extend([10, 13, 10, 20, 13, 10, 10, 30, 10]);
+        file.extend([3, 0, 1, 2]);
+        let parts = check("ply", &file, 1, "");
+        let Primitive::Triangle(triangle) = &parts.objects[0] else {
+            panic!("not a triangle")
+        };
+        assert_eq!(triangle.vertices[0], Vec3::new(10.0, 13.0, 10.0));
+    }
+}
+
 #[test]
 fn strips_in_ply_are_triangles_of_one_orientation() {
     // Two strips; the first has an odd number of triangles, and repeated vertices join its parts.

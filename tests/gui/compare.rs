@@ -262,7 +262,7 @@ fn wipe_and_flip_show_the_other_picture() {
 #[test]
 fn what_each_kind_of_ray_did_is_listed_on_request() {
     let mut window = comparing(false);
-    assert!(!has(&window, "nodes of a ray, most"));
+    assert!(!has(&window, "nodes per ray, maximum"));
     click(&mut window, "per kind of ray");
     let [a, b] = ["midpoint", "sah-cut"].map(|method| measured(method, &render()).measurement);
     for figure in ray_figures() {

@@ -268,7 +268,7 @@ fn side_figures(current: &Current, subject: &Subject) -> SideFigures {
     }
 }
 
-/// What a step asks the worker for.
+/// The setups that a step asks for.
 fn wanted_of(subject: &Subject, state: &State) -> Wanted {
     let on_threads = |setup: &Setup| {
         let mut setup = setup.clone();

@@ -90,7 +90,7 @@ fn lambda(ui: &mut egui::Ui, state: &mut State) {
             for title in ["", "", "CPU", "wall"] {
                 ui.label(title).on_hover_text(match title {
                     "CPU" => "Time of all threads together",
-                    "wall" => "Time on the clock on the wall",
+                    "wall" => "Wall-clock time",
                     _ => "",
                 });
             }

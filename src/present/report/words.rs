@@ -98,7 +98,9 @@ fn setup(report: &Report, run: &Measurement) -> Setup {
 /// A setting and its value, such as `D_AREC 4` or `512 × 512 pixels`.
 fn with_value(setting: &Setting, setup: &Setup) -> String {
     match setting.value(setup) {
-        Value::Size([width, height]) => format!("{width} × {height} pixels"),
+        Value::Size([width, height]) => {
+            format!("{} {width} × {height} pixels", setting.word())
+        }
         Value::Number(0.0) if setting.name == "threads" => "threads 0 (all cores)".into(),
         value => {
             let unit = match setting.kind {

@@ -102,7 +102,7 @@ pub(super) fn read(bytes: &[u8], progress: &Progress) -> Result<Header, ReadErro
     };
     let mut lines = Lines::new(bytes, progress);
     let first = lines.next_with_words()?;
-    if !first.is_some_and(|line| line.bytes.trim_ascii() == b"ply") {
+    if first.is_none_or(|line| line.bytes.trim_ascii() != b"ply") {
         let expected = "'ply' as the first line of a PLY header";
         return Err(match first {
             Some(line) => expect(&line, expected),
@@ -186,19 +186,18 @@ fn property<'a>(words: &mut impl Iterator<Item = &'a [u8]>) -> Option<Property> 
     Some(Property { name, kind })
 }
 
-/// Returns where the values begin: after the line break of the header's last line. A CR LF counts
-/// as one line break only if the header's first line ends with one, because in a binary file the LF
-/// could be the first value.
+/// Returns where the values begin: after the line break of the header's last line. In a header whose
+/// lines end with CR alone, an LF after it is the first value of a binary file.
 fn end_of_header(bytes: &[u8], last: &Line<'_>) -> usize {
     let at = last.bytes.as_ptr() as usize - bytes.as_ptr() as usize + last.bytes.len();
     let is_break = |b: &u8| matches!(b, b'\n' | b'\r');
     let first_break = bytes.iter().position(is_break).unwrap_or(bytes.len());
-    let ends_with = |at: usize, text: &[u8]| bytes[at..].starts_with(text);
-    at + match bytes.get(at) {
-        None => 0,
-        Some(b'\r') if ends_with(at, b"\r\n") && !ends_with(first_break, b"\r") => 2,
-        Some(b'\r') if ends_with(at, b"\r\n") && ends_with(first_break, b"\r\n") => 2,
-        Some(_) => 1,
+    let is_cr_lf = |at: usize| bytes[at..].starts_with(b"\r\n");
+    let ends_with_cr = bytes.get(first_break) == Some(&b'\r') && !is_cr_lf(first_break);
+    match bytes.get(at) {
+        None => at,
+        Some(_) if is_cr_lf(at) && !ends_with_cr => at + 2,
+        Some(_) => at + 1,
     }
 }
 
