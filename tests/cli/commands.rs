@@ -601,15 +601,15 @@ fn what_rays_did_is_told_kind_by_kind_in_every_form() {
 }
 
 #[test]
-fn trade_writes_every_form_and_takes_only_what_is_asked_for() {
+fn accuracy_writes_every_form_and_takes_only_what_is_asked_for() {
     let program = Program::new();
-    let options = "trade rings:1 --resolution 24x16 --samples 4 --rounds 1";
+    let options = "accuracy rings:1 --resolution 24x16 --samples 4 --rounds 1";
     let only = format!("{options} --only precision --only cylinders");
     let text = program.done(&only);
     for words in [
         "reference",
         "precision f32",
-        "cylinders 10 polygons",
+        "cylinders polygons:10",
         "SSIM",
         "FLIP",
     ] {

@@ -194,7 +194,7 @@ fn what_cannot_be_shown_is_refused() {
     for (arguments, part) in [
         ("probe teaching", "--pixel"),
         ("probe teaching --pixel 7", "a column and a row"),
-        ("probe teaching --resolution 0x9 --pixel 0,0", "0 × 9"),
+        ("probe teaching --resolution 0x9 --pixel 0,0", "0x9"),
         ("render teaching --rays shadow -o a.png", "--show"),
         ("render teaching --colors magma -o a.png", "--show"),
         (

@@ -65,11 +65,11 @@ fn polygons_for_cylinders_are_wrong_and_f32_hardly_ever_is() {
     let trade = taken("rings:2");
     let mut last = 0.0;
     for sides in [64, 20, 10, 6] {
-        let outcome = one(&trade, &format!("cylinders {sides} polygons"));
+        let outcome = one(&trade, &format!("cylinders polygons:{sides}"));
         assert!(outcome.wrong_hits >= last, "{sides}");
         last = outcome.wrong_hits;
     }
-    let paper = one(&trade, "cylinders 10 polygons");
+    let paper = one(&trade, "cylinders polygons:10");
     assert!(paper.wrong_hits > 0.0 && paper.error.rmse > 1e-3);
     let narrow = one(&trade, "precision f32");
     assert!(narrow.wrong_hits < 1e-3, "{}", narrow.wrong_hits);
