@@ -229,7 +229,7 @@ fn broken_files_are_refused_with_line_and_reason() {
         (
             lesson_with("scene = \"balls\"\na = \"method=no\"", reveal),
             SETTINGS + 1,
-            "no build method",
+            "expected one of midpoint",
         ),
         (
             lesson_with("scene = \"balls\"\na = \"d-max=4\"", reveal),

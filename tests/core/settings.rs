@@ -63,12 +63,12 @@ fn every_setting_is_written_in_lists_workspaces_and_commands() {
         let read = Workspace::parse(&text, Path::new("a.bspscope"));
         assert_eq!(read.unwrap(), workspace, "{name}\n{text}");
         let command = measure_command(&setup);
-        let option = format!("--{name} ");
-        let constant = format!("--set {name}=");
-        assert!(
-            command.contains(&option) || command.contains(&constant),
-            "{command}"
-        );
+        let words = shell_words::split(&command).unwrap();
+        let (option, constant) = (format!("--{name}"), format!("{name}="));
+        let is_written = words
+            .windows(2)
+            .any(|pair| pair[0] == option || pair[0] == "--set" && pair[1].starts_with(&constant));
+        assert!(is_written, "{command}");
     }
 }
 

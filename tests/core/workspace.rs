@@ -327,7 +327,7 @@ fn mistakes_are_told_with_file_line_and_reason() {
         (
             "samples-per-pixel = 16",
             "samples-per-pixel = 0",
-            "at least 1",
+            "from 1 to",
         ),
         (
             "resolution = [640, 360]",
