@@ -74,7 +74,7 @@ fn polygons_for_cylinders_are_wrong_and_f32_hardly_ever_is() {
     let narrow = one(&trade, "precision f32");
     assert!(narrow.wrong_hits < 1e-3, "{}", narrow.wrong_hits);
     assert!(narrow.error.rmse > 0.0 && narrow.error.rmse < 0.1 * paper.error.rmse);
-    let half = one(&trade, "resolution 32 × 32");
+    let half = one(&trade, "resolution 32x32");
     assert!(half.wrong_hits > 0.01 && half.error.ssim < 1.0);
 }
 
