@@ -190,9 +190,12 @@ fn what_cannot_be_opened_changes_nothing() {
     let text = std::fs::read_to_string(&path).unwrap();
     let newer = format!("version = {}", VERSION + 1);
     for (wrong, reason) in [
-        (text.replace("version = 1", &newer), "newer bspscope"),
+        (
+            text.replace(&format!("version = {VERSION}"), &newer),
+            "newer bspscope",
+        ),
         (text.replace("balls:1", "bells"), "'bells'"),
-        (text.replace("[a.tree]", "[a.tree"), "newer.bspscope:"),
+        (text.replace("\n[a]", "\n[a"), "newer.bspscope:"),
     ] {
         assert_ne!(wrong, text);
         std::fs::write(&path, wrong).unwrap();
