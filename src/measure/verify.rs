@@ -1,5 +1,5 @@
-//! Verification: checks that a tree returns the same hits as testing every object, for rays of every
-//! kind. If not, exact arithmetic decides why.
+//! Verification: checks that a tree returns the same hits as testing every object, for rays of
+//! every kind. If they differ, exact arithmetic decides why.
 
 use super::judge::{Answer, Tally, Tolerance, Verdict, scale_of, settle};
 use crate::geometry::Ray;
@@ -13,7 +13,7 @@ use crate::trace::{
 };
 use rayon::prelude::*;
 
-/// Rays of a picture of the scene, by [`RayKind`].
+/// Rays of a picture of the scene, for each [`RayKind`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RaySample {
     pub rays: [Vec<Ray>; 4],
@@ -22,13 +22,13 @@ pub struct RaySample {
 /// The answers to a [`RaySample`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answers {
-    /// By [`RayKind`]; empty for shadow rays.
+    /// For each [`RayKind`]; empty for shadow rays.
     hits: [Vec<Hit>; 4],
     blocked: Vec<bool>,
 }
 
 impl Answers {
-    /// Returns the answer for ray number `i` of a kind.
+    /// Returns the answer for ray `i` of a kind.
     ///
     /// # Panics
     /// If there is no such ray.
@@ -40,12 +40,12 @@ impl Answers {
     }
 }
 
-/// The result of comparing a tree with testing every object, by [`RayKind`].
+/// The result of comparing a tree with testing every object, for each [`RayKind`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Verification {
-    /// Rays compared.
+    /// Number of rays compared.
     pub rays: [u64; 4],
-    /// Rays with different answers, by verdict.
+    /// Number of rays with different answers, per verdict.
     pub others: [Tally; 4],
     /// The first few faults.
     pub faults: Vec<(RayKind, Ray)>,
@@ -57,7 +57,7 @@ impl Verification {
         self.others.iter().all(|tally| tally.faults == 0)
     }
 
-    /// Returns whether all answers are the same, bit by bit.
+    /// Returns whether all answers are identical, bit for bit.
     pub fn is_identical(&self) -> bool {
         self.others == [Tally::default(); 4]
     }
@@ -75,7 +75,7 @@ impl std::ops::AddAssign for Verification {
     }
 }
 
-/// Number of faults kept.
+/// Number of faults to keep.
 const EXAMPLES: usize = 5;
 
 /// Records the rays that the renderer traces.
@@ -96,8 +96,8 @@ impl RayTracer for Recorder<'_> {
     }
 }
 
-/// Returns at least `per_kind` rays of each kind that occurs in a picture of the scene, distributed
-/// evenly over it. Up to 64 samples per pixel are traced until there are enough.
+/// Returns a sample of the rays of a picture, evenly distributed over it: `per_kind` rays of each
+/// kind that occurs, or fewer if there are not enough. Traces up to 64 samples per pixel.
 ///
 /// # Errors
 /// A camera without a view, or cancellation.
@@ -157,7 +157,7 @@ pub fn sample_rays(
     Ok(found)
 }
 
-/// Traces every ray of a sample in a precision.
+/// Traces every ray of a sample in the given precision.
 ///
 /// # Errors
 /// Cancellation.
@@ -204,7 +204,7 @@ pub fn answer(
     Ok(answers)
 }
 
-/// Builds the tree without a split, which tests every object.
+/// Builds a tree without splits. Its traversal tests every object.
 ///
 /// # Errors
 /// Too many objects, or cancellation.
@@ -233,11 +233,11 @@ pub fn ask(scene: &Scene, tree: &Tree, kind: RayKind, ray: &Ray) -> Answer {
     }
 }
 
-/// Samples rays as [`sample_rays`] and compares the tree's answers with testing every object, a few
-/// rays at a time, and calls `so_far` with the result so far each time.
+/// Samples rays as [`sample_rays`] does, and compares the tree's answers with those of testing
+/// every object. Calls `so_far` with the intermediate result after every few rays.
 ///
 /// # Errors
-/// As [`sample_rays`].
+/// The same as those of [`sample_rays`].
 pub fn verify_sample(
     scene: &Scene,
     tree: &Tree,
@@ -250,7 +250,8 @@ pub fn verify_sample(
     const AT_ONCE: usize = 64;
     let sample = sample_rays(scene, tree, settings, per_kind, pool, progress)?;
     let precision = settings.precision_for(scene).precision;
-    // A scene that has a tree has this one, too, unless there is no time for it.
+    // A scene that has a tree also has a tree without splits. Only cancellation prevents building
+    // it.
     let everything = unsplit(scene, progress).map_err(|_| Cancelled)?;
     let mut result = Verification::default();
     let most = sample.rays.iter().map(Vec::len).max().unwrap_or(0);
@@ -270,9 +271,9 @@ pub fn verify_sample(
     Ok(result)
 }
 
-/// Compares answers with those of testing every object, bit by bit: distance and object of every hit.
-/// Where they differ, exact arithmetic decides why; `rounding` as in [`settle`], for all coordinates of the
-/// scene's size.
+/// Compares answers with those of testing every object, bit for bit: distance and object of every
+/// hit. Exact arithmetic decides why they differ. `rounding` is the precision to which coordinates
+/// may have been rounded; `None` as in [`settle`].
 pub fn compare(
     scene: &Scene,
     sample: &RaySample,

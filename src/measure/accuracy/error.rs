@@ -1,27 +1,30 @@
-//! How far a picture is from another: on linear light, clipped to what a display shows, 0 to 1.
+//! Image error metrics. They work on linear light, clipped to the range 0 to 1 of a display.
 
 use super::filter::{filtered, gaussian};
 use super::flip::flip;
 use serde::Serialize;
 
-/// The error of a picture p against a reference r of the same size.
+/// The error of a picture p relative to a reference r of the same size.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ImageError {
-    /// Square root of the mean of (p − r)² over all pixels and colors; 0 if equal.
+    /// Root mean square of p − r over all pixels and color channels; 0 if equal.
     pub rmse: f64,
-    /// Largest |p − r| of any pixel and color.
+    /// Largest |p − r| of any pixel and color channel.
     pub max: f64,
     /// Peak signal-to-noise ratio, −20 log₁₀ RMSE, in decibels; `None` (infinite) if equal.
     pub psnr: Option<f64>,
-    /// Mean structural similarity of the luminance, at most 1, which it is if equal.
+    /// Mean structural similarity of the luminance, at most 1; 1 if equal.
     pub ssim: f64,
-    /// How different the two look when one flips between them, 0 (the same) to 1: mean FLIP.
+    /// Mean FLIP, the difference that a viewer sees when alternating between the pictures: 0 (the
+    /// same) to 1.
     pub flip: f64,
 }
 
 impl ImageError {
+    /// Computes all metrics of a picture with `width` pixels per row.
+    ///
     /// # Panics
-    /// If there are not as many pixels in both, or not `width` × some height of them.
+    /// If the pictures differ in size, or `width` does not divide the number of pixels.
     pub fn between(picture: &[[f32; 3]], reference: &[[f32; 3]], width: usize) -> Self {
         assert_eq!(picture.len(), reference.len());
         assert!(width > 0 && picture.len().is_multiple_of(width));
@@ -43,11 +46,11 @@ impl ImageError {
     }
 }
 
-/// The error of every pixel of a picture p against a reference r: the square root of the mean of
-/// (p − r)² over its colors, 0 to 1. The RMSE is the square root of the mean of their squares.
+/// Returns the error of every pixel of a picture p relative to a reference r: the root mean square
+/// of p − r over its color channels, 0 to 1. The root mean square of all pixel errors is the RMSE.
 ///
 /// # Panics
-/// If there are not as many pixels in both.
+/// If the pictures differ in size.
 pub fn pixel_errors(picture: &[[f32; 3]], reference: &[[f32; 3]]) -> Vec<f32> {
     assert_eq!(picture.len(), reference.len());
     let pixels = picture.iter().zip(reference);
@@ -59,12 +62,12 @@ pub fn pixel_errors(picture: &[[f32; 3]], reference: &[[f32; 3]]) -> Vec<f32> {
         .collect()
 }
 
-/// What a pixel has more than another, color by color.
+/// Returns p − r for each color channel, after clipping.
 fn off(p: &[f32; 3], r: &[f32; 3]) -> [f64; 3] {
     std::array::from_fn(|i| f64::from(p[i].clamp(0.0, 1.0)) - f64::from(r[i].clamp(0.0, 1.0)))
 }
 
-/// Relative luminance (Rec. ITU-R BT.709).
+/// Returns the relative luminance of each pixel (Rec. ITU-R BT.709).
 fn luminance(pixels: &[[f32; 3]]) -> Vec<f64> {
     pixels
         .iter()
@@ -75,11 +78,13 @@ fn luminance(pixels: &[[f32; 3]]) -> Vec<f64> {
         .collect()
 }
 
-/// The mean over all pixels of
-/// (2 μp μr + C₁)(2 σpr + C₂) / ((μp² + μr² + C₁)(σp² + σr² + C₂)), C₁ = 0.01², C₂ = 0.03²,
-/// with means and variances weighted by a Gaussian of 1.5 pixels over 11 × 11 (Wang, Bovik, Sheikh
-/// and Simoncelli, "Image quality assessment", IEEE Transactions on Image Processing 13(4), 2004).
-/// Beyond the border the outermost pixels go on.
+/// Returns the mean structural similarity over all pixels:
+/// (2 μp μr + C₁)(2 σpr + C₂) / ((μp² + μr² + C₁)(σp² + σr² + C₂)), C₁ = 0.01², C₂ = 0.03².
+/// Means and variances are weighted by a Gaussian with σ = 1.5 pixels over 11 × 11 pixels. Beyond
+/// the border, the outermost pixels repeat.
+///
+/// Source: Wang, Bovik, Sheikh and Simoncelli, "Image quality assessment", IEEE Transactions on
+/// Image Processing 13(4), 2004.
 fn ssim(picture: &[f64], reference: &[f64], width: usize) -> f64 {
     const C1: f64 = 0.01 * 0.01;
     const C2: f64 = 0.03 * 0.03;
@@ -116,7 +121,7 @@ mod tests {
 
     #[test]
     fn known_errors_come_out() {
-        // Evenly 0.1 brighter: PSNR 20 dB; SSIM has its luminance term alone.
+        // 0.1 brighter everywhere: PSNR is 20 dB, and only the luminance term of SSIM changes.
         let picture = |v: f32| vec![[v; 3]; 400];
         let error = ImageError::between(&picture(0.5), &picture(0.4), 20);
         assert!((error.rmse - 0.1).abs() < 1e-7 && (error.max - 0.1).abs() < 1e-7);

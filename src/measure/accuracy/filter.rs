@@ -1,14 +1,14 @@
-//! Filters of a picture's values that are a product of one along rows and one along columns.
+//! Separable image filters: one kernel along rows, one along columns.
 
-/// Weights from −radius to radius.
+/// Weights of the offsets from −radius to radius.
 pub type Kernel = Vec<f64>;
 
-/// The weights that `weight` gives to offsets from −`radius` to `radius` pixels.
+/// Returns the values of `weight` at the offsets from −`radius` to `radius` pixels.
 pub fn kernel(radius: i32, weight: impl Fn(f64) -> f64) -> Kernel {
     (-radius..=radius).map(|x| weight(f64::from(x))).collect()
 }
 
-/// exp(−x² / (2 σ²)), summing to 1.
+/// Returns the Gaussian exp(−x² / (2 σ²)), normalized to sum 1.
 pub fn gaussian(radius: i32, sigma: f64) -> Kernel {
     let mut kernel = kernel(radius, |x| (-x * x / (2.0 * sigma * sigma)).exp());
     let sum: f64 = kernel.iter().sum();
@@ -16,15 +16,16 @@ pub fn gaussian(radius: i32, sigma: f64) -> Kernel {
     kernel
 }
 
-/// `values` of a picture of so many pixels a row, each the sum of its neighbors by `rows`, then by
-/// `columns`. Beyond the border the outermost pixels go on.
+/// Convolves an image of `width` pixels per row with `rows` along its rows, then with `columns`
+/// along its columns. Beyond the border, the outermost pixels repeat.
 pub fn filtered(values: &[f64], width: usize, rows: &[f64], columns: &[f64]) -> Vec<f64> {
     let height = values.len() / width;
     let across = along(values, rows, [width, 1], [height, width]);
     along(&across, columns, [height, width], [width, 1])
 }
 
-/// Filters every line of `count` values that lie `step` apart; lines begin `stride` apart.
+/// Filters every line of `count` values. Values of a line are `step` apart in memory; lines start
+/// `stride` apart.
 fn along(
     values: &[f64],
     kernel: &[f64],

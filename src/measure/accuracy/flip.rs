@@ -1,17 +1,19 @@
-//! FLIP: how different two pictures look when one flips between them (Andersson, Nilsson,
-//! Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A Difference Evaluator for Alternating
-//! Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), 2020).
+//! FLIP: the difference that a viewer sees when alternating between two pictures.
 //!
-//! Its one implementation as a library takes a C++ compiler and pictures of 8 bits a color; this
-//! works on linear light as it is. Constants are those of the article.
+//! Source: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A Difference
+//! Evaluator for Alternating Images", Proceedings of the ACM on Computer Graphics and Interactive
+//! Techniques 3(2), 2020. The constants are those of the article.
+//!
+//! The one existing library needs a C++ compiler and 8-bit images. This implementation works on
+//! linear light directly.
 
 use super::filter::{Kernel, filtered, gaussian, kernel};
 use std::f64::consts::{PI, SQRT_2};
 
-/// Pixels a degree of the eye: a display 0.7 m wide with 3840 pixels, seen from 0.7 m.
-const PIXELS_A_DEGREE: f64 = 0.7 * (3840.0 / 0.7) * (PI / 180.0);
+/// Pixels per degree of visual angle, for a display 0.7 m wide with 3840 pixels, seen from 0.7 m.
+const PIXELS_PER_DEGREE: f64 = 0.7 * (3840.0 / 0.7) * (PI / 180.0);
 
-/// Linear light of Rec. ITU-R BT.709 to CIE XYZ.
+/// Matrix from linear light (Rec. ITU-R BT.709) to CIE XYZ.
 const TO_XYZ: [[f64; 3]; 3] = [
     [
         10135552.0 / 24577794.0,
@@ -30,10 +32,10 @@ const TO_XYZ: [[f64; 3]; 3] = [
     ],
 ];
 
-/// The mean over all pixels of FLIP's difference, 0 (they look the same) to 1.
+/// Returns the mean FLIP difference over all pixels, 0 (they look the same) to 1.
 ///
-/// Pictures are linear light, clipped to 0 to 1, of the same size, `width` pixels a row; 0 for
-/// pictures without a pixel.
+/// Both pictures are linear light of the same size with `width` pixels per row. Colors are clipped
+/// to 0 to 1. Returns 0 for pictures without pixels.
 pub fn flip(picture: &[[f32; 3]], reference: &[[f32; 3]], width: usize) -> f64 {
     let seen = [picture, reference].map(|pixels| Seen::new(pixels, width));
     let [p, r] = &seen;
@@ -49,13 +51,13 @@ pub fn flip(picture: &[[f32; 3]], reference: &[[f32; 3]], width: usize) -> f64 {
     sum / picture.len().max(1) as f64
 }
 
-/// A picture as the eye has it.
+/// A picture as the human eye perceives it.
 struct Seen {
-    /// Lightness and color after what the eye cannot resolve has blurred.
+    /// CIELAB color of each pixel, blurred by the eye's contrast sensitivity.
     lab: Vec<[f64; 3]>,
-    /// How much of an edge every pixel is.
+    /// Edge strength at each pixel.
     edges: Vec<f64>,
-    /// How much of a point every pixel is.
+    /// Point strength at each pixel.
     points: Vec<f64>,
 }
 
@@ -87,13 +89,13 @@ impl Seen {
     }
 }
 
-/// The color space YCxCz of linear light.
+/// Converts linear light to the opponent color space YCxCz.
 fn opponent(rgb: [f64; 3]) -> [f64; 3] {
     let [x, y, z] = of_white(rgb);
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// XYZ in units of that of white.
+/// Converts linear light to XYZ relative to the white point.
 fn of_white(rgb: [f64; 3]) -> [f64; 3] {
     TO_XYZ.map(|row| {
         let dot: f64 = row.iter().zip(rgb).map(|(m, v)| m * v).sum();
@@ -101,14 +103,15 @@ fn of_white(rgb: [f64; 3]) -> [f64; 3] {
     })
 }
 
-/// CIELAB whose color fades with darkness (Hunt), of a YCxCz that stands for a visible color, or of
-/// the visible color nearest by clipping.
+/// Converts YCxCz to CIELAB with the Hunt effect: chroma fades with darkness. Colors outside the
+/// visible gamut are clipped first.
 fn lab([y, cx, cz]: [f64; 3]) -> [f64; 3] {
     let y = (y + 16.0) / 116.0;
     let xyz = [y + cx / 500.0, y, y - cz / 200.0];
     lab_of(to_rgb(xyz).map(|v| v.clamp(0.0, 1.0)))
 }
 
+/// Converts linear light to CIELAB with the Hunt effect.
 fn lab_of(rgb: [f64; 3]) -> [f64; 3] {
     const DELTA: f64 = 6.0 / 29.0;
     let [x, y, z] = of_white(rgb).map(|v| {
@@ -123,22 +126,24 @@ fn lab_of(rgb: [f64; 3]) -> [f64; 3] {
     [lightness, 500.0 * (x - y) * hunt, 200.0 * (y - z) * hunt]
 }
 
-/// Linear light from XYZ in units of that of white: what [`of_white`] undoes.
+/// Converts XYZ relative to the white point to linear light, the inverse of [`of_white`].
 fn to_rgb(xyz: [f64; 3]) -> [f64; 3] {
     let rows = TO_XYZ.map(|row| glam::DVec3::from(row) / row.iter().sum::<f64>());
     let matrix = glam::DMat3::from_cols(rows[0], rows[1], rows[2]).transpose();
     (matrix.inverse() * glam::DVec3::from(xyz)).into()
 }
 
-/// What the eye resolves of a channel: its sensitivity to contrast as a sum of Gaussians
-/// a √(π/b) exp(−π² x² / b), x in degrees.
+/// Blurs a channel with the eye's contrast sensitivity, a sum of Gaussians a √(π/b) exp(−π² x² /
+/// b), with x in degrees.
 fn resolved(values: &[f64], width: usize, gaussians: &[(f64, f64)]) -> Vec<f64> {
-    // Three standard deviations of the widest Gaussian of all channels.
-    let radius = (3.0 * (0.04 / (2.0 * PI * PI)).sqrt() * PIXELS_A_DEGREE).ceil() as i32;
+    // Three standard deviations of the widest Gaussian of any channel.
+    let radius = (3.0 * (0.04 / (2.0 * PI * PI)).sqrt() * PIXELS_PER_DEGREE).ceil() as i32;
     let mut total = 0.0;
     let mut sum = vec![0.0; values.len()];
     for &(a, b) in gaussians {
-        let kernel = kernel(radius, |x| (-(PI * x / PIXELS_A_DEGREE).powi(2) / b).exp());
+        let kernel = kernel(radius, |x| {
+            (-(PI * x / PIXELS_PER_DEGREE).powi(2) / b).exp()
+        });
         let scale = a * (PI / b).sqrt();
         total += scale * kernel.iter().sum::<f64>().powi(2);
         let part = filtered(values, width, &kernel, &kernel);
@@ -150,10 +155,10 @@ fn resolved(values: &[f64], width: usize, gaussians: &[(f64, f64)]) -> Vec<f64> 
     sum
 }
 
-/// A Gaussian, and its first and second derivative, the positive weights of which sum to 1 and the
-/// negative to −1.
+/// Returns a Gaussian and its first and second derivatives. In the derivatives, positive weights
+/// sum to 1 and negative weights to −1.
 fn features() -> [Kernel; 3] {
-    let sigma = 0.5 * 0.082 * PIXELS_A_DEGREE;
+    let sigma = 0.5 * 0.082 * PIXELS_PER_DEGREE;
     let radius = (3.0 * sigma).ceil() as i32;
     let fall = |x: f64| (-x * x / (2.0 * sigma * sigma)).exp();
     let balanced = |kernel: Kernel| -> Kernel {
@@ -173,17 +178,17 @@ fn features() -> [Kernel; 3] {
     ]
 }
 
-/// How far colors are apart (HyAB).
+/// Returns the distance between two colors (HyAB).
 fn difference(a: [f64; 3], b: [f64; 3]) -> f64 {
     (a[0] - b[0]).abs() + (a[1] - b[1]).hypot(a[2] - b[2])
 }
 
-/// The largest difference that there is, that of green and blue, to the power of 0.7.
+/// Returns the largest possible color difference, that of green and blue, to the power of 0.7.
 fn largest_color_difference() -> f64 {
     difference(lab_of([0.0, 1.0, 0.0]), lab_of([0.0, 0.0, 1.0])).powf(0.7)
 }
 
-/// Differences up to 0.4 of the largest fill 0 to 0.95, those above what is left up to 1.
+/// Maps differences up to 0.4 of the largest to 0 to 0.95, and larger ones to the rest up to 1.
 fn redistributed(difference: f64, largest: f64) -> f64 {
     const KNEE: [f64; 2] = [0.4, 0.95];
     let at = difference / largest;
@@ -208,7 +213,7 @@ mod tests {
         light as f32
     }
 
-    /// Slopes and edges of all colors.
+    /// Returns a test picture with gradients and edges in all color channels.
     fn picture(seed: u32, width: u32, height: u32) -> Vec<[f32; 3]> {
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         pixels
@@ -223,8 +228,8 @@ mod tests {
             .collect()
     }
 
-    /// Expected values are those of the authors' own code (as in the crate nv-flip 0.1.2), which works
-    /// in f32 and rounds the pixels a degree to 67.
+    /// The expected values come from the authors' own code (as in the crate nv-flip 0.1.2). It
+    /// works in `f32` and rounds the pixels per degree to 67.
     #[test]
     fn agrees_with_the_authors_own_code() {
         for (a, b, width, height, expected) in [

@@ -1,8 +1,9 @@
-//! The Pareto front: what nothing else beats in both time and error.
+//! The Pareto front: the points that no other point beats in both time and error.
 
-/// For every point of time and error, both the less the better: whether no other is at least as good
-/// in both and better in one. Equal points are on the front together; a point with a value that is
-/// no number is not on it.
+/// Returns, for each point of time and error, whether it is on the Pareto front. Smaller is better.
+///
+/// A point is on the front if no other point is at least as good in both values and better in one.
+/// Equal points are on the front together. A point with a NaN is never on it.
 pub fn pareto_front(points: &[[f64; 2]]) -> Vec<bool> {
     let beats = |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[0] && a[1] <= b[1] && a != b;
     points

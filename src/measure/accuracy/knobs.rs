@@ -1,18 +1,18 @@
-//! What can be turned to trade accuracy for speed. A knob is a setting with a function for its cheaper
-//! values: one line in [`KNOBS`].
+//! The settings that exchange accuracy for speed. A knob is the name of a setting with a function
+//! that returns its cheaper values. It is one line in [`KNOBS`].
 
 use crate::scene::{Cylinders, Scene};
 use crate::setup::{Affects, Setting, Setup, Value, setting};
 use crate::structure::{MaxDepth, Method};
 use crate::trace::KernelChoice;
 
-/// A setting that costs or saves time.
+/// A setting that changes the rendering time.
 #[derive(Debug)]
 pub struct Knob {
     /// Name of the setting.
     setting: &'static str,
-    /// Its other values at a reference for a scene with exact cylinders, from expensive to cheap; empty
-    /// where the scene has nothing to turn.
+    /// Returns the alternatives to the reference's value, from expensive to cheap. The scene has
+    /// exact cylinders. Empty if the setting has no effect on the scene.
     values: fn(&Setup, &Scene) -> Vec<Value>,
 }
 
@@ -20,7 +20,7 @@ const fn knob(setting: &'static str, values: fn(&Setup, &Scene) -> Vec<Value>) -
     Knob { setting, values }
 }
 
-/// All knobs, in the order of reports.
+/// All knobs, in the order in which reports list them.
 pub static KNOBS: &[Knob] = &[
     knob("precision", |_, _| vec![Value::Choice("f32")]),
     knob("samples-per-pixel", samples),
@@ -43,17 +43,17 @@ impl Knob {
         setting(self.setting).expect("a test walks all knobs")
     }
 
-    /// A word or two, such as `samples` or `D_AREC`.
+    /// Returns one or two words, such as `samples` or `D_AREC`.
     pub fn name(&self) -> String {
         self.setting().word()
     }
 
-    /// Whether it changes the picture, or its time only.
+    /// Returns whether the setting changes the image, not only its time.
     pub fn moves_image(&self) -> bool {
         matches!(self.setting().affects, Affects::Scene | Affects::Image)
     }
 
-    /// Its other values at a reference, each as text and with the setup that results.
+    /// Returns every other value at a reference: its text, and the resulting setup.
     pub fn choices(&self, at: &Setup, scene: &Scene) -> Vec<(String, Setup)> {
         let setting = self.setting();
         let values = (self.values)(at, scene).into_iter();

@@ -1,16 +1,18 @@
-//! By what number the error of an outcome can be told. A measure is one entry of [`ERROR_MEASURES`].
+//! The numbers that can express the error of an outcome. A measure is one entry of
+//! [`ERROR_MEASURES`].
 
 use super::outcome::Outcome;
 
-/// One number for the error, 0 for none; the less the better.
+/// An error as one number: 0 is no error, smaller is better.
 pub struct ErrorMeasure {
     pub name: &'static str,
-    /// What it is and its range, in a sentence.
+    /// Its definition and range, in one sentence.
     pub about: &'static str,
     pub value: fn(&Outcome) -> f64,
 }
 
-/// All measures; the first is the default. PSNR is not among them: it orders as RMSE does.
+/// All measures; the first is the default. PSNR is not included because it ranks outcomes as RMSE
+/// does.
 pub static ERROR_MEASURES: &[ErrorMeasure] = &[
     ErrorMeasure {
         name: "RMSE",

@@ -1,8 +1,11 @@
-//! What accuracy costs: choices that buy speed with it, each alone and all together, by time and
-//! error against a reference.
+//! The accuracy study: measures how much time each cheaper setting saves and how much error it
+//! causes.
 //!
-//! Times are CPU times of the picture with all its samples, medians over rounds in which every choice
-//! has its turn, so that a machine that slows down slows all of them.
+//! Every choice of settings is rendered and compared with a reference. A choice changes one
+//! setting, or several at once.
+//!
+//! A time is the CPU time of the render with all its samples. Rounds are interleaved: each round
+//! measures every choice once, so that a machine that slows down affects all choices alike.
 
 mod error;
 mod filter;
@@ -31,29 +34,29 @@ use crate::trace::{
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 
-/// All that was tried.
+/// The result of an accuracy study: all choices that were measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trade {
-    /// The reference first, with no error and the ratio 1.
+    /// The reference comes first, with error 0 and time ratio 1.
     pub outcomes: Vec<Outcome>,
 }
 
 impl Trade {
-    /// Time as a ratio to the reference: the least, the median and the largest of the rounds, each
-    /// over the reference's median. The reference's own median is 1.
+    /// Returns the outcome's time relative to the reference: the minimum, median and maximum over
+    /// the rounds, each divided by the reference's median.
     pub fn ratios(&self, outcome: &Outcome) -> [f64; 3] {
         let unit = self.outcomes[0].median();
         let last = outcome.seconds.len() - 1;
         [outcome.seconds[0], outcome.median(), outcome.seconds[last]].map(|s| s / unit)
     }
 
-    /// Whether each outcome is on the front of time and RMSE.
+    /// Returns, for each outcome, whether it is on the Pareto front of time and RMSE.
     pub fn front(&self) -> Vec<bool> {
         self.front_by(&ERROR_MEASURES[0])
     }
 
-    /// Whether each outcome is on the front of time and this error. Choices that move only the time
-    /// are not part of that trade.
+    /// Returns, for each outcome, whether it is on the Pareto front of time and this error. Choices
+    /// that change only the time are never on the front; the reference can be.
     pub fn front_by(&self, error: &ErrorMeasure) -> Vec<bool> {
         let points: Vec<_> = self
             .outcomes
@@ -71,7 +74,8 @@ impl Trade {
     }
 }
 
-/// The reference of a trade: `f64`, exact cylinders, secondary rays at least 8 deep without a minimum contribution.
+/// Returns the reference settings of a study: `f64`, exact cylinders, secondary rays at least 8
+/// deep, and no minimum contribution.
 pub fn reference(setup: &Setup) -> Setup {
     Setup {
         scene: SceneRequest {
@@ -88,8 +92,11 @@ pub fn reference(setup: &Setup) -> Setup {
     }
 }
 
-/// The reference; every knob alone at every value; and those that move the picture together, all at
-/// their first value, all at their second, and so on, a knob without one at its last.
+/// Returns the choices of a study: the reference, then every knob alone at each of its values, then
+/// the knobs that change the image combined.
+///
+/// The first combination sets every such knob to its first value, the second to its second value,
+/// and so on. A knob with fewer values stays at its last.
 pub fn choices(reference: &Setup, scene: &Scene) -> Vec<Choice> {
     let mut choices = vec![Choice {
         turned: Vec::new(),
@@ -110,7 +117,8 @@ pub fn choices(reference: &Setup, scene: &Scene) -> Vec<Choice> {
     for step in 0..steps.max().unwrap_or(0) {
         let mut together = choices[0].clone();
         for knob in image_knobs() {
-            // The steps are those at the reference; what was turned before may leave nothing to turn.
+            // The number of combinations comes from the reference. The knobs set so far may leave
+            // this knob fewer values, or none.
             let count = knob.choices(reference, scene).len();
             let Some(step) = count.checked_sub(1).map(|last| step.min(last)) else {
                 continue;
@@ -128,8 +136,8 @@ pub fn choices(reference: &Setup, scene: &Scene) -> Vec<Choice> {
     choices
 }
 
-/// Takes a trade: every choice traced in `rounds` rounds, at least 1. `on_outcome` is told of every
-/// choice after each of its turns, with its place and its times so far.
+/// Runs an accuracy study: measures every choice in `rounds` rounds (at least 1). Calls
+/// `on_outcome` after each turn with the index of the choice and its times so far.
 ///
 /// # Errors
 /// Settings out of range, a tree beyond the memory limit, no view, or cancellation.
@@ -153,33 +161,35 @@ pub fn trade(
     })
 }
 
-/// A trade that is taken turn by turn. A turn that was cancelled can be taken again.
+/// An accuracy study that runs turn by turn. A turn measures one choice once. A cancelled turn can
+/// be run again.
 pub struct Trading<'a> {
     exact: &'a Scene,
     choices: Vec<Choice>,
     rounds: usize,
     pool: rayon::ThreadPool,
-    made: Made,
+    cache: Cache,
     reference: Option<View>,
     outcomes: Vec<Outcome>,
-    /// Turns taken.
-    taken: usize,
+    /// Number of completed turns.
+    turns_done: usize,
 }
 
-/// What came of one turn.
+/// The result of one turn.
 pub struct Turn {
-    /// Which of the outcomes has another time now; in the first round, which is new.
+    /// Index of the outcome that has a new time. In the first round, the outcome itself is new.
     pub place: usize,
-    /// [`pixel_errors`] in the reference's size; `None` after the first round, where they are the same
-    /// again.
+    /// The [`pixel_errors`] at the reference's size. `None` after the first round, because they do
+    /// not change.
     pub pixel_errors: Option<Vec<f32>>,
 }
 
 impl<'a> Trading<'a> {
-    /// Every choice in `rounds` rounds, at least 1, the reference first; no turn is taken yet.
+    /// Creates a study of every choice in `rounds` rounds (at least 1), the reference first. Runs
+    /// no turn yet.
     ///
     /// # Errors
-    /// The reference's threads cannot be had.
+    /// The thread pool of the reference cannot be created.
     pub fn new(exact: &'a Scene, choices: Vec<Choice>, rounds: u32) -> Result<Self, MeasureError> {
         let threads = choices.first().map_or(0, |c| c.setup.render.threads);
         Ok(Trading {
@@ -187,39 +197,39 @@ impl<'a> Trading<'a> {
             choices,
             rounds: rounds.max(1) as usize,
             pool: thread_pool(threads)?,
-            made: Made::default(),
+            cache: Cache::default(),
             reference: None,
             outcomes: Vec::new(),
-            taken: 0,
+            turns_done: 0,
         })
     }
 
-    /// How many turns there are in all.
+    /// Returns the total number of turns.
     pub fn turns(&self) -> usize {
         self.rounds * self.choices.len()
     }
 
-    /// What is known so far: after the first round, every choice.
+    /// Returns the outcomes so far. After the first round, every choice has one.
     pub fn outcomes(&self) -> &[Outcome] {
         &self.outcomes
     }
 
-    /// Takes the next turn; `None` where all were taken.
+    /// Runs the next turn. Returns `None` if all turns are done.
     ///
     /// # Errors
     /// Settings out of range, a tree beyond the memory limit, no view, or cancellation.
     pub fn turn(&mut self, progress: &Progress) -> Result<Option<Turn>, MeasureError> {
-        if self.taken == self.turns() {
+        if self.turns_done == self.turns() {
             return Ok(None);
         }
-        let place = self.taken % self.choices.len();
+        let place = self.turns_done % self.choices.len();
         let choice = &self.choices[place];
-        let (made, exact) = (&mut self.made, self.exact);
+        let (cache, exact) = (&mut self.cache, self.exact);
         let (scene, tree) = self
             .pool
-            .install(|| made.get(exact, &choice.setup, progress))?;
+            .install(|| cache.get(exact, &choice.setup, progress))?;
         let render = &choice.setup.render;
-        let (picture, seconds) = traced(scene, tree, render, &self.pool, progress)?;
+        let (picture, seconds) = render_all_samples(scene, tree, render, &self.pool, progress)?;
         let mut pixel_errors = None;
         if place == self.outcomes.len() {
             let owners = owners(self.exact, choice.setup.scene.cylinders);
@@ -239,7 +249,7 @@ impl<'a> Trading<'a> {
         }
         let times = &mut self.outcomes[place].seconds;
         times.insert(times.partition_point(|&s| s < seconds), seconds);
-        self.taken += 1;
+        self.turns_done += 1;
         Ok(Some(Turn {
             place,
             pixel_errors,
@@ -247,14 +257,15 @@ impl<'a> Trading<'a> {
     }
 }
 
-/// The scenes and trees made so far: most choices share them.
+/// The scenes and trees built so far, which most choices share.
 #[derive(Default)]
-struct Made {
+struct Cache {
     scenes: Vec<(Cylinders, Scene)>,
     trees: Vec<((Cylinders, BuildSettings), Tree)>,
 }
 
-impl Made {
+/// Returns the scene and the tree of a setup, and builds them if they are not in the cache.
+impl Cache {
     fn get(
         &mut self,
         exact: &Scene,
@@ -284,8 +295,8 @@ impl Made {
     }
 }
 
-/// All samples of a picture, and their CPU time in seconds.
-fn traced(
+/// Renders all samples of a picture. Returns the picture and its CPU time in seconds.
+fn render_all_samples(
     scene: &Scene,
     tree: &Tree,
     render: &RenderSettings,
@@ -309,7 +320,8 @@ fn traced(
     Ok((picture, seconds))
 }
 
-/// For every object of the scene with cylinders taken so, the object that it is part of.
+/// Returns, for each object of the scene with this representation of cylinders, the number of the
+/// exact object that it belongs to.
 fn owners(exact: &Scene, cylinders: Cylinders) -> Vec<u32> {
     let mut owners = Vec::new();
     for (object, number) in exact.objects().iter().zip(0..) {
@@ -322,7 +334,7 @@ fn owners(exact: &Scene, cylinders: Cylinders) -> Vec<u32> {
     owners
 }
 
-/// What each pixel's primary ray meets, row by row; `u32::MAX` for nothing.
+/// Returns the exact object that each pixel's primary ray hits, row by row; `u32::MAX` for a miss.
 fn objects(
     scene: &Scene,
     tree: &Tree,
@@ -347,7 +359,7 @@ fn objects(
     }))
 }
 
-/// A picture in the reference's size, its pixels repeated where it has fewer.
+/// A picture scaled to the reference's size by repeating pixels.
 #[derive(Clone)]
 struct View {
     colors: Vec<[f32; 3]>,
@@ -372,6 +384,8 @@ impl View {
         }
     }
 
+    /// Returns the share of pixels whose primary ray hits another object than in the reference, 0
+    /// to 1.
     fn wrong_hits(&self, right: &View) -> f64 {
         let pairs = self.objects.iter().zip(&right.objects);
         pairs.filter(|(a, b)| a != b).count() as f64 / self.objects.len() as f64

@@ -3,18 +3,18 @@
 use super::error::ImageError;
 use crate::setup::Setup;
 
-/// What distinguishes a point from the reference.
+/// The settings of one point of a study, and how they differ from the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// Knobs and what they are turned to; none at the reference.
+    /// The changed knobs with their values; empty for the reference.
     pub turned: Vec<(String, String)>,
-    /// Whether a knob among them moves the picture.
+    /// Whether one of these knobs changes the image.
     pub moves_image: bool,
     pub setup: Setup,
 }
 
 impl Choice {
-    /// Such as `samples 4, precision f32`, or `reference`.
+    /// Returns a label such as `samples 4, precision f32`, or `reference`.
     pub fn words(&self) -> String {
         let words: Vec<_> = self
             .turned
@@ -33,18 +33,19 @@ impl Choice {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     pub choice: Choice,
-    /// CPU seconds of every round, ascending; there is at least one.
+    /// CPU seconds of every round, in ascending order; at least one.
     pub seconds: Vec<f64>,
-    /// Share of the reference's pixels whose primary ray meets another object, or none, or one where
-    /// it should meet none. The polygons of a cylinder count as the cylinder.
+    /// Share of the pixels whose primary ray hits another object than in the reference, or hits in
+    /// only one of the two, 0 to 1. The polygons of a cylinder count as the cylinder.
     pub wrong_hits: f64,
     pub error: ImageError,
-    /// Bytes of the objects as intersection tests take them.
+    /// Bytes of the objects in the layout that intersection tests use.
     pub object_bytes: u64,
 }
 
 impl Outcome {
-    /// The median of an odd number of rounds, else the lower of the two in the middle.
+    /// Returns the median CPU time in seconds. For an even number of rounds, it is the lower of the
+    /// two middle values.
     pub fn median(&self) -> f64 {
         self.seconds[(self.seconds.len() - 1) / 2]
     }

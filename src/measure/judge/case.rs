@@ -17,7 +17,7 @@ pub struct Case {
     pub settings: BuildSettings,
     pub kind: RayKind,
     pub ray: Ray,
-    /// The answer of testing every object.
+    /// The answer from testing every object.
     pub expected: Answer,
     /// The answer of the tree.
     pub found: Answer,
@@ -36,7 +36,8 @@ pub enum CaseError {
     Build(#[from] BuildError),
 }
 
-/// The file: numbers in the shortest form that reads back to the same bits, an infinite one as none.
+/// The file format. Numbers are written in the shortest form that reads back to the same bits. An
+/// infinite number is `null`.
 #[derive(Serialize, Deserialize)]
 struct File {
     /// NFF, line by line; objects count from 0.
@@ -82,10 +83,10 @@ impl From<FileAnswer> for Answer {
 }
 
 impl Case {
-    /// Traces a ray with both; `None` if they agree.
+    /// Traces a ray with the tree and by testing every object. Returns `None` if they agree.
     ///
     /// # Errors
-    /// No tree can be built.
+    /// Building a tree fails.
     pub fn of(
         scene: &Scene,
         settings: &BuildSettings,
@@ -105,12 +106,12 @@ impl Case {
         }))
     }
 
-    /// Returns the verdict, given that both answers came from the same numbers.
+    /// Returns the verdict. Both answers come from the same coordinates, so no rounding is allowed.
     pub fn verdict(&self) -> Verdict {
         settle(&self.scene, &self.ray, [self.expected, self.found], None)
     }
 
-    /// Reduces the fault to as few objects as a hundred attempts find.
+    /// Removes objects that the fault does not need, in at most a hundred attempts.
     pub fn shrunk(self) -> Case {
         const ATTEMPTS: usize = 100;
         let objects = fewest(self.scene.objects().len(), ATTEMPTS, |kept| {
@@ -119,7 +120,7 @@ impl Case {
         self.only(&objects).unwrap_or(self)
     }
 
-    /// Returns the case with these objects only, if it is still a fault.
+    /// Returns the case with only these objects, or `None` if it is no longer a fault.
     fn only(&self, objects: &[usize]) -> Option<Case> {
         let all = self.scene.parts();
         let parts = SceneParts {
@@ -132,7 +133,7 @@ impl Case {
             .filter(|case| matches!(case.verdict(), Verdict::Fault { .. }))
     }
 
-    /// Returns the text of the file.
+    /// Returns the case as the text of a file.
     pub fn to_json(&self) -> String {
         let mut scene = Vec::new();
         nff::write(self.scene.parts(), &mut scene).expect("memory takes all that is written");
@@ -151,10 +152,10 @@ impl Case {
         serde_json::to_string_pretty(&file).expect("all of it can be written as JSON")
     }
 
-    /// Reads the text of a file.
+    /// Reads a case from the text of a file.
     ///
     /// # Errors
-    /// It is not JSON, or not that of a case.
+    /// The text is not JSON, or not a case.
     pub fn from_json(text: &str) -> Result<Case, CaseError> {
         let file: File = serde_json::from_str(text)?;
         let parts = nff::read(file.scene.join("\n").as_bytes(), &Progress::new())?;
@@ -177,18 +178,18 @@ impl Case {
         })
     }
 
-    /// Traces the ray again; `None` if both agree now.
+    /// Traces the ray again. Returns `None` if both answers agree now.
     ///
     /// # Errors
-    /// No tree can be built.
+    /// Building a tree fails.
     pub fn replay(&self) -> Result<Option<Case>, BuildError> {
         Case::of(&self.scene, &self.settings, self.kind, self.ray)
     }
 }
 
-/// As few as can be found of `count` things with which it still `fails`, within so many attempts:
-/// parts are left out, smaller and smaller ones (A. Zeller and R. Hildebrandt, "Simplifying and
-/// isolating failure-inducing input", 2002).
+/// Returns a small subset of the indices below `count` that still `fails`, after at most `attempts`
+/// attempts. Removes large parts first, then smaller ones (A. Zeller and R. Hildebrandt,
+/// "Simplifying and isolating failure-inducing input", 2002).
 fn fewest(count: usize, attempts: usize, fails: impl Fn(&[usize]) -> bool) -> Vec<usize> {
     let mut kept: Vec<usize> = (0..count).collect();
     let mut left = attempts;

@@ -1,4 +1,4 @@
-//! Where a ray meets one object, exactly or within a tolerance.
+//! Intersections of a ray with one object, exact or within a tolerance.
 
 use super::root::Root;
 use super::span::{Span, SpanVec, rational};
@@ -6,22 +6,23 @@ use super::tolerance::Tolerance;
 use crate::geometry::Ray;
 use std::cmp::Ordering;
 
-/// A place where the ray may meet the surface: between `earliest` and `latest`, which are one number
-/// where nothing is left open.
+/// A possible intersection of the ray and the surface, between `earliest` and `latest`. The two are
+/// equal if the intersection is exact.
 #[derive(Clone, Debug)]
 pub struct Crossing {
     pub earliest: Root,
     pub latest: Root,
-    /// Whether it is met, whatever the tolerance leaves open; `false` too just on an edge, for a
-    /// tangent, and at the very start and end of the ray.
+    /// Whether the ray hits here for all numbers within the tolerance. `false` also exactly on an
+    /// edge, at a tangent, and at the very start or end of the ray.
     pub certain: bool,
 }
 
 impl Crossing {
-    /// Returns the crossing if it may lie in the interval of the ray.
+    /// Returns the crossing if it may lie within the ray's interval.
     pub(super) fn within(mut self, ray: &Ray) -> Option<Crossing> {
         let start = Root::from(rational(ray.t_min));
-        // What no number is large enough for is not met.
+        // An infinite end is clamped to the largest number, because no hit beyond it can be
+        // represented.
         let end = Root::from(rational(ray.t_max.min(f64::MAX)));
         let inside = self.latest.cmp(&start).min(end.cmp(&self.earliest));
         let surely = self.earliest > start && self.latest < end;
@@ -30,7 +31,7 @@ impl Crossing {
     }
 }
 
-/// A ray with its numbers as intervals.
+/// A ray with intervals for its coordinates.
 pub struct Line<'a> {
     pub ray: &'a Ray,
     pub origin: SpanVec,
@@ -38,6 +39,7 @@ pub struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
+    /// Creates a line whose coordinates vary within the tolerance.
     pub fn new(ray: &'a Ray, tolerance: &Tolerance) -> Self {
         let turn = tolerance.relative * ray.direction.abs().max_element();
         Line {
@@ -47,7 +49,8 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// The points at a parameter, from another point: `origin + t · direction − from`.
+    /// Returns `origin + t · direction − from`: the point at parameter `t`, relative to another
+    /// point.
     pub fn offset_at(&self, t: &Span, from: &SpanVec) -> SpanVec {
         &(&self.origin - from) + &self.direction.scaled(t)
     }

@@ -1,4 +1,4 @@
-//! Triangles and polygons: where a ray passes through their outline.
+//! Triangles and polygons: intersections of a ray with the area inside an outline.
 
 use super::crossing::{Crossing, Line};
 use super::root::Root;
@@ -7,13 +7,16 @@ use crate::primitive::{Polygon, Triangle};
 use dashu_ratio::Relaxed as Rational;
 use std::cmp::Ordering;
 
+/// Returns the intersection with a triangle whose vertices move by at most `reach`.
 pub fn triangle(triangle: &Triangle, line: &Line<'_>, reach: &Rational) -> Option<Crossing> {
     let vertices = triangle.vertices.map(|v| SpanVec::around(v, reach));
     outline(&vertices, line)
 }
 
-/// The polygon's surface lies in the mean plane of its vertices, each moved there along the axis that
-/// the projection drops: exactly so here, before any tolerance comes in.
+/// Returns the intersection with a polygon whose vertices move by at most `reach`.
+///
+/// The polygon's surface lies in the mean plane of its vertices. Each vertex is first moved into
+/// that plane, exactly, along the axis that the projection drops. The tolerance applies after that.
 pub fn polygon(polygon: &Polygon, line: &Line<'_>, reach: &Rational) -> Option<Crossing> {
     let exact: Vec<SpanVec> = polygon
         .vertices()
@@ -36,7 +39,8 @@ pub fn polygon(polygon: &Polygon, line: &Line<'_>, reach: &Rational) -> Option<C
     outline(&moved.collect::<Option<Vec<_>>>()?, line)
 }
 
-/// The sum of the fan's cross products: twice the area, along the normal.
+/// Returns the sum of the cross products of a triangle fan. It points along the normal, and its
+/// length is twice the area.
 fn newell_normal(vertices: &[SpanVec]) -> SpanVec {
     let first = &vertices[0];
     let fan = vertices.windows(2).skip(1);
@@ -45,7 +49,8 @@ fn newell_normal(vertices: &[SpanVec]) -> SpanVec {
         .expect("an outline has three vertices or more")
 }
 
-/// Where the line passes through a planar outline; a line within its plane does not.
+/// Returns the intersection of the line with the area inside a planar outline. A line within the
+/// plane has none.
 fn outline(vertices: &[SpanVec], line: &Line<'_>) -> Option<Crossing> {
     let inside = is_inside(vertices, line);
     if inside == Some(false) {
@@ -59,7 +64,8 @@ fn outline(vertices: &[SpanVec], line: &Line<'_>) -> Option<Crossing> {
     let distance = normal.dot(&(&vertices[0] - &line.origin));
     let t = match distance.divided_by(&speed) {
         Some(t) if t.is_exact() => t,
-        // Seen almost edge-on, the plane is met anywhere; but it is met between the vertices.
+        // The ray is nearly parallel to the plane, so its distance is not bounded by the plane. It
+        // is still bounded by the vertices.
         at_plane => {
             let along = between(vertices, line)?;
             at_plane.map_or(along.clone(), |t| Span {
@@ -75,7 +81,7 @@ fn outline(vertices: &[SpanVec], line: &Line<'_>) -> Option<Crossing> {
     })
 }
 
-/// The parameters between which the ray passes the vertices.
+/// Returns the interval of ray parameters at which the ray passes the vertices.
 fn between(vertices: &[SpanVec], line: &Line<'_>) -> Option<Span> {
     let squared_length = line.direction.squared_length();
     let mut all: Option<Span> = None;
@@ -93,8 +99,9 @@ fn between(vertices: &[SpanVec], line: &Line<'_>) -> Option<Span> {
     all
 }
 
-/// Whether the line passes through the outline, by the even–odd rule, as seen along the ray; `None`
-/// on an edge, and wherever the tolerance leaves it open.
+/// Returns whether the line passes through the inside of the outline, projected along the ray, by
+/// the even–odd rule. Returns `None` on an edge, and if the answer depends on the rounding within
+/// the tolerance.
 fn is_inside(vertices: &[SpanVec], line: &Line<'_>) -> Option<bool> {
     let d = &line.direction.0;
     let size = line.ray.direction.abs();
@@ -107,8 +114,9 @@ fn is_inside(vertices: &[SpanVec], line: &Line<'_>) -> Option<bool> {
             [i, j].map(|k| &(&d[m] * &p[k]) - &(&d[k] * &p[m]))
         })
         .collect();
-    // Where it is open on which side of the half-line a vertex lies, either will do, if it is the
-    // same for both of its edges: only edges that may pass through the line itself matter.
+    // The side of the half-line on which a vertex lies may be uncertain. Either choice is right if
+    // both edges of the vertex use the same one. Only edges that may contain the line itself
+    // matter.
     let is_above = |p: &[Span; 2]| p[1].lo > Rational::ZERO;
     let may_straddle = |a: &Span, b: &Span| {
         let (lo, hi) = ((&a.lo).min(&b.lo), (&a.hi).max(&b.hi));
@@ -127,7 +135,8 @@ fn is_inside(vertices: &[SpanVec], line: &Line<'_>) -> Option<bool> {
                     return None;
                 }
                 if is_above(a) != is_above(b) {
-                    // Wholly on one side of the line: to the right it is crossed, else not.
+                    // The edge lies entirely on one side of the line. It crosses the half-line only
+                    // if it is on the right.
                     inside ^= a[0].lo > Rational::ZERO;
                 }
             }

@@ -1,11 +1,12 @@
-//! Exact arithmetic: decides why two answers about a ray differ.
+//! Exact arithmetic, which decides why two answers about a ray differ.
 //!
-//! Every coordinate is a fraction. A ray hits triangles and polygons at a rational distance, and spheres,
-//! cylinders and cones at a root of a quadratic equation with rational coefficients. Such roots compare
-//! exactly, too. So nothing is rounded, and distinct points of a ray stay distinct.
+//! Every coordinate is a fraction. A ray hits triangles and polygons at a rational distance. It
+//! hits spheres, cylinders and cones at a root of a quadratic equation with rational coefficients;
+//! such roots can be compared exactly, too. So nothing is rounded, and distinct points of a ray
+//! stay distinct.
 //!
-//! The same arithmetic on intervals ([`span`]) decides what is possible if all numbers were rounded first
-//! by at most a [`Tolerance`].
+//! The same arithmetic on intervals ([`span`]) decides what is possible if all coordinates were
+//! first rounded by at most a [`Tolerance`].
 
 mod case;
 mod crossing;

@@ -1,4 +1,4 @@
-//! Where a ray meets an object of any kind.
+//! Intersections of a ray with an object of any kind.
 
 use super::crossing::{Crossing, Line};
 use super::span::rational;
@@ -6,7 +6,7 @@ use super::tolerance::Tolerance;
 use super::{flat, quadric};
 use crate::primitive::Primitive;
 
-/// All places where the ray may meet the object; two at most.
+/// Returns all possible intersections of the ray and the object, at most two.
 pub fn crossings(object: &Primitive, line: &Line<'_>, tolerance: &Tolerance) -> Vec<Crossing> {
     let reach = rational(tolerance.length);
     let found = match object {

@@ -8,6 +8,7 @@ use crate::primitive::{Cone, Shape, Sphere};
 use dashu_ratio::Relaxed as Rational;
 use std::cmp::Ordering;
 
+/// Returns the intersections with a sphere whose center and radius vary by at most `reach`.
 pub fn sphere(sphere: &Sphere, line: &Line<'_>, reach: &Rational) -> Vec<Crossing> {
     let start = nearest(sphere.center, line);
     let center = SpanVec::around(sphere.center, reach);
@@ -23,9 +24,12 @@ pub fn sphere(sphere: &Sphere, line: &Line<'_>, reach: &Rational) -> Vec<Crossin
         .collect()
 }
 
-/// With the axis `w` from base to apex as it is, not of unit length, every coefficient is rational:
-/// a point at `p` from the base is at the height `h = p·w`, from 0 to `w·w`, at the distance
-/// `|w × p| / |w|` from the axis, and the surface there at `r₀ + (r₁ − r₀) h / w·w`.
+/// Returns the intersections with a cone or cylinder whose coordinates vary by at most `reach`.
+///
+/// The axis `w` from base to apex is not normalized, which keeps every coefficient rational. For a
+/// point `p` relative to the base, the scaled height is `h = p·w`, from 0 to `w·w`. Its distance
+/// from the axis is `|w × p| / |w|`. The surface at that height has the radius `r₀ + (r₁ − r₀) h /
+/// w·w`.
 pub fn cone(cone: &Cone, line: &Line<'_>, reach: &Rational) -> Vec<Crossing> {
     let start = nearest(0.5 * cone.base() + 0.5 * cone.apex(), line);
     let base = SpanVec::around(cone.base(), reach);
@@ -37,7 +41,7 @@ pub fn cone(cone: &Cone, line: &Line<'_>, reach: &Rational) -> Vec<Crossing> {
     let from_base = line.offset_at(&start, &base);
     let (height, rise) = (from_base.dot(&axis), line.direction.dot(&axis));
     let (across, drift) = (axis.cross(&from_base), axis.cross(&line.direction));
-    // Radius and its growth along the ray, both times w·w.
+    // Radius and its growth along the ray, both scaled by w·w.
     let radius = &(&base_radius * &squared_axis) + &(&growth * &height);
     let widening = &growth * &rise;
     let over_axis = |x: Span| x.divided_by(&squared_axis);
@@ -58,8 +62,8 @@ pub fn cone(cone: &Cone, line: &Line<'_>, reach: &Rational) -> Vec<Crossing> {
     }
 }
 
-/// About where on the ray it is nearest to a point. Counting from there keeps the coefficients, and
-/// with them what a tolerance leaves open, small; any number would be right.
+/// Returns roughly the ray parameter nearest to a point. It is the origin of the equation's
+/// variable, which keeps the coefficients and their intervals small. Any value is correct.
 fn nearest(point: Vec3, line: &Line<'_>) -> Span {
     let unit = line.ray.direction / line.ray.direction.abs().max_element();
     let along = (point - line.ray.origin).dot(unit) / unit.length_squared();
@@ -67,6 +71,7 @@ fn nearest(point: Vec3, line: &Line<'_>) -> Span {
     Span::exactly(rational(if t.is_finite() { t } else { 0.0 }))
 }
 
+/// Moves a crossing along the ray by a number of ray parameters.
 fn later(crossing: Crossing, by: &Span) -> Crossing {
     Crossing {
         earliest: crossing.earliest.plus(&by.lo),
@@ -75,8 +80,8 @@ fn later(crossing: Crossing, by: &Span) -> Crossing {
     }
 }
 
-/// The roots of `a s² + 2 b s + c`; `None` where the tolerance leaves open whether it is an equation
-/// of degree two. An equation that holds everywhere has no roots: a line in the surface has no hit.
+/// Returns the roots of `a s² + 2 b s + c`. Returns `None` if `a` may or may not be 0 within the
+/// tolerance. If the equation holds everywhere, the line lies in the surface and has no hit.
 fn roots(a: &Span, b: &Span, c: &Span) -> Option<Vec<Crossing>> {
     let discriminant = &b.square() - &(a * c);
     match a.sign()? {
@@ -97,7 +102,7 @@ fn roots(a: &Span, b: &Span, c: &Span) -> Option<Vec<Crossing>> {
         Ordering::Greater => {
             let certain = discriminant.lo > Rational::ZERO;
             let (least, most) = (-&b.hi, -&b.lo);
-            // −b ± √discriminant over a: the least and the greatest that it can be.
+            // The least and the greatest value of (−b ± √discriminant) / a.
             let over = |root: Root, by_less: &Rational, by_more: &Rational| {
                 let by = if root.sign() == Ordering::Less {
                     by_less
@@ -125,7 +130,7 @@ fn roots(a: &Span, b: &Span, c: &Span) -> Option<Vec<Crossing>> {
     }
 }
 
-/// The root if it may lie between the ends of the cone.
+/// Returns the root if it may lie between the ends of the cone.
 fn between_ends(
     mut root: Crossing,
     height: &Span,
@@ -150,7 +155,7 @@ fn between_ends(
     (highest >= base && lowest <= farthest).then_some(root)
 }
 
-/// Perhaps a crossing, wherever the ray passes the box around the cone's bounds.
+/// Returns an uncertain crossing that covers the whole box of the cone.
 fn anywhere(cone: &Cone, line: &Line<'_>) -> Crossing {
     let bounds = cone.bounds();
     let speed = line.ray.direction.length();

@@ -7,9 +7,9 @@ use std::cmp::Ordering;
 #[derive(Clone, Debug)]
 pub struct Root {
     rational: Rational,
-    /// Whether the square root is taken away, not added.
+    /// Whether the square root is subtracted rather than added.
     minus: bool,
-    /// Never negative.
+    /// At least 0.
     radicand: Rational,
 }
 
@@ -24,8 +24,8 @@ impl From<Rational> for Root {
 }
 
 impl Root {
-    /// `rational − √radicand` where `minus`, else `rational + √radicand`; of a negative radicand 0
-    /// is taken.
+    /// Returns `rational − √radicand` if `minus`, otherwise `rational + √radicand`. A negative
+    /// radicand counts as 0.
     pub fn new(rational: Rational, minus: bool, radicand: &Rational) -> Self {
         Root {
             rational,
@@ -34,7 +34,7 @@ impl Root {
         }
     }
 
-    /// How it compares with 0.
+    /// Returns how the number compares with 0.
     pub fn sign(&self) -> Ordering {
         let zero = Rational::ZERO;
         let surd = match self.radicand.cmp(&zero) {
@@ -46,7 +46,7 @@ impl Root {
             (a, Ordering::Equal) => a,
             (Ordering::Equal, b) => b,
             (a, b) if a == b => a,
-            // Of opposite signs: the larger in size has it.
+            // Opposite signs: the term with the larger absolute value decides.
             (a, b) => match (&self.rational * &self.rational).cmp(&self.radicand) {
                 Ordering::Greater => a,
                 Ordering::Equal => Ordering::Equal,
@@ -55,7 +55,7 @@ impl Root {
         }
     }
 
-    /// The root times a factor.
+    /// Returns the number times a factor.
     pub fn times(&self, factor: &Rational) -> Root {
         Root {
             rational: &self.rational * factor,
@@ -64,6 +64,7 @@ impl Root {
         }
     }
 
+    /// Returns the number plus a term.
     pub fn plus(&self, term: &Rational) -> Root {
         Root {
             rational: &self.rational + term,
@@ -71,7 +72,7 @@ impl Root {
         }
     }
 
-    /// Rounded, to hold it against a kernel's answer.
+    /// Returns the number rounded to `f64`, for comparison with a kernel's answer.
     pub fn to_f64(&self) -> f64 {
         let (mut near_one, mut half) = (self.radicand.clone(), 0);
         let mut step = |near_one: &mut Rational, by: i32| {
@@ -92,7 +93,7 @@ impl Root {
 
 impl Ord for Root {
     fn cmp(&self, other: &Self) -> Ordering {
-        // self − other = left − right, with the other's square root alone on the right.
+        // self − other = left − right, where right is only the square root of other.
         let left = self.plus(&-&other.rational);
         let right = Root {
             rational: Rational::ZERO,
@@ -102,7 +103,7 @@ impl Ord for Root {
         if left_sign != right_sign {
             return left_sign.cmp(&right_sign);
         }
-        // Of one sign: their squares compare alike, or, both negative, the other way.
+        // Equal signs: compare the squares. For two negative numbers the order is reversed.
         let squares = Root {
             rational: &(&(&left.rational * &left.rational) + &left.radicand) - &right.radicand,
             ..left.times(&(&left.rational + &left.rational))
@@ -161,7 +162,7 @@ mod tests {
 
     #[test]
     fn a_difference_far_below_rounding_is_seen() {
-        // √2 and √(2 + 2⁻¹⁰⁰⁰), beside 1: all three sums are the same f64.
+        // √2 and √(2 + 2⁻¹⁰⁰⁰), each plus 1.
         let tiny = rational(2.0f64.powi(-1000));
         let a = root(1.0, false, 2.0);
         let b = Root::new(rational(1.0), false, &(&rational(2.0) + &tiny));

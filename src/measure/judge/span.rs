@@ -1,27 +1,27 @@
-//! Numbers known exactly, or to lie between two bounds: interval arithmetic on rational numbers, in
-//! which nothing is ever rounded.
+//! Interval arithmetic on rational numbers. Nothing is ever rounded.
 
 use crate::geometry::Vec3;
 use dashu_ratio::Relaxed as Rational;
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// All numbers from `lo` to `hi`; one number, exactly, where they are equal.
+/// An interval from `lo` to `hi`. If both are equal, the number is exact.
 #[derive(Clone, Debug)]
 pub struct Span {
     pub lo: Rational,
     pub hi: Rational,
 }
 
-/// A finite number as the fraction that it is.
+/// Returns a finite number as a fraction.
 ///
 /// # Panics
-/// For an infinite one or none at all.
+/// If the number is infinite or NaN.
 pub fn rational(number: f64) -> Rational {
     Rational::try_from(number).expect("only finite numbers are judged")
 }
 
 impl Span {
+    /// Returns the interval that contains only this number.
     pub fn exactly(number: Rational) -> Self {
         Span {
             lo: number.clone(),
@@ -29,7 +29,7 @@ impl Span {
         }
     }
 
-    /// All numbers at most `reach` from `middle`.
+    /// Returns the interval of the numbers at most `reach` from `middle`.
     pub fn around(middle: Rational, reach: &Rational) -> Self {
         Span {
             lo: &middle - reach,
@@ -41,17 +41,18 @@ impl Span {
         self.lo == self.hi
     }
 
-    /// How the numbers compare with 0, where it is the same for all of them.
+    /// Returns how the numbers compare with 0, or `None` if they differ in that.
     pub fn sign(&self) -> Option<Ordering> {
         let signs = (self.lo.cmp(&Rational::ZERO), self.hi.cmp(&Rational::ZERO));
         (signs.0 == signs.1).then_some(signs.0)
     }
 
-    /// Whether 0 may be among the numbers.
+    /// Returns whether the interval contains 0.
     pub fn may_be_zero(&self) -> bool {
         self.lo <= Rational::ZERO && self.hi >= Rational::ZERO
     }
 
+    /// Returns the interval of all squares.
     pub fn square(&self) -> Self {
         let (a, b) = (&self.lo * &self.lo, &self.hi * &self.hi);
         let (least, most) = if a < b { (a, b) } else { (b, a) };
@@ -65,7 +66,7 @@ impl Span {
         }
     }
 
-    /// The quotients; `None` where the divisor may be 0.
+    /// Returns the interval of all quotients; `None` if the divisor may be 0.
     pub fn divided_by(&self, divisor: &Span) -> Option<Self> {
         let one = Rational::ONE;
         (!divisor.may_be_zero()).then(|| {
@@ -130,12 +131,12 @@ impl Mul for &Span {
     }
 }
 
-/// A vector of such numbers.
+/// A vector of intervals.
 #[derive(Clone, Debug)]
 pub struct SpanVec(pub [Span; 3]);
 
 impl SpanVec {
-    /// All vectors whose components are at most `reach` from those given.
+    /// Returns the vectors whose components differ from those of `middle` by at most `reach`.
     pub fn around(middle: Vec3, reach: &Rational) -> Self {
         SpanVec(middle.to_array().map(|x| Span::around(rational(x), reach)))
     }
@@ -152,6 +153,7 @@ impl SpanVec {
         }))
     }
 
+    /// Returns the interval of the squared length.
     pub fn squared_length(&self) -> Span {
         let [x, y, z] = std::array::from_fn(|k| self.0[k].square());
         &(&x + &y) + &z

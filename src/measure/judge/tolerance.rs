@@ -1,13 +1,13 @@
-//! How far rounding may move the numbers of a scene.
+//! Bounds on how far rounding may move the coordinates of a scene.
 
 use crate::primitive::Precision;
 
-/// How far the numbers that an answer came from may be off those of the scene.
+/// The largest deviation between the coordinates behind an answer and those of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Of every coordinate and radius, a length.
+    /// Deviation of every coordinate and radius, a length.
     pub length: f64,
-    /// Of every component of the direction, in units of the largest.
+    /// Deviation of every component of the direction, relative to the largest component.
     pub relative: f64,
 }
 
@@ -17,12 +17,12 @@ impl Tolerance {
         relative: 0.0,
     };
 
-    /// Roundings in a row that a kernel's answer may carry: those of the numbers themselves, and of
-    /// the arithmetic, which is backward stable: its answers are right for numbers a few roundings
-    /// away. The most is what a triangle allows to be edge-on, 16.
+    /// The number of successive roundings that a kernel's answer may contain. Coordinates are
+    /// rounded once. The arithmetic is backward stable: its answers are exact for coordinates a few
+    /// roundings away. The largest allowance in a kernel is 16, for a triangle seen edge-on.
     const ROUNDINGS: f64 = 32.0;
 
-    /// What rounding to this precision does to coordinates of size `scale`, a length.
+    /// Returns the tolerance for a precision and for coordinates of size `scale`, a length.
     pub fn of(precision: Precision, scale: f64) -> Self {
         let relative = Self::ROUNDINGS * precision.epsilon();
         Tolerance {

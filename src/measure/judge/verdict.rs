@@ -15,19 +15,19 @@ use serde::Serialize;
 pub enum Answer {
     /// The nearest hit.
     Nearest(Hit),
-    /// Whether anything lies on the ray before its end.
+    /// Whether an object blocks the ray before its end.
     Blocked(bool),
 }
 
 /// Why two answers differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Both are exactly right: distances are exactly equal, or the ray meets an edge, touches a
-    /// curved surface, or starts or ends on one.
+    /// Both are exactly right. Their distances are exactly equal, or the ray hits an edge, is
+    /// tangent to a curved surface, or starts or ends on a surface.
     Tie,
-    /// Both are right within rounding: for numbers within the tolerance of the scene's.
+    /// Both are right within rounding: each is exact for some coordinates within the tolerance.
     Rounding,
-    /// One is wrong, or both are.
+    /// At least one is wrong.
     Fault {
         /// The first answer.
         a_is_wrong: bool,
@@ -36,7 +36,7 @@ pub enum Verdict {
     },
 }
 
-/// Number of disagreements by [`Verdict`].
+/// Number of disagreements per [`Verdict`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
     pub ties: u64,
@@ -62,7 +62,8 @@ impl std::ops::AddAssign for Tally {
     }
 }
 
-/// The places where a ray may meet the objects of a scene, with the objects' numbers.
+/// All possible intersections of a ray with the objects of a scene, and the object's index for
+/// each.
 struct Evidence(Vec<(u32, Crossing)>);
 
 impl Evidence {
@@ -87,13 +88,15 @@ impl Evidence {
         Evidence(all.collect())
     }
 
-    /// Returns the nearest distance before which something is certainly hit; `None` if nothing is.
+    /// Returns the shortest distance by which the ray has certainly hit something; `None` if no hit
+    /// is certain.
     fn limit(&self) -> Option<&Root> {
         let certain = self.0.iter().filter(|(_, c)| c.certain);
         certain.map(|(_, c)| &c.latest).min()
     }
 
-    /// Returns the crossing of a hit: the nearest one of its object.
+    /// Returns the crossing that a hit refers to: of its object's crossings, the one nearest to the
+    /// hit's distance.
     fn crossing_of(&self, hit: &Hit) -> Option<&Crossing> {
         let off = |c: &Crossing| {
             let (lo, hi) = (c.earliest.to_f64(), c.latest.to_f64());
@@ -104,7 +107,8 @@ impl Evidence {
             .min_by(|a, b| off(a).total_cmp(&off(b)))
     }
 
-    /// Returns whether the answer can be right. The distance of a hit may be off by `slack` (relative).
+    /// Returns whether the answer can be right. `slack` is the relative error allowed in the
+    /// distance of a hit.
     fn allows(&self, answer: Answer, slack: Option<f64>) -> bool {
         match answer {
             Answer::Blocked(true) => !self.0.is_empty(),
@@ -123,12 +127,12 @@ impl Evidence {
     }
 }
 
-/// Returns whether a ray may come near a box; only `false` is certain.
+/// Returns whether a ray may come near a box. `true` is conservative; `false` is certain.
 fn may_meet(ray: &Ray, bounds: &Aabb, tolerance: &Tolerance) -> bool {
     const ROUNDING: f64 = 64.0 * f64::EPSILON;
     let far = bounds.magnitude() + ray.origin.abs().max_element();
     let bounds = bounds.enlarged(tolerance.length + (tolerance.relative + ROUNDING) * far);
-    // In units in which neither the direction nor its inverse overflows.
+    // Scaled so that neither the direction nor its inverse overflows.
     let direction = ray.direction / ray.direction.abs().max_element();
     let (mut enter, mut exit) = (f64::NEG_INFINITY, f64::INFINITY);
     for k in 0..3 {
@@ -136,7 +140,7 @@ fn may_meet(ray: &Ray, bounds: &Aabb, tolerance: &Tolerance) -> bool {
             (bounds.lo[k] - ray.origin[k]) / direction[k],
             (bounds.hi[k] - ray.origin[k]) / direction[k],
         );
-        // No number where the ray runs along the side of the box: then that side excludes nothing.
+        // NaN if the ray runs along a side of the box. Then this side excludes nothing.
         if a.is_nan() || b.is_nan() {
             continue;
         }
@@ -147,7 +151,7 @@ fn may_meet(ray: &Ray, bounds: &Aabb, tolerance: &Tolerance) -> bool {
     enter <= exit && exit >= 0.0
 }
 
-/// Returns the largest coordinate of a scene and a ray, a length.
+/// Returns the largest absolute coordinate of a scene and of a ray's origin, a length.
 pub fn scale_of(scene: &Scene, ray: &Ray) -> f64 {
     let bounds = scene.bounds();
     let of_scene = if bounds.is_empty() {
@@ -160,9 +164,9 @@ pub fn scale_of(scene: &Scene, ray: &Ray) -> f64 {
 
 /// Decides why two answers about a ray differ.
 ///
-/// If both came from the same numbers by the same intersection tests, `rounding` is `None`, and
-/// nothing but an exact tie excuses a difference. Otherwise it says by how much the numbers of
-/// either may have been rounded.
+/// If both answers come from the same coordinates and the same intersection tests, `rounding` is
+/// `None`. Then only an exact tie excuses a difference. Otherwise `rounding` bounds how far the
+/// coordinates behind either answer may have been rounded.
 pub fn settle(
     scene: &Scene,
     ray: &Ray,
@@ -183,7 +187,7 @@ pub fn settle(
         }
         right = within;
     }
-    // The same hit at two distances: no telling which of them is off.
+    // Both report the same hit at different distances. Which of them is wrong cannot be determined.
     let neither = right == [true; 2];
     Verdict::Fault {
         a_is_wrong: neither || !right[0],
@@ -191,7 +195,7 @@ pub fn settle(
     }
 }
 
-/// Returns whether two answers mean the same crossing, at whatever distance.
+/// Returns whether two answers mean the same crossing, at any distance.
 fn same_hit(exact: &Evidence, a: Answer, b: Answer) -> bool {
     match (a, b) {
         (Answer::Nearest(a), Answer::Nearest(b)) => {
@@ -205,7 +209,7 @@ fn same_hit(exact: &Evidence, a: Answer, b: Answer) -> bool {
 /// How correct one answer is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
-    /// It is what exact arithmetic says, or one of several that it allows.
+    /// It agrees with exact arithmetic, or is one of several exact ties.
     Right,
     /// It is right within rounding.
     Rounded,
@@ -214,7 +218,7 @@ pub enum Standing {
 
 /// Checks one answer against exact arithmetic.
 pub fn examine(scene: &Scene, ray: &Ray, answer: Answer, tolerance: Tolerance) -> Standing {
-    // How far away a hit is was rounded in any case.
+    // The distance of a hit is always rounded.
     let allowed = |within: &Tolerance| {
         Evidence::gather(scene, ray, within).allows(answer, Some(tolerance.relative))
     };
