@@ -6,10 +6,10 @@ use crate::scene::Scene;
 /// How equation (1) counts tests that hit an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Equation {
-    /// As printed: `T_I` for every nearest hit of a primary or secondary ray, nothing for blocked
-    /// shadow rays, `T_IUN` for all other tests.
+    /// As printed in the paper: `T_I` for every nearest hit of a primary or secondary ray, `T_IUN`
+    /// for all other tests. A test that blocks a shadow ray is not counted.
     Printed,
-    /// `T_I` for every test that hits, of whatever ray, `T_IUN` for every other one.
+    /// Corrected: `T_I` for every test that hits, of any ray, and `T_IUN` for every other test.
     Corrected,
 }
 
@@ -27,18 +27,20 @@ impl Equation {
 /// A term of the equation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Term {
-    /// `T_T + T_P`: for every traversed node.
+    /// `T_T + T_P`, per traversed node.
     Node,
-    /// `T_IUN`: for every test of this kind that misses.
+    /// `T_IUN`, per test of this kind that misses.
     Miss(PrimitiveKind),
-    /// `T_I`: for every test of this kind that hits.
+    /// `T_I`, per test of this kind that hits.
     Hit(PrimitiveKind),
-    /// What is the same for all trees of a scene: shading, and hits if they do not vary.
+    /// The part that is the same for all trees of a scene: shading, and hits if their number does
+    /// not vary.
     Constant,
 }
 
 impl Term {
-    /// Returns the terms for a scene: `Constant` first, and last those that a fit drops first.
+    /// Returns the terms for a scene. `Constant` comes first; the terms that a fit drops first come
+    /// last.
     pub fn of(scene: &Scene) -> Vec<Term> {
         let kinds = || {
             scene
@@ -54,7 +56,7 @@ impl Term {
             .collect()
     }
 
-    /// Returns its meaning, in a sentence.
+    /// Returns the meaning in one sentence.
     pub fn meaning(self) -> String {
         match self {
             Term::Node => {
@@ -78,7 +80,7 @@ impl Term {
         }
     }
 
-    /// Returns its symbol in the paper, with the kind of primitive.
+    /// Returns the symbol in the paper, with the kind of primitive.
     pub fn name(self) -> String {
         match self {
             Term::Node => "T_T + T_P".into(),

@@ -1,5 +1,5 @@
-//! Least squares without negative times, every observation weighted by its time so that it is the
-//! relative error that is small.
+//! Least squares with nonnegative times. Every observation is weighted by its time, so that the fit
+//! minimizes relative errors.
 
 use super::equation::{Equation, Term};
 use super::observe::{Observation, Terms};
@@ -8,10 +8,10 @@ use super::observe::{Observation, Terms};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coefficient {
     pub term: Term,
-    /// Seconds for one, at least 0.
+    /// Seconds per unit, at least 0.
     pub seconds: f64,
-    /// Half the width of the 95 % confidence interval; `None` where the time is held at 0, or no
-    /// observation is left over to tell.
+    /// Half the width of the 95 % confidence interval. `None` if the time is clamped to 0, or if no
+    /// observations are left to estimate it.
     pub half_width: Option<f64>,
 }
 
@@ -20,13 +20,13 @@ pub struct Coefficient {
 pub struct Fit {
     pub equation: Equation,
     pub coefficients: Vec<Coefficient>,
-    /// Share of the (weighted) variance of `T_TR` that is explained, at most 1.
+    /// Share of the (weighted) variance of `T_TR` that the fit explains, at most 1.
     pub r_squared: f64,
-    /// What the observations cannot tell apart, in sentences.
+    /// What the observations cannot separate, in sentences.
     pub notes: Vec<String>,
 }
 
-/// Why there is no fit.
+/// Why no fit is possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FitError {
     #[error("{observations} trees are too few for {terms} times")]
@@ -35,12 +35,12 @@ pub enum FitError {
     Singular,
 }
 
-/// A term whose counts are, but for this share, a combination of those of the others cannot be told
-/// from them.
+/// A term is inseparable if its counts are a linear combination of the other terms' counts, except
+/// for this share.
 const INSEPARABLE: f64 = 0.02;
 
 impl Fit {
-    /// `T_TR` in seconds for these counts.
+    /// Predicts `T_TR` in seconds for these counts.
     pub fn predict(&self, terms: &Terms) -> f64 {
         self.coefficients
             .iter()
@@ -48,7 +48,7 @@ impl Fit {
             .sum()
     }
 
-    /// The relative error of every prediction: predicted / measured − 1.
+    /// Returns the relative error of every prediction: predicted / measured − 1.
     pub fn errors(&self, observations: &[&Observation]) -> Vec<f64> {
         observations
             .iter()
@@ -56,18 +56,18 @@ impl Fit {
             .collect()
     }
 
-    /// Returns the time of a term; `None` if it was dropped.
+    /// Returns the time of a term in seconds; `None` if the term was dropped.
     pub fn seconds(&self, term: Term) -> Option<f64> {
         let found = self.coefficients.iter().find(|c| c.term == term);
         found.map(|c| c.seconds)
     }
 }
 
-/// Fits the times of these terms. Terms that cannot be told from those before them are given up,
-/// with a note: their time is part of the others'.
+/// Fits the times of these terms. A term that cannot be separated from the terms before it is
+/// dropped, with a note. Its time becomes part of the others' times.
 ///
 /// # Errors
-/// Not more observations than times, or trees that tell nothing.
+/// There are not more observations than times, or the trees do not determine the times.
 pub fn fit(
     observations: &[&Observation],
     terms: &[Term],
@@ -106,7 +106,7 @@ pub fn fit(
             terms: kept.len(),
         });
     }
-    // Every time measured is 1 in its own weight.
+    // Each equation is divided by the measured time, so every target is 1.
     let target = vec![1.0; observations.len()];
     let columns: Vec<&[f64]> = kept.iter().map(|(_, column)| column.as_slice()).collect();
     let (active, solution) = not_negative(&columns, &target).ok_or(FitError::Singular)?;
@@ -138,7 +138,7 @@ pub fn fit(
     })
 }
 
-/// The weighted sum of squares around the weighted mean time.
+/// Returns the weighted sum of squares around the weighted mean time.
 fn variance(observations: &[&Observation]) -> f64 {
     let weight = |o: &Observation| 1.0 / (o.seconds * o.seconds);
     let sum: f64 = observations.iter().map(|o| weight(o)).sum();
@@ -153,8 +153,8 @@ fn variance(observations: &[&Observation]) -> f64 {
     squares.sum()
 }
 
-/// The 97.5 % quantile of Student's distribution (expansion of Cornish and Fisher; within 1 % from 4
-/// degrees of freedom on).
+/// Returns the 97.5 % quantile of Student's t-distribution (Cornish–Fisher expansion, accurate to 1
+/// % from 4 degrees of freedom on).
 fn student_95(freedom: usize) -> f64 {
     let v = freedom as f64;
     1.959964 + 2.372271 / v + 2.822499 / v.powi(2) + 2.555852 / v.powi(3) + 1.589536 / v.powi(4)
@@ -162,12 +162,13 @@ fn student_95(freedom: usize) -> f64 {
 
 struct Solution {
     x: Vec<f64>,
-    /// Of the inverse of the normal matrix.
+    /// Diagonal of the inverse of the normal matrix.
     inverse_diagonal: Vec<f64>,
 }
 
-/// The best combination of columns without a negative factor: that of the subset of columns with
-/// the least residual among those whose own best combination has none. `None` if no subset has.
+/// Solves nonnegative least squares by trying every subset of columns. Returns the subset with the
+/// smallest residual among those whose unconstrained solution is nonnegative; `None` if there is
+/// none.
 fn not_negative(columns: &[&[f64]], target: &[f64]) -> Option<(Vec<usize>, Solution)> {
     let mut best: Option<(f64, Vec<usize>, Solution)> = None;
     for subset in 1u32..1 << columns.len() {
@@ -189,7 +190,7 @@ fn not_negative(columns: &[&[f64]], target: &[f64]) -> Option<(Vec<usize>, Solut
     best.map(|(_, active, solution)| (active, solution))
 }
 
-/// The sum of the squared residuals.
+/// Returns the sum of the squared residuals.
 fn residuals(columns: &[&[f64]], target: &[f64], active: &[usize], x: &[f64]) -> f64 {
     let residual = |row: usize| {
         let fitted: f64 = active
@@ -202,7 +203,8 @@ fn residuals(columns: &[&[f64]], target: &[f64], active: &[usize], x: &[f64]) ->
     (0..target.len()).map(|row| residual(row).powi(2)).sum()
 }
 
-/// The share of a column's length that is no combination of others, 0 to 1.
+/// Returns the share of a column's length that is not a linear combination of other columns, 0 to
+/// 1.
 fn apart(column: &[f64], others: &[&[f64]]) -> f64 {
     let all: Vec<usize> = (0..others.len()).collect();
     match least_squares(others, column) {
@@ -219,14 +221,14 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Solves the normal equations of columns brought to unit length, by Gauss and Jordan. `None` if
-/// they are dependent.
+/// Solves the normal equations of normalized columns by Gauss–Jordan elimination. Returns `None` if
+/// the columns are linearly dependent.
 fn least_squares(columns: &[&[f64]], target: &[f64]) -> Option<Solution> {
     const DEPENDENT: f64 = 1e-12;
     let n = columns.len();
     let lengths: Vec<f64> = columns.iter().map(|column| length(column)).collect();
     let entry = |i: usize, k: usize| dot(columns[i], columns[k]) / (lengths[i] * lengths[k]);
-    // The matrix, beside it the unit matrix that becomes its inverse.
+    // The matrix, augmented with the identity matrix, which elimination turns into the inverse.
     let mut rows: Vec<Vec<f64>> = (0..n)
         .map(|i| {
             let unit = (0..n).map(|k| f64::from(u8::from(i == k)));
@@ -269,7 +271,8 @@ mod tests {
     use crate::primitive::PrimitiveKind::{Polygon, Sphere};
     use crate::structure::BuildSettings;
 
-    /// Times made up of 10 ns a node, 20 and 50 ns a miss, 30 ns a hit of a sphere and 2 ms.
+    /// Returns synthetic times: 10 ns per node, 20 and 50 ns per miss, 30 ns per hit of a sphere,
+    /// and 2 ms constant.
     fn made_up(noise: f64) -> Vec<Observation> {
         (1..=12u64)
             .map(|i| {
@@ -317,7 +320,7 @@ mod tests {
         }
         assert!(fit.r_squared > 1.0 - 1e-9);
         assert!(fit.errors(&all).iter().all(|error| error.abs() < 1e-6));
-        // Hits of polygons are the same for every tree, as the constant is.
+        // The number of polygon hits is the same for every tree, as the constant is.
         assert_eq!(fit.seconds(Term::Hit(Polygon)), None);
         assert!(fit.notes.iter().any(|note| note.starts_with("T_I polygon")));
     }
@@ -332,7 +335,7 @@ mod tests {
         assert!(half > 1e-10 && (node.seconds - 1e-8).abs() < half);
         assert!(fit.coefficients.iter().all(|c| c.seconds >= 0.0));
         assert!(fit.r_squared < 1.0);
-        // A column that only a negative time would use is held at zero.
+        // A column that would need a negative time is clamped to zero.
         let (columns, target) = ([&[1.0, 1.0, 1.0][..], &[1.0, 2.0, 3.0]], [3.0, 2.0, 1.0]);
         let (active, solution) = not_negative(&columns, &target).unwrap();
         assert_eq!(active, [0]);

@@ -1,5 +1,5 @@
-//! The same times measured directly: tests that were made are made again, apart by kind and result;
-//! rays are walked through the tree without tests.
+//! Direct measurement of the same times. Recorded tests are repeated, separately by kind and
+//! result. Rays traverse the tree without any tests.
 
 use super::equation::Term;
 use super::observe::each_ray;
@@ -13,21 +13,21 @@ use crate::trace::{RayKind, RenderSettings, render_counted, thread_pool};
 use cpu_time::ThreadTime;
 use std::hint::black_box;
 
-/// Times in seconds, measured in place; arrays are by [`PrimitiveKind`]. `None` where nothing of the
-/// kind was done.
+/// Times in seconds, measured in place. Arrays are indexed by [`PrimitiveKind`]. `None` if nothing
+/// of the kind occurred.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InPlace {
-    /// Of a traversed node, `T_T + T_P`: `T_TT / N_NODES`.
+    /// Time per traversed node, `T_T + T_P`: `T_TT / N_NODES`.
     pub node: Option<f64>,
-    /// Of a test that hits, `T_I`.
+    /// Time per test that hits, `T_I`.
     pub hit: [Option<f64>; PrimitiveKind::ALL.len()],
-    /// Of a test that misses, `T_IUN`.
+    /// Time per test that misses, `T_IUN`.
     pub miss: [Option<f64>; PrimitiveKind::ALL.len()],
 }
 
 impl InPlace {
-    /// The time of a term; `None` where nothing of it was done, and for the constant, which is not
-    /// measured.
+    /// Returns the time of a term. `None` if the term did not occur, and for the constant, which is
+    /// not measured.
     pub fn seconds(&self, term: Term) -> Option<f64> {
         match term {
             Term::Node => self.node,
@@ -38,24 +38,25 @@ impl InPlace {
     }
 }
 
-/// A test to be made again.
+/// A recorded test, to be repeated.
 struct Test {
     ray: Ray,
     object: u32,
     t_max: f64,
 }
 
-/// Number of tests kept per kind and result; they fit the processor's caches as those of a leaf do.
+/// Number of tests kept per kind and result. They fit into the processor's caches, as the tests of
+/// a leaf do.
 const KEPT: usize = 4096;
-/// One test out of this many is kept, so that they come from the whole picture.
+/// One test in this many is kept, so that the kept tests come from the whole picture.
 const EVERY: usize = 17;
-/// How often the kept tests are made; the least time counts.
+/// Number of repetitions of the kept tests. The minimum time counts.
 const ROUNDS: u32 = 30;
 
 /// Measures the times of a scene with one tree.
 ///
 /// # Errors
-/// As [`crate::measure::measure`].
+/// The same as those of [`crate::measure::measure`].
 pub fn time_in_place(
     scene: &Scene,
     settings: &BuildSettings,
@@ -103,7 +104,7 @@ pub fn time_in_place(
     Ok(times)
 }
 
-/// The time of one of these tests; `None` without any.
+/// Returns the time per test in seconds; `None` without tests.
 fn time(scene: &Scene, tests: &[Test]) -> Option<f64> {
     let round = || {
         let start = ThreadTime::now();

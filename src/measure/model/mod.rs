@@ -1,6 +1,6 @@
-//! The time model of the paper's equation (1): the time of an intersection test that hits, of one that
-//! misses, and of a traversed node. They are measured by regression over a set of trees and by timing
-//! in place.
+//! The time model of the paper's equation (1): the time of an intersection test that hits, of one
+//! that misses, and of a traversed node. The times are measured by regression over a set of trees,
+//! and directly by repeating the operations in place.
 //!
 //! T_TR = (T_T + T_P) · N_NODES + T_I · hits + T_IUN · misses + const, with T_I and T_IUN for each
 //! kind of primitive. `T_T` and `T_P` only occur as a sum, so no regression can separate them.

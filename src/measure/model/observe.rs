@@ -1,4 +1,4 @@
-//! What rendering with one tree took, and the counts that equation (1) explains it by.
+//! The rendering time with one tree, and the counts by which equation (1) explains it.
 
 use super::equation::{Equation, Term};
 use crate::measure::MeasureError;
@@ -13,20 +13,20 @@ use crate::trace::{
 
 const KINDS: usize = PrimitiveKind::ALL.len();
 
-/// The counts of equation (1) for one tree; arrays are by [`PrimitiveKind`].
+/// The counts of equation (1) for one tree. Arrays are indexed by [`PrimitiveKind`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Terms {
-    /// Rays of all kinds, the same for every tree.
+    /// Rays of all kinds. Their number is the same for every tree.
     pub rays: u64,
     /// Nodes traversed, `N_NODES`.
     pub nodes: u64,
-    /// Tests.
+    /// Intersection tests.
     pub tests: [u64; KINDS],
-    /// Tests that hit, nearest so far or not.
+    /// Tests that hit, whether or not the hit is the nearest so far.
     pub hits: [u64; KINDS],
-    /// Primary and secondary rays whose nearest hit it is, `N_HPR + N_HSECR`.
+    /// Primary and secondary rays whose nearest hit is of this kind, `N_HPR + N_HSECR`.
     pub nearest: [u64; KINDS],
-    /// Shadow rays that it blocks, `N_HSR`.
+    /// Shadow rays blocked by this kind, `N_HSR`.
     pub blocked: [u64; KINDS],
 }
 
@@ -55,14 +55,15 @@ impl Terms {
 pub struct Observation {
     pub build: BuildSettings,
     pub terms: Terms,
-    /// `T_TR` in seconds of CPU time: the least of some rounds.
+    /// `T_TR` in seconds of CPU time: the minimum of several rounds.
     pub seconds: f64,
 }
 
-/// Builds a tree, times the picture `rounds` times and counts what equation (1) needs.
+/// Builds a tree, renders the picture `rounds` times to measure `T_TR`, and counts what equation
+/// (1) needs.
 ///
 /// # Errors
-/// As [`crate::measure::measure`].
+/// The same as those of [`crate::measure::measure`].
 pub fn observe(
     scene: &Scene,
     settings: &BuildSettings,
@@ -115,15 +116,15 @@ fn count(
 pub(super) struct Traced<'a> {
     pub kind: RayKind,
     pub ray: &'a crate::geometry::Ray,
-    /// Column and row of the pixel that it belongs to.
+    /// Column and row of the ray's pixel.
     pub pixel: (u32, u32),
 }
 
-/// What one ray did.
+/// A record of one ray's traversal.
 #[derive(Default)]
 pub(super) struct Watcher {
     pub nodes: u64,
-    /// Objects tested in order, with where the test hit.
+    /// The tested objects in order, each with the distance of its hit.
     pub tests: Vec<(u32, Option<f64>)>,
     /// The object that the ray hits, or that blocks it.
     pub answer: Option<u32>,
@@ -143,22 +144,22 @@ impl Probe for Watcher {
     }
 }
 
-/// Traces a picture on this thread and reports every ray.
+/// Traces a picture on the current thread and reports every ray.
 pub(super) fn each_ray(
     scene: &Scene,
     tree: &Tree,
     render: &RenderSettings,
     progress: &Progress,
-    tell: impl FnMut(&Traced<'_>, &Watcher),
+    report: impl FnMut(&Traced<'_>, &Watcher),
 ) -> Result<(), RenderError> {
     let shading = Shading::new(scene, render)?;
-    let mut tracer = Telling {
+    let mut tracer = Reporter {
         tree,
         shapes: shading.shapes,
         scratch: Scratch::default(),
         watcher: Watcher::default(),
         pixels: Vec::new(),
-        tell,
+        report,
     };
     let mut colors = Vec::new();
     let tiles = tiles(render.width, render.height);
@@ -172,18 +173,18 @@ pub(super) fn each_ray(
     Ok(())
 }
 
-/// The kernel that reports every ray.
-struct Telling<'a, F> {
+/// A kernel that reports every ray.
+struct Reporter<'a, F> {
     tree: &'a Tree,
     shapes: &'a Shapes,
     scratch: Scratch,
     watcher: Watcher,
-    /// Of the current tile.
+    /// Pixels of the current tile.
     pixels: Vec<(u32, u32)>,
-    tell: F,
+    report: F,
 }
 
-impl<F: FnMut(&Traced<'_>, &Watcher)> Telling<'_, F> {
+impl<F: FnMut(&Traced<'_>, &Watcher)> Reporter<'_, F> {
     fn clear(&mut self) {
         self.watcher.nodes = 0;
         self.watcher.tests.clear();
@@ -191,7 +192,7 @@ impl<F: FnMut(&Traced<'_>, &Watcher)> Telling<'_, F> {
     }
 }
 
-impl<F: FnMut(&Traced<'_>, &Watcher)> RayTracer for Telling<'_, F> {
+impl<F: FnMut(&Traced<'_>, &Watcher)> RayTracer for Reporter<'_, F> {
     fn closest_hits(&mut self, batch: Batch<'_>, hits: &mut Vec<Hit>) {
         hits.clear();
         for (ray, &pixel) in batch.rays.iter().zip(batch.pixels) {
@@ -199,7 +200,7 @@ impl<F: FnMut(&Traced<'_>, &Watcher)> RayTracer for Telling<'_, F> {
             let (scratch, watcher) = (&mut self.scratch, &mut self.watcher);
             let hit = closest_hit(self.tree, self.shapes, ray, scratch, watcher);
             watcher.answer = hit.is_hit().then_some(hit.object);
-            (self.tell)(
+            (self.report)(
                 &Traced {
                     kind: batch.kind,
                     ray,
@@ -218,7 +219,7 @@ impl<F: FnMut(&Traced<'_>, &Watcher)> RayTracer for Telling<'_, F> {
             let (scratch, watcher) = (&mut self.scratch, &mut self.watcher);
             let hit = any_hit(self.tree, self.shapes, ray, scratch, watcher);
             watcher.answer = watcher.tests.last().filter(|_| hit).map(|test| test.0);
-            (self.tell)(
+            (self.report)(
                 &Traced {
                     kind: batch.kind,
                     ray,

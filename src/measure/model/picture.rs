@@ -1,5 +1,5 @@
-//! How the render time divides into the terms of equation (1): their counts for each pixel, and their
-//! times.
+//! How the rendering time divides into the terms of equation (1): the counts per pixel, multiplied
+//! by the times.
 
 use super::equation::Term;
 use super::fit::Fit;
@@ -15,7 +15,7 @@ use std::ops::AddAssign;
 
 const KINDS: usize = PrimitiveKind::ALL.len();
 
-/// What rays did, as the corrected equation (1) counts it; arrays are by [`PrimitiveKind`].
+/// Counts of some rays for the corrected equation (1). Arrays are indexed by [`PrimitiveKind`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayTerms<N = u64> {
     /// Rays of all kinds.
@@ -29,7 +29,7 @@ pub struct RayTerms<N = u64> {
 }
 
 impl RayTerms {
-    /// How often the time of a term is spent; that of [`Term::Constant`] once per ray.
+    /// Returns how often a term's time is spent. [`Term::Constant`] counts once per ray.
     pub fn count(&self, term: Term) -> u64 {
         match term {
             Term::Constant => self.rays,
@@ -51,7 +51,7 @@ impl AddAssign<&RayTerms<u32>> for RayTerms {
     }
 }
 
-/// A rectangle of pixels: its first column and row, its width and height, at least 1 each.
+/// A rectangle of pixels: first column and row, and width and height, each at least 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Region {
@@ -66,12 +66,12 @@ pub struct Region {
 pub struct PictureTerms {
     pub width: u32,
     pub height: u32,
-    /// Row by row.
+    /// Pixels row by row.
     pub pixels: Vec<RayTerms<u32>>,
 }
 
 impl PictureTerms {
-    /// Counts sample 0 of every pixel, on this thread.
+    /// Counts sample 0 of every pixel on the current thread.
     ///
     /// # Errors
     /// A camera without a view, a resolution out of range, or cancellation.
@@ -104,7 +104,8 @@ impl PictureTerms {
         })
     }
 
-    /// The sum over the pixels of a region, as far as they lie in the picture; `None` is the whole.
+    /// Returns the sum over the pixels of a region, clipped to the picture; `None` means the whole
+    /// picture.
     pub fn sum(&self, region: Option<Region>) -> RayTerms {
         let region = region.unwrap_or(Region {
             x: 0,
@@ -124,29 +125,29 @@ impl PictureTerms {
     }
 }
 
-/// Times of the terms of equation (1) in seconds; that of [`Term::Constant`] per ray.
+/// The times of the terms of equation (1), in seconds. The time of [`Term::Constant`] is per ray.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TermTimes(Vec<(Term, f64)>);
 
-/// The share of a term in the time of some rays.
+/// The contribution of one term to the time of some rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
     pub term: Term,
-    /// How often its time is spent.
+    /// How often the term's time is spent.
     pub count: u64,
-    /// For one.
+    /// Seconds per unit.
     pub each: f64,
 }
 
 impl Part {
-    /// All together, in seconds.
+    /// Returns the total time in seconds.
     pub fn seconds(&self) -> f64 {
         self.count as f64 * self.each
     }
 }
 
 impl TermTimes {
-    /// The times of a fit to pictures of so many rays.
+    /// Returns the times of a fit whose pictures had this number of rays.
     pub fn of_fit(fit: &Fit, rays: u64) -> TermTimes {
         let coefficients = fit.coefficients.iter();
         let each = coefficients.map(|c| match c.term {
@@ -156,7 +157,7 @@ impl TermTimes {
         TermTimes(each.collect())
     }
 
-    /// Times measured in place: all but the constant.
+    /// Returns the times measured in place, without the constant.
     pub fn of_in_place(times: &InPlace) -> TermTimes {
         let kinds = || PrimitiveKind::ALL.into_iter();
         let terms = [Term::Node]

@@ -1,11 +1,11 @@
-//! The trees that a model is fitted to and tested on.
+//! The trees that a time model is fitted to and tested on.
 
 use super::observe::Observation;
 use crate::scene::Scene;
 use crate::structure::{BuildSettings, MaxDepth, Method};
 
-/// Returns the trees that a model of a scene is fitted to: the paper's methods, depths around the
-/// automatic one, two leaf sizes.
+/// Returns the trees that a model of a scene is fitted to: the paper's methods with depths around
+/// the automatic one and two leaf sizes.
 pub fn trees(scene: &Scene) -> Vec<BuildSettings> {
     let automatic = MaxDepth::Automatic.resolve(scene.objects().len());
     let mut all = Vec::new();
@@ -24,8 +24,7 @@ pub fn trees(scene: &Scene) -> Vec<BuildSettings> {
     all
 }
 
-/// Splits observations into those that a model is fitted to and those that it is tested on: every third
-/// one is not fitted.
+/// Splits observations into a training set and a test set. Every third observation is for testing.
 pub fn parted(observations: &[Observation]) -> [Vec<&Observation>; 2] {
     let numbered = || observations.iter().enumerate();
     let left_out = |i: usize| i % 3 == 1;

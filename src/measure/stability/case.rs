@@ -4,11 +4,11 @@ use super::trial::{Outcome, Trial};
 
 /// A case of the torture set.
 pub struct Case {
-    /// A few words.
+    /// Name, a few words.
     pub name: &'static str,
-    /// What is tried, and what counts as right.
+    /// What the case tests, and which result is correct.
     pub rule: &'static str,
-    /// Whether it can be tried on a user's own scene.
+    /// Whether the case can run on a user's own scene.
     pub any_scene: bool,
     pub run: fn(&Trial<'_>) -> Outcome,
 }

@@ -1,4 +1,4 @@
-//! Objects that are hardly there, that are there too often, and rules about outlines.
+//! Cases about geometry: degenerate objects, duplicate objects, and the rules for outlines.
 
 use super::case::Case;
 use super::scenes::{aims, features, polygon, scene_of, sphere, spread, triangle, unit};
@@ -191,7 +191,7 @@ fn flat(trial: &Trial<'_>) -> Outcome {
     let mut scenes: Vec<_> = (0..3)
         .flat_map(|axis| [0.0, 0.1].map(|height| in_plane(axis, height)))
         .collect();
-    // Balls of radius 0 on a line: hit by rays that pass just through them.
+    // Spheres of radius 0 on a line. Rays exactly through their centers hit them.
     scenes.push(
         (0..40)
             .map(|i| sphere(Vec3::X * f64::from(i), 0.0))
@@ -225,7 +225,7 @@ fn polygons(trial: &Trial<'_>) -> Outcome {
         })
         .collect();
     let outlines: [&[[f64; 3]]; 5] = [
-        // Concave: an L, and a comb.
+        // Concave: an L and a comb.
         &[
             [0.0, 0.0, 0.0],
             [2.0, 0.0, 0.0],
@@ -243,7 +243,7 @@ fn polygons(trial: &Trial<'_>) -> Outcome {
             [1.0, 0.5, 1.0],
             [0.0, 2.0, 1.0],
         ],
-        // Vertices on a line, and each one twice.
+        // Collinear vertices and duplicate vertices.
         &[
             [0.0, 0.0, 2.0],
             [0.5, 0.0, 2.0],
@@ -255,7 +255,7 @@ fn polygons(trial: &Trial<'_>) -> Outcome {
             [0.0, 0.5, 2.0],
         ],
         &star,
-        // Over the plane x + y + z = 4, as a bow.
+        // Self-intersecting, like a bow tie, in the plane x + y + z = 4.
         &[
             [4.0, 0.0, 0.0],
             [0.0, 3.0, 1.0],
@@ -264,7 +264,7 @@ fn polygons(trial: &Trial<'_>) -> Outcome {
         ],
     ];
     let objects: Vec<_> = outlines.iter().map(|outline| polygon(outline)).collect();
-    // The middle of the star is outside by the even–odd rule, and so nothing is hit there.
+    // By the even–odd rule the middle of the star is outside, so a ray there must miss.
     let scene = scene_of(vec![objects[3].clone()]);
     let ray = Ray::new(Vec3::ZERO, Vec3::Z);
     let middle = match trial.tree(&scene, &trial.settings()) {
@@ -288,7 +288,7 @@ fn cones(trial: &Trial<'_>) -> Outcome {
     let objects = vec![
         cone(Vec3::ZERO, 1.0, Vec3::Z * 2.0, 0.0),
         cone(Vec3::Z * 4.0, 0.0, Vec3::new(1.0, 1.0, 2.0), 0.7),
-        // As thin as a hair, and as flat as a plate.
+        // One very thin cylinder, one very flat cylinder, and one very flat cone.
         cone(Vec3::X * 3.0, 1e-6, Vec3::new(3.0, 1.0, 2.0), 1e-6),
         cone(Vec3::Y * 3.0, 1.0, Vec3::new(0.0, 3.0, 1e-6), 1.0),
         cone(Vec3::Y * 5.0, 1.0, Vec3::new(0.0, 5.0, 1e-3), 0.1),
@@ -317,7 +317,8 @@ fn spheres(trial: &Trial<'_>) -> Outcome {
         [nested.collect::<Vec<_>>(), touching.collect()].map(|objects| {
             let scene: Scene = scene_of(objects);
             let mut rays = aims(&scene, trial.rays(&scene));
-            // Through the points in which the second lot touches, and from the middle of the first.
+            // Aim at the points where the touching spheres meet, and start at the center of the
+            // nested ones.
             for (i, ray) in rays.clone().iter().enumerate() {
                 let half = |k: usize| f64::from((i / k % 8) as u32) * 0.5;
                 let target = Vec3::new(half(1), half(8), half(64));

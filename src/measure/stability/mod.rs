@@ -1,8 +1,8 @@
-//! Robustness at extremes: every case of [`CASES`] yields correct hits or a clear error with every
-//! method and precision. A case is one entry of a theme's file.
+//! Stability: robustness at extreme inputs. Every case of [`CASES`] must yield correct hits, or a
+//! clear error, with every method and precision. A case is one entry of a theme's file.
 //!
-//! Correct means that the tree is valid, that its answers are those of testing every object or exact
-//! ties, and that a sample of them agrees with exact arithmetic within rounding
+//! Correct means three things. The tree is valid. Its answers equal those of testing every object,
+//! except for exact ties. A sample of the answers agrees with exact arithmetic within rounding
 //! ([`super::judge::Tolerance`]).
 
 mod case;
@@ -33,7 +33,7 @@ pub static CASES: &[(&str, &[Case])] = &[
     ("settings", settings::CASES),
 ];
 
-/// What came of one case by one method in one precision.
+/// The result of one case with one method in one precision.
 #[derive(Clone, Debug, Serialize)]
 pub struct Cell {
     pub theme: &'static str,
@@ -45,8 +45,9 @@ pub struct Cell {
     pub outcome: Outcome,
 }
 
-/// Runs all cases that apply by every method in every precision, in the order of the registries:
-/// without a scene the built-in torture set, with one those that can be tried on any.
+/// Runs every applicable case with every method in every precision, in the order of the registries.
+/// Without a scene, runs the built-in torture set. With a scene, runs the cases that apply to any
+/// scene.
 ///
 /// # Errors
 /// Cancellation.

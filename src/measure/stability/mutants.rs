@@ -1,4 +1,5 @@
-//! A traversal with one decision broken fails cases: they would notice.
+//! Mutation tests of the torture set: a traversal with one wrong decision must fail at least one
+//! case.
 
 use super::super::judge::Answer;
 use super::{CASES, Kernel, Outcome, Trial};
@@ -13,13 +14,14 @@ use crate::trace::{
 };
 use std::marker::PhantomData;
 
-/// What is broken of the decisions about a ray.
+/// A mutation of the decisions about a ray. The default methods change nothing.
 trait Break {
     fn crossing(right: PlaneCrossing<f64>) -> PlaneCrossing<f64> {
         right
     }
 
-    /// `is_zero` says that the direction has no component along the axis.
+    /// Returns whether the ray runs backward along an axis. `is_zero` is true if the direction has no
+    /// component along the axis.
     fn is_backward(right: bool, is_zero: bool) -> bool {
         let _ = is_zero;
         right
@@ -31,7 +33,7 @@ trait Break {
     }
 }
 
-/// A ray whose decisions are broken.
+/// A ray with mutated decisions.
 struct Broken<B>(TraversalRayF64, PhantomData<B>);
 
 impl<B: Break> TraversalRay for Broken<B> {
@@ -59,7 +61,7 @@ struct Nothing;
 
 impl Break for Nothing {}
 
-/// The ray ends before every plane.
+/// Mutation: the ray ends before every plane, so only near children are visited.
 struct NearOnly;
 
 impl Break for NearOnly {
@@ -71,7 +73,7 @@ impl Break for NearOnly {
     }
 }
 
-/// The ray begins behind every plane that it does not end before.
+/// Mutation: the ray starts behind every plane unless it ends before it.
 struct FarOnly;
 
 impl Break for FarOnly {
@@ -83,7 +85,7 @@ impl Break for FarOnly {
     }
 }
 
-/// −0 counts as 0, though its inverse is −∞.
+/// Mutation: −0 counts as 0, although its inverse is −∞.
 struct ZeroHasNoSign;
 
 impl Break for ZeroHasNoSign {
@@ -92,7 +94,7 @@ impl Break for ZeroHasNoSign {
     }
 }
 
-/// A hit always ends the walk.
+/// Mutation: any hit ends the traversal, even if a nearer hit may follow.
 struct EndsAtAnyHit;
 
 impl Break for EndsAtAnyHit {
@@ -101,7 +103,7 @@ impl Break for EndsAtAnyHit {
     }
 }
 
-/// The far child comes first.
+/// Mutation: the far child is visited first.
 struct FarFirst;
 
 impl Break for FarFirst {
@@ -110,7 +112,7 @@ impl Break for FarFirst {
     }
 }
 
-/// The nearest hit, or any.
+/// Finds the nearest hit, or any hit.
 struct Nearest<'a> {
     ray: &'a Ray,
     objects: &'a [Primitive],
@@ -166,7 +168,7 @@ fn ask<B: Break>(
         .collect()
 }
 
-/// Whether a case about rays fails by a kernel that is broken so.
+/// Returns whether a kernel with this mutation fails a case about rays.
 fn fails_a_case<B: Break>() -> bool {
     let kernel = Kernel {
         precision: Precision::F64,

@@ -1,4 +1,4 @@
-//! Rays that arithmetic likes least.
+//! Rays that are hard for floating-point arithmetic.
 
 use super::case::Case;
 use super::scenes::{aims, aims_from, ball, base, features, spread, torus, unit};
@@ -80,7 +80,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Asks about rays in the scene at hand, made from it and its tree.
+/// Checks the tree of the trial's scene with rays made from the scene and its tree.
 fn ask_about(trial: &Trial<'_>, rays: impl Fn(&Scene, &Tree, usize) -> Vec<Ray>) -> Outcome {
     let scene = base(trial);
     let settings = trial.settings();
@@ -93,7 +93,7 @@ fn ask_about(trial: &Trial<'_>, rays: impl Fn(&Scene, &Tree, usize) -> Vec<Ray>)
     }
 }
 
-/// Rays in these directions, one after the other, through features, from outside the scene.
+/// Returns rays from outside the scene through its features. Directions are used in turn.
 fn through_features(scene: &Scene, count: usize, directions: &[Vec3]) -> Vec<Ray> {
     let radius = ball(scene).1;
     let points = features(scene, count);
@@ -142,7 +142,8 @@ fn lengths(trial: &Trial<'_>) -> Outcome {
     })
 }
 
-/// Inner nodes with a point of their plane within their cell, evenly from the whole tree.
+/// Returns points on split planes, inside the node's cell, each with its axis. They are evenly
+/// distributed over the tree.
 fn on_planes(tree: &Tree, count: usize) -> Vec<(usize, Vec3)> {
     let mut points = Vec::new();
     for cell in tree.cells() {
@@ -167,7 +168,7 @@ fn inside_planes(trial: &Trial<'_>) -> Outcome {
             .map(|(i, (axis, point))| {
                 let [u, v, ..] = spread(i);
                 let mut direction = unit(u, v);
-                // Every third along an axis.
+                // Every third ray is parallel to an axis.
                 if i % 3 == 0 {
                     direction[(axis + 1) % 3] = 0.0;
                 }
@@ -198,7 +199,7 @@ fn from_faces(trial: &Trial<'_>) -> Outcome {
         let points = features(scene, n);
         let count = points.len();
         let rays = points.iter().enumerate().map(|(i, &point)| {
-            // Every other at another feature.
+            // Every other ray points at another feature.
             let other = points[(i * 7 + 3) % count] - point;
             let direction = if i % 2 == 0 && other.abs().max_element() > 0.0 {
                 other
@@ -250,7 +251,7 @@ fn tangent(trial: &Trial<'_>) -> Outcome {
             let [u, v, w, x, ..] = spread(i);
             let (point, normal) = match object {
                 Primitive::Sphere(s) => {
-                    // Every third just on an axis, where nothing is rounded.
+                    // Every third point lies exactly on an axis, where nothing is rounded.
                     let normal = match i % 3 {
                         0 => [Vec3::X, Vec3::Y, Vec3::Z][i / 3 % 3],
                         _ => unit(u, v),

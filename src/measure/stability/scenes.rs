@@ -1,4 +1,4 @@
-//! Scenes and rays that cases share. All of them are the same everywhere.
+//! Scenes and rays that several cases use. They are deterministic.
 
 use super::trial::Trial;
 use crate::geometry::{Ray, Vec3};
@@ -6,7 +6,7 @@ use crate::primitive::{Polygon, Primitive, Shape, Sphere, Triangle};
 use crate::scene::{Camera, Light, Material, Scene, SceneParts, builtin};
 use std::borrow::Cow;
 
-/// A scene of these objects, lit and seen from outside.
+/// Returns a scene of these objects with a light and a camera outside of them.
 pub fn scene_of(objects: Vec<Primitive>) -> Scene {
     let bounds = Scene::new(parts(objects.clone(), Vec3::ONE, Vec3::ZERO)).bounds();
     let (middle, radius) = if objects.is_empty() {
@@ -45,7 +45,7 @@ fn parts(objects: Vec<Primitive>, from: Vec3, at: Vec3) -> SceneParts {
     }
 }
 
-/// The user's scene, or one with every kind of object and a mesh.
+/// Returns the user's scene, or a built-in one with every kind of object and a mesh.
 pub fn base<'a>(trial: &Trial<'a>) -> Cow<'a, Scene> {
     trial.scene.map_or_else(
         || {
@@ -58,7 +58,7 @@ pub fn base<'a>(trial: &Trial<'a>) -> Cow<'a, Scene> {
     )
 }
 
-/// A closed mesh of triangles around the z axis through `center`.
+/// Returns a closed triangle mesh, a torus around the z axis through `center`.
 pub fn torus(around: u32, across: u32, center: Vec3, radius: f64, tube: f64) -> Vec<Primitive> {
     let vertex = |i: u32, j: u32| {
         let turn = |k: u32, n: u32| std::f64::consts::TAU * f64::from(k % n) / f64::from(n);
@@ -77,29 +77,35 @@ pub fn torus(around: u32, across: u32, center: Vec3, radius: f64, tube: f64) -> 
     triangles
 }
 
+/// Creates a triangle.
+///
 /// # Panics
-/// If the triangle has no area, as none of the built-in scenes' has.
+/// If the triangle has no area. None of the built-in triangles is degenerate.
 pub fn triangle(a: Vec3, b: Vec3, c: Vec3) -> Primitive {
     Primitive::Triangle(Triangle::new([a, b, c], None).expect("it has an area"))
 }
 
+/// Creates a polygon.
+///
 /// # Panics
-/// If the polygon has no area, as none of the built-in scenes' has.
+/// If the polygon has no area. None of the built-in polygons is degenerate.
 pub fn polygon(vertices: &[[f64; 3]]) -> Primitive {
     let vertices = vertices.iter().copied().map(Vec3::from_array).collect();
     Primitive::Polygon(Polygon::new(vertices, None).expect("it has an area"))
 }
 
+/// Creates a sphere.
+///
 /// # Panics
-/// If the radius is negative, as none of the built-in scenes' is.
+/// If the radius is negative. None of the built-in radii is.
 pub fn sphere(center: Vec3, radius: f64) -> Primitive {
     Primitive::Sphere(Sphere::new(center, radius).expect("it has a radius"))
 }
 
-/// Point number `i` of a sequence that fills the cube from 0 to 1 in six dimensions evenly
-/// (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
+/// Returns point `i` of a low-discrepancy sequence in the six-dimensional unit cube (M. Roberts,
+/// "The unreasonable effectiveness of quasirandom sequences", 2018).
 pub fn spread(i: usize) -> [f64; 6] {
-    /// The root of x⁷ = x + 1 above 1.
+    /// The root above 1 of x⁷ = x + 1.
     const ROOT: f64 = 1.112_775_684_278_706;
     let mut step = 1.0;
     std::array::from_fn(|_| {
@@ -108,7 +114,7 @@ pub fn spread(i: usize) -> [f64; 6] {
     })
 }
 
-/// A unit vector for two numbers from 0 to 1, evenly over the sphere.
+/// Maps two numbers from 0 to 1 to a unit vector, uniformly over the sphere.
 pub fn unit(u: f64, v: f64) -> Vec3 {
     let z = 1.0 - 2.0 * u;
     let r = (1.0 - z * z).max(0.0).sqrt();
@@ -116,7 +122,7 @@ pub fn unit(u: f64, v: f64) -> Vec3 {
     Vec3::new(r * libm::cos(turn), r * libm::sin(turn), z)
 }
 
-/// Middle of a scene and the radius of the ball around it, at least a little.
+/// Returns the center of a scene and the radius of its bounding sphere. The radius is never 0.
 pub fn ball(scene: &Scene) -> (Vec3, f64) {
     let bounds = scene.bounds();
     if bounds.is_empty() {
@@ -127,12 +133,12 @@ pub fn ball(scene: &Scene) -> (Vec3, f64) {
     (bounds.center(), radius.max(least))
 }
 
-/// Rays from all around at points within the boxes of objects.
+/// Returns rays from all around the scene, aimed at points within the objects' boxes.
 pub fn aims(scene: &Scene, count: usize) -> Vec<Ray> {
     aims_from(scene, count, 2.0)
 }
 
-/// The same from `away` radii of the scene.
+/// Returns the rays of [`aims`] with origins at a distance of `away` scene radii.
 pub fn aims_from(scene: &Scene, count: usize, away: f64) -> Vec<Ray> {
     let (middle, radius) = ball(scene);
     (0..count)
@@ -152,8 +158,8 @@ pub fn aims_from(scene: &Scene, count: usize, away: f64) -> Vec<Ray> {
         .collect()
 }
 
-/// Vertices, points of edges and tips, and of curved surfaces the ends along the axes: at most
-/// `most`, evenly from the whole scene.
+/// Returns points where rounding matters: vertices, points on edges, tips, and the extreme points
+/// of curved surfaces along the axes. At most `most`, evenly distributed over the scene.
 pub fn features(scene: &Scene, most: usize) -> Vec<Vec3> {
     let mut all = Vec::new();
     for object in scene.objects() {

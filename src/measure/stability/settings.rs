@@ -1,4 +1,4 @@
-//! Settings at the ends of their ranges.
+//! Cases about settings at the ends of their ranges.
 
 use super::case::Case;
 use super::scenes::{aims, base, polygon, scene_of, sphere};
@@ -108,7 +108,7 @@ fn leaf_sizes(trial: &Trial<'_>) -> Outcome {
     }))
 }
 
-/// The settings of a small picture.
+/// Returns the settings of a small picture.
 fn small(scene: &Scene, side: u32) -> RenderSettings {
     RenderSettings {
         width: side,
@@ -118,7 +118,7 @@ fn small(scene: &Scene, side: u32) -> RenderSettings {
     }
 }
 
-fn traced(
+fn render_picture(
     trial: &Trial<'_>,
     scene: &Scene,
     tree: &Tree,
@@ -141,8 +141,8 @@ fn traced(
     Ok(picture.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// Whether the method's tree gives the same picture as testing every object, and `right` says that it
-/// is one.
+/// Checks that the method's tree yields the same picture as testing every object, and that `right`
+/// accepts the picture.
 fn same_picture(
     trial: &Trial<'_>,
     scene: &Scene,
@@ -158,8 +158,8 @@ fn same_picture(
         Err(error) => return Outcome::fail(error.to_string()),
     };
     let pictures = (
-        traced(trial, scene, &tree, settings),
-        traced(trial, scene, &everything, settings),
+        render_picture(trial, scene, &tree, settings),
+        render_picture(trial, scene, &everything, settings),
     );
     match pictures {
         (Ok(found), Ok(expected)) if found == expected => match right(&found) {
@@ -180,7 +180,7 @@ fn all_finite(picture: &Picture) -> Result<(), String> {
         .ok_or_else(|| "a color is not a number".to_owned())
 }
 
-/// A camera inside a box of mirrors around the origin.
+/// Returns a camera inside a box of mirrors around the origin.
 fn mirrored_box() -> Scene {
     let mut sides = Vec::new();
     for axis in 0..3 {

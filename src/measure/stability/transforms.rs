@@ -1,4 +1,4 @@
-//! The whole scene scaled and moved.
+//! Cases that scale and move the whole scene.
 
 use super::case::Case;
 use super::scenes::{aims, ball, base, features, polygon, scene_of, sphere, triangle};
@@ -35,7 +35,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Every coordinate times `factor`, then plus `offset`.
+/// Maps every coordinate to `factor` times itself plus `offset`.
 #[derive(Clone, Copy)]
 struct Map {
     factor: f64,
@@ -92,7 +92,7 @@ impl Map {
         }
     }
 
-    /// An answer for the mapped scene as one for the scene itself.
+    /// Maps an answer for the mapped scene back to the original scene.
     fn back(&self, answer: Answer) -> Answer {
         match answer {
             Answer::Nearest(hit) if hit.is_hit() => Answer::Nearest(Hit {
@@ -133,7 +133,7 @@ fn moved(trial: &Trial<'_>) -> Outcome {
     compare(trial, maps)
 }
 
-/// Holds the hits of mapped scenes against those of the scene itself.
+/// Compares the hits in mapped scenes with those in the original scene.
 fn compare(trial: &Trial<'_>, maps: impl Iterator<Item = (String, Map)>) -> Outcome {
     let scene = base(trial);
     let few = if trial.quick { 2 } else { 10 };
@@ -208,7 +208,7 @@ fn mixed(trial: &Trial<'_>) -> Outcome {
     let scene = scene_of(objects);
     let count = trial.rays(&scene);
     let mut rays = aims(&scene, count);
-    // From near the small ones at the small and at the large ones.
+    // Rays from near the small objects, at the small objects and at the large ones.
     rays.extend(aims(&small, count));
     let origins = aims(&small, count);
     for (i, ray) in aims(&scene, count).iter().enumerate() {

@@ -1,4 +1,4 @@
-//! One case by one method with one kernel, and what cases have in common.
+//! One run of a case with one method and one kernel, and the checks that cases share.
 
 use crate::geometry::Ray;
 use crate::measure::judge::{Answer, Standing, Tolerance, Verdict, examine, scale_of, settle};
@@ -11,15 +11,15 @@ use crate::structure::{BuildError, BuildSettings, MaxDepth, Method, Tree, build,
 use crate::trace::{Batch, RayKind, RayTracer, ScalarKernel, objects_fit_f32};
 use serde::Serialize;
 
-/// What came of a case.
+/// The result of a case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "outcome")]
 pub enum Outcome {
-    /// All is right; so many rays were asked about. 0 where the case asks about none.
+    /// Everything is correct. `rays` is the number of rays checked; 0 if the case uses none.
     Pass { rays: u64 },
     /// Something is wrong.
     Fail { reason: String },
-    /// The numbers of this precision cannot hold what the case is about.
+    /// This precision cannot represent the objects or rays of the case.
     NotRepresentable { reason: String },
 }
 
@@ -30,7 +30,7 @@ impl Outcome {
         }
     }
 
-    /// Passes without a ray if `right`, else fails with the reason.
+    /// Returns a pass without rays if `right`, otherwise a failure with the reason.
     pub fn check(right: bool, reason: impl FnOnce() -> String) -> Self {
         if right {
             Outcome::Pass { rays: 0 }
@@ -39,7 +39,7 @@ impl Outcome {
         }
     }
 
-    /// The first that did not pass, or all rays together.
+    /// Returns the first outcome that is not a pass, or a pass with the sum of all rays.
     pub fn all(outcomes: impl IntoIterator<Item = Outcome>) -> Outcome {
         let mut sum = 0;
         for outcome in outcomes {
@@ -51,7 +51,7 @@ impl Outcome {
         Outcome::Pass { rays: sum }
     }
 
-    /// The same, with what was tried before the reason.
+    /// Prefixes the reason of an outcome with what was tested.
     pub fn of(self, what: &str) -> Outcome {
         match self {
             Outcome::Fail { reason } => Outcome::fail(format!("{what}: {reason}")),
@@ -63,14 +63,14 @@ impl Outcome {
     }
 }
 
-/// What answers questions about rays.
+/// A kernel that answers questions about rays.
 pub struct Kernel {
     pub precision: Precision,
-    /// The answers for rays of one kind.
+    /// Returns the answers for rays of one kind.
     pub ask: fn(&Scene, &Tree, RayKind, &[Ray], &Progress) -> Vec<Answer>,
 }
 
-/// All kernels, one a precision.
+/// All kernels, one per precision.
 pub static KERNELS: &[Kernel] = &[
     Kernel {
         precision: Precision::F64,
@@ -86,7 +86,7 @@ pub static KERNELS: &[Kernel] = &[
     },
 ];
 
-/// The kernel that pictures are traced with.
+/// Answers with the kernel that renders pictures.
 fn timed(
     precision: Precision,
     scene: &Scene,
@@ -112,32 +112,33 @@ fn timed(
     }
 }
 
-/// One case by one method with one kernel.
+/// One run of a case with one method and one kernel.
 #[derive(Clone, Copy)]
 pub struct Trial<'a> {
-    /// The user's own scene; `None` for the built-in ones.
+    /// The user's own scene; `None` for the built-in scenes.
     pub scene: Option<&'a Scene>,
     pub method: Method,
     pub kernel: &'a Kernel,
-    /// Few rays and small pictures.
+    /// Whether to use few rays and small pictures.
     pub quick: bool,
     pub progress: &'a Progress,
 }
 
 impl Trial<'_> {
-    /// How many rays to try on a scene: fewer where testing every object takes long.
+    /// Returns how many rays to trace in a scene. Large scenes get fewer rays because testing every
+    /// object is slow.
     pub fn rays(&self, scene: &Scene) -> usize {
         let most = if self.quick { 100 } else { 4000 };
         let affordable = 100_000_000 / scene.objects().len().max(1);
         affordable.clamp(50, most)
     }
 
-    /// The method's default settings.
+    /// Returns the method's default settings.
     pub fn settings(&self) -> BuildSettings {
         BuildSettings::for_method(self.method)
     }
 
-    /// Builds a tree and sees whether it is valid.
+    /// Builds a tree and validates it.
     pub fn tree(&self, scene: &Scene, settings: &BuildSettings) -> Result<Tree, Outcome> {
         let tree = build(scene, settings, self.progress)
             .map_err(|error| Outcome::fail(error.to_string()))?;
@@ -145,17 +146,17 @@ impl Trial<'_> {
         Ok(tree)
     }
 
-    /// What a tree says of rays.
+    /// Returns a tree's answers for rays of one kind.
     pub fn ask(&self, scene: &Scene, tree: &Tree, kind: RayKind, rays: &[Ray]) -> Vec<Answer> {
         (self.kernel.ask)(scene, tree, kind, rays, self.progress)
     }
 
-    /// How far off the numbers of a ray in a scene may be.
+    /// Returns the tolerance for the coordinates of a ray in a scene.
     fn tolerance(&self, scene: &Scene, ray: &Ray) -> Tolerance {
         Tolerance::of(self.kernel.precision, scale_of(scene, ray))
     }
 
-    /// Whether the method's tree is right about rays; see [`super`].
+    /// Checks the method's tree with rays, as [`super`] defines correct.
     pub fn check(&self, scene: &Scene, settings: &BuildSettings, rays: &[Ray]) -> Outcome {
         match self.tree(scene, settings) {
             Ok(tree) => self.check_tree(scene, &tree, rays),
@@ -163,8 +164,9 @@ impl Trial<'_> {
         }
     }
 
-    /// The same for a scene that may take too much memory: where the tree would pass 256 MiB, the
-    /// error must say so, and a tree of at most 8 levels, or a grid of few voxels, be right.
+    /// Does the same for a scene whose tree may need too much memory. Above 256 MiB, the build must
+    /// fail with a memory error. Then a tree of at most 8 levels, or a grid of few voxels, must be
+    /// correct.
     pub fn check_bounded(&self, scene: &Scene, rays: &[Ray]) -> Outcome {
         let settings = BuildSettings {
             memory_limit: 256 << 20,
@@ -191,7 +193,7 @@ impl Trial<'_> {
         }
     }
 
-    /// The same for a tree that is there.
+    /// Does the same for an existing tree.
     pub fn check_tree(&self, scene: &Scene, tree: &Tree, rays: &[Ray]) -> Outcome {
         if self.kernel.precision == Precision::F32
             && let Err(reason) = objects_fit_f32(scene)
@@ -204,7 +206,7 @@ impl Trial<'_> {
             Ok(tree) => tree,
             Err(error) => return Outcome::fail(error.to_string()),
         };
-        // Shadow rays end: before, on or beyond what they meet.
+        // Shadow rays end before, at, or beyond the nearest hit.
         let nearest = self.ask(scene, &everything, RayKind::Primary, rays);
         let ends = [0.5, 1.0, 2.0];
         let shadows: Vec<Ray> = rays
@@ -223,14 +225,20 @@ impl Trial<'_> {
             [(RayKind::Primary, rays), (RayKind::Shadow, &shadows)].map(|(kind, rays)| {
                 let expected = self.ask(scene, &everything, kind, rays);
                 let found = self.ask(scene, tree, kind, rays);
-                self.hold(scene, rays, &expected, &found)
+                self.compare(scene, rays, &expected, &found)
             }),
         )
     }
 
-    /// Holds answers against each other, and some of them against exact arithmetic.
-    fn hold(&self, scene: &Scene, rays: &[Ray], expected: &[Answer], found: &[Answer]) -> Outcome {
-        // Fractions are slow: fewer rays where there are many objects.
+    /// Compares answers with those of testing every object, and some of them with exact arithmetic.
+    fn compare(
+        &self,
+        scene: &Scene,
+        rays: &[Ray],
+        expected: &[Answer],
+        found: &[Answer],
+    ) -> Outcome {
+        // Exact arithmetic is slow, so scenes with many objects check fewer rays.
         let examined = (500_000 / scene.objects().len().max(1)).clamp(20, 500);
         let every = rays.len().div_ceil(examined).max(1);
         for (i, ray) in rays.iter().enumerate() {
