@@ -1,13 +1,13 @@
-//! Whether two measurements may be compared, and what changes from one to the other.
+//! Whether two measurements are comparable, and what changes from one to the other.
 //!
-//! The paper's precondition (section 4): parameters of class S, and thus of class D, are equal, and
-//! so is the image. Everything else is the result.
+//! The paper's precondition (section 4) is that the parameters of class S, and thus of class D, are
+//! equal, and that the images are equal. Everything else is the result.
 
 use super::{Class, Measurement, Unit, parameters};
 use crate::setup::{Affects, Group, SETTINGS, Setting, Setup};
 use crate::trace::Picture;
 
-/// What keeps two measurements from being compared.
+/// A reason why two measurements are not comparable.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unequal {
     /// A parameter of class S or D, with both values.
@@ -16,7 +16,7 @@ pub enum Unequal {
         a: Option<f64>,
         b: Option<f64>,
     },
-    /// A setting that decides the picture, with both values as text.
+    /// A setting that affects the picture, with both values as text.
     Setting {
         name: &'static str,
         a: String,
@@ -24,29 +24,29 @@ pub enum Unequal {
     },
     /// The camera (`OP_CAMERA`).
     Camera,
-    /// So many pixels have another color; the first few by column and row.
+    /// Number of pixels with different colors, and the column and row of the first few.
     Pixels { count: usize, first: Vec<[u32; 2]> },
-    /// The pictures have another size.
+    /// The pictures have different sizes.
     Size,
 }
 
 /// Parameters of class S that not every structure has.
 const TREE_SETTINGS: [&str; 2] = ["D_MAX", "N_OILF"];
 
-/// Settings that are compared by parameters: `N_X`, `N_Y` and `W_CUT`.
+/// Settings that are compared as parameters: `N_X`, `N_Y` and `W_CUT`.
 const PARAMETERS_TOO: [&str; 2] = ["resolution", "min-contribution"];
 
-/// How many unequal pixels are named.
+/// The most unequal pixels that are listed.
 const PIXELS_NAMED: usize = 5;
 
-/// What keeps `a` and `b` from being compared; nothing if they may.
+/// Returns why `a` and `b` are not comparable; empty if they are.
 pub fn unequal(a: (&Measurement, &Picture), b: (&Measurement, &Picture)) -> Vec<Unequal> {
     let mut found: Vec<Unequal> = parameters()
         .iter()
         .filter(|p| matches!(p.class, Class::S | Class::D))
         .filter_map(|p| {
             let (a, b) = (p.value(a.0), p.value(b.0));
-            // Where one of the two has no use for a setting of the tree, nothing of it can differ.
+            // A setting of the tree that one of the structures does not have cannot differ.
             let applies = !TREE_SETTINGS.contains(&p.symbol) || a.is_some() && b.is_some();
             (applies && a != b).then_some(Unequal::Parameter {
                 symbol: p.symbol,
@@ -60,7 +60,7 @@ pub fn unequal(a: (&Measurement, &Picture), b: (&Measurement, &Picture)) -> Vec<
         render: run.render,
         ..Setup::default()
     });
-    // Settings with a symbol are among the parameters; the camera is compared as it was used.
+    // Settings with a symbol are compared as parameters. The camera is compared as it was used.
     let decides = |s: &Setting| {
         s.affects == Affects::Image
             && s.group != Group::Camera
@@ -91,7 +91,8 @@ pub fn unequal(a: (&Measurement, &Picture), b: (&Measurement, &Picture)) -> Vec<
     found
 }
 
-/// The pixels whose colors differ, counted row by row; none if the pictures have another size.
+/// Returns the pixels whose colors differ, as indices row by row. Empty if the pictures have
+/// different sizes.
 pub fn differing_pixels(a: &Picture, b: &Picture) -> Vec<u32> {
     if (a.width, a.height) != (b.width, b.height) {
         return Vec::new();
@@ -103,17 +104,17 @@ pub fn differing_pixels(a: &Picture, b: &Picture) -> Vec<u32> {
         .collect()
 }
 
-/// How a value relates to another of the same parameter.
+/// The change of a value relative to another value of the same parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
     /// The second as a share of the first.
     Ratio(f64),
-    /// For shares: the second less the first, in percentage points.
+    /// For shares: the second minus the first, in percentage points.
     Points(f64),
 }
 
-/// The second value relative to the first, as the paper's Tables 5 and 6 have it. `None` where
-/// either has no value or the first is zero.
+/// Returns the second value relative to the first, as in the paper's Tables 5 and 6. `None` if a
+/// value is missing or the first is zero.
 pub fn change(unit: Unit, first: Option<f64>, second: Option<f64>) -> Option<Change> {
     let (first, second) = (first?, second?);
     match unit {
@@ -124,7 +125,7 @@ pub fn change(unit: Unit, first: Option<f64>, second: Option<f64>) -> Option<Cha
 }
 
 impl Change {
-    /// The ratio, or the points, as a plain number.
+    /// Returns the ratio, or the percentage points, as a plain number.
     pub fn value(self) -> f64 {
         match self {
             Change::Ratio(value) | Change::Points(value) => value,

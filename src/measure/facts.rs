@@ -1,17 +1,17 @@
-//! Facts of a scene and of a tree that need no ray.
+//! Properties of a scene and of a tree that are known without tracing rays.
 
 use crate::primitive::Shape;
 use crate::scene::Scene;
 use crate::structure::{NodeKind, Tree};
 
-/// Facts of a scene (class S).
+/// Properties of a scene (class S).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SceneFacts {
     pub objects: u64,
     pub lights: u64,
-    /// Volume of the tight box around all objects.
+    /// Volume of the bounding box of all objects.
     pub volume: f64,
-    /// Sum of the volumes of the objects' boxes.
+    /// Sum of the volumes of the objects' bounding boxes.
     pub object_boxes_volume: f64,
 }
 
@@ -26,7 +26,7 @@ impl SceneFacts {
     }
 }
 
-/// Facts of a tree (class C).
+/// Properties of a tree (class C).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TreeFacts {
     pub depth_reached: u64,
@@ -34,7 +34,7 @@ pub struct TreeFacts {
     pub leaves: u64,
     pub empty_leaves: u64,
     pub references: u64,
-    /// Volume of the root cell, which is the scene's box and the root margin.
+    /// Volume of the root cell, which is the scene's bounding box plus the root margin.
     pub root_volume: f64,
     /// Sum of the volumes of the empty leaves.
     pub empty_volume: f64,

@@ -69,24 +69,24 @@ pub struct Measurement {
     pub render: RenderSettings,
     /// The camera that was used: the scene's own where `render` does not override it.
     pub camera: Camera,
-    /// The precision that rays are traced in, and why.
+    /// The precision of the ray tracer, and the reason for it.
     pub precision: ChosenPrecision,
-    /// Bytes of the objects as intersection wants them in this precision.
+    /// Bytes of the objects in the layout that intersection tests use in this precision.
     pub object_bytes: u64,
-    /// The greatest depth allowed, resolved.
+    /// The resolved maximum depth.
     pub depth_limit: u32,
     pub scene: SceneFacts,
     pub tree: TreeFacts,
     /// Construction of the tree.
     pub building: Times,
-    /// The timed pass.
+    /// The timed render.
     pub rendering: Option<TimedRender>,
-    /// The counted pass.
+    /// The counting render.
     pub counted: Option<CountedRender>,
 }
 
 impl Measurement {
-    /// Returns what is known once the tree is built.
+    /// Returns the measurement after the tree is built and before rendering.
     pub fn of_tree(
         scene: &Scene,
         tree: &Tree,
@@ -109,7 +109,8 @@ impl Measurement {
         }
     }
 
-    /// Returns the measurement of the same scene and tree with other render settings, before rendering.
+    /// Returns a measurement of the same scene and tree with other render settings, before
+    /// rendering.
     pub fn with_render(&self, scene: &Scene, render: &RenderSettings) -> Measurement {
         let precision = render.precision_for(scene);
         Measurement {
@@ -145,7 +146,7 @@ impl Measurement {
     }
 }
 
-/// A tree with everything measured of it, and the picture that was timed.
+/// A tree with its measurement, and the picture of the timed render.
 #[derive(Debug)]
 pub struct Measured {
     pub tree: Tree,
@@ -154,7 +155,7 @@ pub struct Measured {
     pub picture: Picture,
 }
 
-/// Builds a tree and measures it: first the timed render, then the counted one.
+/// Builds a tree and measures it: first a timed render, then a counting one.
 ///
 /// # Errors
 /// Settings out of range, a tree beyond the memory limit, no view, or cancellation.
@@ -167,10 +168,10 @@ pub fn measure(
     measure_with(scene, build_settings, render_settings, progress, |_| ())
 }
 
-/// As [`measure`], with the counts of each pixel.
+/// Measures like [`measure`], and also counts per pixel.
 ///
 /// # Errors
-/// As [`measure`].
+/// The same as those of [`measure`].
 pub fn measure_pixels(
     scene: &Scene,
     build_settings: &BuildSettings,

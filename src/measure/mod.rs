@@ -1,4 +1,5 @@
-//! The paper's method: every parameter of its Tables 1 to 3, the septet Δ and the triplet Λ.
+//! Everything that is measured: every parameter of the paper's Tables 1 to 3, the septet Δ and the
+//! triplet Λ, and the studies based on them.
 
 pub mod accuracy;
 mod comparison;

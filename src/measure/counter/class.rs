@@ -1,4 +1,4 @@
-//! How the paper classes parameters, and units.
+//! The paper's classes of parameters, and units.
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ pub enum Table {
     Static,
     /// Table 3: dynamic properties of the tree.
     Dynamic,
-    /// Not in the tables: an input of Λ, or one of our own.
+    /// Not in the tables: an input of Λ, or an addition of this program.
     Ours,
 }
 
@@ -34,7 +34,7 @@ pub enum Class {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Unit {
-    /// A number of things.
+    /// A count.
     Count,
     /// A mean or a ratio.
     Ratio,

@@ -16,10 +16,10 @@ pub struct Counter {
     pub unit: Unit,
     /// What it means, in a sentence, including our reading of the paper if that is not obvious.
     pub meaning: &'static str,
-    /// How it follows from other counters; empty if it is counted, measured or given.
+    /// Its formula in terms of other counters; empty if it is counted, measured or given.
     pub formula: &'static str,
     pub value: Value,
-    /// Whether it applies only if rays pass planes, as in all structures but grids.
+    /// Whether it applies only if rays cross split planes, as in all structures but grids.
     pub(super) needs_planes: bool,
     pub(super) parameter: Option<(Table, Class)>,
     pub(in crate::measure) heatmap: Option<HeatmapEntry>,
@@ -42,9 +42,9 @@ pub enum Quantity {
 pub enum Value {
     /// `None` before it is measured, and for a ratio whose denominator is 0.
     Measured(fn(&Measurement) -> Option<f64>),
-    /// What rays of these kinds did together.
+    /// The sum over rays of these kinds.
     Rays(RayFilter, Quantity),
-    /// It exists only for pixels.
+    /// Only pixels have a value.
     PixelTime,
 }
 

@@ -195,7 +195,7 @@ counters! {
         heatmap(6, "tests per pixel", 1.0),
         parts(&[(Primary, "N_PRIT"), (Shadow, "N_SRIT"), (Secondary, "N_SECRIT")]),
         per_kind(3, "tests", "tests"), of_single_rays(|m| m.tests);
-    // `T_TR` is measured over whole tiles, so that no parameter is the sum of these.
+    // `T_TR` is measured over whole tiles, so no parameter is the sum of these.
     "T_PIXEL", "time", Seconds,
         "Time of tracing and shading a pixel on one thread; the minimum of several runs.",
         PixelTime, heatmap(9, "µs per pixel", 0.1);

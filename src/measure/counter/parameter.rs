@@ -27,7 +27,7 @@ pub struct Parameter {
     pub unit: Unit,
     /// What it means, in a sentence.
     pub meaning: &'static str,
-    /// How it follows from other parameters; empty if it is counted, measured or given.
+    /// Its formula in terms of other parameters; empty if it is counted, measured or given.
     pub formula: &'static str,
     value: Value,
     needs_planes: bool,
@@ -53,7 +53,7 @@ impl Parameter {
     /// Returns its value. `None` before it is measured, for a ratio whose denominator is 0, and if it
     /// does not apply to the structure.
     pub fn value(&self, measurement: &Measurement) -> Option<f64> {
-        // Rays pass planes from the root down in all structures but grids.
+        // Rays cross split planes in all structures but grids.
         let is_grid = measurement.build.method.structure == Structure::Grid;
         if self.needs_planes && is_grid {
             return None;

@@ -19,7 +19,7 @@ pub struct RayFigure {
     statistic: Statistic,
 }
 
-/// What a figure tells of the rays of a kind.
+/// The statistic of a figure.
 #[derive(Clone, Copy)]
 enum Statistic {
     Of(Quantity),

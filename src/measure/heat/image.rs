@@ -5,7 +5,7 @@
 pub struct HeatImage {
     pub width: u32,
     pub height: u32,
-    /// Row by row; NaN where a pixel has no value. Rounded beyond 2²⁴ only.
+    /// Row by row; NaN if a pixel has no value. Values above 2²⁴ are rounded.
     pub values: Vec<f32>,
     /// The smallest difference that matters ([`Heatmap::grain`]).
     pub grain: f64,
@@ -18,7 +18,7 @@ pub struct HeatStatistics {
     pub highest: f64,
     /// Over the pixels that have a value.
     pub mean: f64,
-    /// How many pixels have a value; at least 1.
+    /// Number of pixels that have a value; at least 1.
     pub pixels: usize,
 }
 
@@ -38,7 +38,7 @@ impl HeatImage {
         present.map(|&value| f64::from(value))
     }
 
-    /// Returns `None` if no pixel has a value.
+    /// Returns the statistics of the values; `None` if no pixel has a value.
     pub fn statistics(&self) -> Option<HeatStatistics> {
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut sum, mut pixels) = (0.0, 0);
@@ -56,8 +56,8 @@ impl HeatImage {
         })
     }
 
-    /// Subtracts the values of `other`, pixel by pixel; no value where either has none. Returns `None`
-    /// for pictures of different sizes.
+    /// Subtracts the values of `other`, pixel by pixel. A pixel has no value if it is missing in
+    /// either. Returns `None` if the sizes differ.
     pub fn difference(&self, other: &HeatImage) -> Option<HeatImage> {
         if (self.width, self.height) != (other.width, other.height) {
             return None;

@@ -2,16 +2,16 @@
 
 use crate::trace::{CountedTile, PixelTallies, RayKind, Tally};
 
-/// The most pixels whose counts are kept, at about 100 bytes per pixel.
+/// The most pixels whose counts are kept. A pixel needs about 100 bytes.
 pub const PIXEL_COUNTS_LIMIT: u64 = 4_000_000;
 
-/// The counts of all pixels, row by row from the upper left: about 100 bytes per pixel.
+/// The counts of all pixels, row by row from the upper left. A pixel needs about 100 bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelCounts {
     pub width: u32,
     pub height: u32,
     pub tallies: Vec<PixelTallies>,
-    /// Objects that each pixel's primary ray meets, hidden ones included.
+    /// Number of objects that each pixel's primary ray intersects, including hidden ones.
     pub depth_complexity: Vec<u32>,
     /// Time of each pixel; `None` unless measured ([`crate::trace::pixel_times`]).
     pub seconds: Option<Vec<f32>>,
@@ -73,7 +73,7 @@ impl RayFilter {
         RayFilter::Refracted,
     ];
 
-    /// Returns its name in settings; followed by "rays", its name for people.
+    /// Returns the name in settings. Followed by "rays", it is the display name.
     pub const fn name(self) -> &'static str {
         match self {
             RayFilter::All => "all",
@@ -85,7 +85,7 @@ impl RayFilter {
         }
     }
 
-    /// The one with this name.
+    /// Returns the selection with this name.
     pub fn named(name: &str) -> Option<RayFilter> {
         RayFilter::ALL.into_iter().find(|f| f.name() == name)
     }

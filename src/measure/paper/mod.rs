@@ -16,9 +16,10 @@ use crate::trace::RenderSettings;
 /// How a computed figure relates to the printed one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// The computed figure, rounded to as many digits as are printed, is the printed one.
+    /// The computed figure, rounded to as many digits as are printed, equals the printed one.
     Equal,
-    /// For method 2 and 2/1: from method 1 to method 2 the figure moves the way it does in print.
+    /// For method 2 and 2/1: from method 1 to method 2, the figure changes in the same direction as
+    /// in print.
     SameDirection,
     Differs,
 }
@@ -27,12 +28,12 @@ pub enum Mark {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
     pub printed: &'static str,
-    /// In the unit of the printed figure: shares in percent. `None` if it is not measured yet or has no
-    /// value.
+    /// In the unit of the printed figure; shares are in percent. `None` if it is not measured yet
+    /// or has no value.
     pub computed: Option<f64>,
-    /// `None` without a computed figure.
+    /// `None` if there is no computed figure.
     pub mark: Option<Mark>,
-    /// A slip of the paper or a limit of the comparison, in a sentence or two.
+    /// An error in the paper or a limit of the comparison, in a sentence or two.
     pub note: Option<&'static str>,
 }
 
@@ -49,19 +50,19 @@ pub struct Reproduction {
     pub scene: &'static PaperScene,
     /// By method, 1 then 2.
     pub runs: [Option<Measurement>; 2],
-    /// What keeps the two from being compared: nothing, if all is well. `None` until both are
-    /// there.
+    /// The reasons why the two are not comparable; empty if they are. `None` until both are
+    /// measured.
     pub unequal: Option<Vec<Unequal>>,
     /// The notes of the scene.
     pub notes: Vec<String>,
 }
 
-/// Conditions of every scene; all others are the paper's.
+/// The conditions of every scene. All other conditions are the paper's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Conditions {
     /// Width and height in pixels; the paper's are 512.
     pub resolution: [u32; 2],
-    /// Number of threads; 0 for as many as the machine has cores.
+    /// Number of threads; 0 for one per core of the machine.
     pub threads: usize,
 }
 
@@ -74,7 +75,7 @@ impl Default for Conditions {
     }
 }
 
-/// Why an experiment could not be reproduced.
+/// Why an experiment cannot be reproduced.
 #[derive(Debug, thiserror::Error)]
 pub enum PaperError {
     #[error(transparent)]
@@ -99,7 +100,7 @@ pub fn scene(name: &str) -> Option<&'static PaperScene> {
 }
 
 impl PaperScene {
-    /// The printed figure of Table 4 as a number.
+    /// Returns a printed figure of Table 4 as a number.
     fn characteristic(&self, symbol: &str) -> f64 {
         let place = CHARACTERISTICS.iter().position(|s| *s == symbol);
         number(self.characteristics[place.expect("Table 4 lists it")])
@@ -107,9 +108,10 @@ impl PaperScene {
 }
 
 /// Measures a scene as the paper did, with both methods: cylinders as ten polygons, samples from
-/// the first to the last across the angle of view, D_AREC of Table 4, D_MAX 20, N_OILF 1.
-/// Calls `on_measured` with the results so far after each method; `progress` restarts with each stage
-/// of each method.
+/// the first to the last across the angle of view, the D_AREC of Table 4, D_MAX 20, N_OILF 1.
+///
+/// Calls `on_measured` with the results so far after each method. `progress` restarts with each
+/// stage of each method.
 ///
 /// # Errors
 /// No view or no threads under these conditions, too little memory, or cancellation.
@@ -158,7 +160,7 @@ pub fn reproduce(
 }
 
 impl Reproduction {
-    /// The scene's column of Table 4.
+    /// Returns the scene's column of Table 4.
     pub fn characteristics(&self) -> [Row<1>; 7] {
         std::array::from_fn(|i| {
             let (symbol, printed) = (CHARACTERISTICS[i], self.scene.characteristics[i]);
@@ -176,7 +178,7 @@ impl Reproduction {
         })
     }
 
-    /// The scene's columns of Table 5 or 6: method 1, method 2, 2/1.
+    /// Returns the scene's columns of Table 5 or 6: method 1, method 2, 2/1.
     pub fn properties(&self) -> [Row<3>; 10] {
         std::array::from_fn(|i| {
             let (symbol, printed) = (PROPERTIES[i], self.scene.properties[i]);
@@ -229,7 +231,7 @@ fn equal_or_not(printed: &str, computed: f64) -> Mark {
     }
 }
 
-/// Digits behind the decimal point of a printed figure.
+/// Returns the number of decimals of a printed figure.
 pub fn decimals(printed: &str) -> usize {
     printed
         .split_once('.')
@@ -261,9 +263,9 @@ mod tests {
         assert_eq!(equal_or_not("-2.7", 2.7), Mark::Differs);
     }
 
-    /// The paper's identity N_AOIFL = N_O (1 + N_ADL) / (N_LS (1 − R_ETNLS)) holds in all of its
-    /// columns: a figure copied wrongly would break it. So would a ratio against its two columns,
-    /// within their rounding; where the paper's own do, a note says so.
+    /// Checks the paper's identity N_AOIFL = N_O (1 + N_ADL) / (N_LS (1 − R_ETNLS)) in all columns,
+    /// which a wrongly copied figure would break. Also checks each ratio against its two columns,
+    /// within their rounding. Where the paper's own figures disagree, a note says so.
     #[test]
     fn printed_figures_fit_together() {
         for scene in &SCENES {

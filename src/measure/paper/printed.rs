@@ -1,4 +1,4 @@
-//! The figures that the paper prints, as it prints them.
+//! The figures exactly as the paper prints them.
 //!
 //! V. Havran and J. Žára, *Evaluation of BSP properties for ray-tracing*, Tables 4, 5 and 6.
 
@@ -7,24 +7,24 @@
 pub struct PaperScene {
     /// The generator's name.
     pub name: &'static str,
-    /// What it is made of, in the paper's words.
+    /// The paper's description of the scene.
     pub geometry: &'static str,
     /// The table with its trees: 5 for the standard scenes, 6 for the specific ones.
     pub table: u8,
-    /// Whether the scene itself was published; ours is a reconstruction if not.
+    /// Whether the paper published the scene itself. Otherwise ours is a reconstruction.
     pub published: bool,
     /// Its column of Table 4, in the order of [`CHARACTERISTICS`]; shares in percent.
     pub characteristics: [&'static str; 7],
-    /// Its columns of Table 5 or 6, in the order of [`PROPERTIES`]: method 1, method 2, and 2/1 in
-    /// percent, or in points where the property itself is a share.
+    /// Its columns of Table 5 or 6, in the order of [`PROPERTIES`]: method 1, method 2, and 2/1.
+    /// The last is in percent, or in percentage points if the property itself is a share.
     pub properties: [[&'static str; 3]; 10],
 }
 
-/// What Table 4 lists, by symbol.
+/// The symbols in Table 4.
 pub const CHARACTERISTICS: [&str; 7] =
     ["N_O", "N_L", "S_COV", "R_BBSC", "D_AREC", "D_MAX", "N_OILF"];
 
-/// What Tables 5 and 6 list, by symbol: Δ, then Λ.
+/// The symbols in Tables 5 and 6: Δ, then Λ.
 pub const PROPERTIES: [&str; 10] = [
     "N_LS",
     "R_ETNLS",
@@ -156,7 +156,7 @@ pub static SCENES: [PaperScene; 6] = [
     },
 ];
 
-/// What is to be known of some cells.
+/// A note about some cells.
 struct Slip {
     /// The scene; empty for all.
     scene: &'static str,
@@ -227,7 +227,7 @@ static SLIPS: [Slip; 9] = [
     },
 ];
 
-/// What is to be known of a cell: a slip of the paper, or a limit of the comparison.
+/// Returns the note about a cell: an error in the paper, or a limit of the comparison.
 pub(super) fn note(
     scene: &PaperScene,
     symbol: &str,

@@ -1,6 +1,6 @@
-//! The parameters over a grid of settings: every combination of build methods and of the values of
-//! any other settings is a point, measured once and written as one row. A sweep can be broken off and goes
-//! on where it was; points can be spread over machines.
+//! A sweep measures the parameters over a grid of settings. Every combination of build methods and
+//! of the values of any other settings is a point. Each point is measured once and written as one
+//! row. An interrupted sweep can be resumed, and points can be distributed over machines.
 
 mod plan;
 mod rows;
@@ -12,7 +12,7 @@ use super::{Measurement, Parameter, parameters};
 use crate::setup::{Group, Setting, Setup};
 use crate::structure::MaxDepth;
 
-/// A part of a sweep's points: those whose number leaves `index` when divided by `count`.
+/// A part of a sweep: the points whose number, divided by `count`, leaves the remainder `index`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     /// From 0, below `count`.
@@ -33,7 +33,7 @@ impl Shard {
 impl std::str::FromStr for Shard {
     type Err = String;
 
-    /// `I/N`, with I from 1 to N.
+    /// Parses `I/N`, with I from 1 to N.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         text.split_once('/')
             .and_then(|(i, n)| Some((i.parse::<usize>().ok()?, n.parse::<usize>().ok()?)))
@@ -46,11 +46,11 @@ impl std::str::FromStr for Shard {
     }
 }
 
-/// How many of the rows that are there stand at the beginning of a sweep's part: its first points,
-/// in order, under the same conditions.
+/// Returns how many points of a sweep's part are already measured. The existing rows must be the
+/// part's first points, in order, under the same conditions.
 ///
 /// # Errors
-/// The first row that does not belong there.
+/// The first row that does not match.
 pub fn done(rows: &[Row], keys: &[(usize, Key)], points: usize) -> Result<usize, RowError> {
     for (i, row) in rows.iter().enumerate() {
         let belongs = keys
@@ -65,7 +65,7 @@ pub fn done(rows: &[Row], keys: &[(usize, Key)], points: usize) -> Result<usize,
 }
 
 impl Row {
-    /// The row of a measured point.
+    /// Returns the row of a measured point.
     pub fn of(point: usize, points: usize, key: Key, measurement: &Measurement) -> Row {
         Row {
             point,
@@ -75,7 +75,7 @@ impl Row {
         }
     }
 
-    /// The value of a parameter.
+    /// Returns the value of a parameter.
     pub fn value(&self, parameter: &Parameter) -> Option<f64> {
         let place = parameters()
             .iter()
@@ -85,7 +85,7 @@ impl Row {
 }
 
 impl Key {
-    /// What identifies the point with this setup in a sweep whose axes have these names.
+    /// Returns the key of the point with this setup, in a sweep over these axes.
     pub fn of(setup: &Setup, axes: &[&str]) -> Key {
         let titles = ["method", "d-max", "n-oilf", "cylinders"];
         let pairs = |is_part: fn(&Setting) -> bool| {
@@ -109,13 +109,13 @@ impl Key {
         }
     }
 
-    /// The file or the generator, and how cylinders are represented.
+    /// Returns the file or the generator, and how cylinders are represented.
     fn scene_parts(&self) -> (&str, &str) {
         let parts = self.scene.rsplit_once(", cylinders ");
         parts.unwrap_or((&self.scene, ""))
     }
 
-    /// All settings by name, each with its value as text.
+    /// Returns all settings by name, each with its value as text.
     fn pairs(&self) -> Vec<(&str, String)> {
         let mut pairs = vec![
             ("scene", self.scene_parts().0.to_owned()),
@@ -130,8 +130,8 @@ impl Key {
         pairs
     }
 
-    /// What else than the axes of a sweep differs, a phrase for each setting, such as `kernel: scalar
-    /// vs stream`.
+    /// Returns the settings that differ, other than the axes of the sweep. Each is a phrase such as
+    /// `kernel: scalar vs stream`.
     pub fn differences(&self, other: &Key) -> Vec<String> {
         let others = other.pairs();
         let mut differ = Vec::new();
@@ -148,8 +148,8 @@ impl Key {
         differ
     }
 
-    /// The values of the axes other than method, depth and leaf size, such as `precision f32`; empty
-    /// without any.
+    /// Returns the values of the axes other than method, depth and leaf size, such as `precision
+    /// f32`. Empty if there are no such axes.
     pub fn varied(&self) -> String {
         let pairs = self.pairs();
         let axes = self.axes.split(' ');
@@ -162,19 +162,19 @@ impl Key {
     }
 }
 
-/// Which depth and leaf size are best for a method, and how the automatic rule does beside that.
+/// The best depth and leaf size for a method, compared with the automatic depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer<'a> {
     /// The row with the least value.
     pub best: &'a Row,
-    /// The depth by the rule 1.2 · log₂ `N_O` + 2.
+    /// The automatic depth, by the rule 1.2 · log₂ `N_O` + 2.
     pub rule: u32,
-    /// The row with the least value among those of that depth; `None` where the sweep has none.
+    /// The row with the least value at that depth; `None` if the sweep has none.
     pub at_rule: Option<&'a Row>,
 }
 
-/// The best settings of every method, by the least value of a parameter; methods in the order of
-/// their first rows. Rows without a value are passed over.
+/// Returns the best settings of every method: those with the least value of a parameter. Methods
+/// are in the order of their first rows. Rows without a value are ignored.
 pub fn answers<'a>(rows: &'a [Row], parameter: &Parameter) -> Vec<Answer<'a>> {
     let mut methods: Vec<&str> = Vec::new();
     for row in rows {
@@ -204,7 +204,7 @@ pub fn answers<'a>(rows: &'a [Row], parameter: &Parameter) -> Vec<Answer<'a>> {
         .collect()
 }
 
-/// The automatic depth, 1.2 · log₂ `N_O` + 2, for a row's scene.
+/// Returns the automatic depth, 1.2 · log₂ `N_O` + 2, for a row's scene.
 pub fn rule_depth(row: &Row) -> Option<u32> {
     let objects = row.value(super::parameter("N_O"))?;
     Some(MaxDepth::Automatic.resolve(objects as usize))

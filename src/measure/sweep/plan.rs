@@ -1,4 +1,5 @@
-//! The points of a sweep: what is measured, in which order, and one of them measured.
+//! The points of a sweep: which setups it measures, in which order, and the measurement of one
+//! point.
 
 use super::{Key, Row};
 use crate::measure::{MeasureError, measure};
@@ -6,14 +7,14 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::setup::{Setting, Setup, Value, any_setting};
 
-/// One point: its setup and what identifies it.
+/// One point: its setup and its key.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     pub setup: Setup,
     pub key: Key,
 }
 
-/// A setting and the values that a sweep gives it.
+/// A setting and its values in a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     /// The setting's name.
@@ -24,7 +25,7 @@ pub struct Axis {
 /// The points of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// The combinations of the axes; the values of the last axis follow each other.
+    /// The combinations of the axes. The last axis varies fastest.
     pub points: Vec<Point>,
 }
 
@@ -32,7 +33,7 @@ impl Axis {
     /// Reads `NAME=VALUES`, such as `precision=f32,f64` or `d-max=8..24,auto`.
     ///
     /// # Errors
-    /// No setting of this name, or values that it cannot have.
+    /// There is no setting with this name, or it cannot have these values.
     pub fn parse(text: &str) -> Result<Axis, String> {
         let (name, values) = text
             .split_once('=')
@@ -40,10 +41,10 @@ impl Axis {
         Axis::of(name.trim(), values)
     }
 
-    /// The axis of a setting with these values.
+    /// Creates the axis of a setting with these values.
     ///
     /// # Errors
-    /// As [`Axis::parse`].
+    /// The same as those of [`Axis::parse`].
     pub fn of(name: &str, values: &str) -> Result<Axis, String> {
         let setting = any_setting(name)?;
         let values = setting.parse_list(values);
@@ -55,8 +56,8 @@ impl Axis {
 }
 
 impl Plan {
-    /// Every combination of these setups, one for each method, with the values of the axes. A
-    /// constant that a method does not have is no axis for that method.
+    /// Combines these setups, one per method, with all values of the axes. A constant that a method
+    /// does not have is ignored for that method.
     pub fn new(bases: &[Setup], axes: &[Axis]) -> Plan {
         let mut names = vec!["method"];
         names.extend(axes.iter().map(|axis| axis.name));
@@ -83,10 +84,10 @@ impl Plan {
         }
     }
 
-    /// Measures a point, by its number, of the scene that its setup asks for.
+    /// Measures a point of the sweep, given by its number, in the scene of its setup.
     ///
     /// # Errors
-    /// As [`measure`].
+    /// The same as those of [`measure`].
     ///
     /// # Panics
     /// If there is no such point.
@@ -107,7 +108,7 @@ impl Plan {
     }
 }
 
-/// A setup with each value of an axis.
+/// Returns a setup with each value of an axis.
 fn with_each(setup: &Setup, setting: &Setting, axis: &Axis) -> Vec<Setup> {
     let with = |&value: &Value| {
         let mut setup = setup.clone();

@@ -1,23 +1,24 @@
-//! Rows of a sweep as lines of text: CSV or JSON lines, one line a point, in the order of points.
+//! Rows of a sweep as text: CSV or JSON Lines, one line per point, in the order of points.
 
 use crate::measure::{Class, Unit, parameters};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
-/// What identifies a point beside its number. Times depend on the machine, keys do not.
+/// The settings that identify a point, independent of its number. Times depend on the machine; keys
+/// do not.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
     /// The names of the settings that the sweep varies, separated by spaces.
     pub axes: String,
-    /// The file or the generator, and how cylinders were taken.
+    /// The file or the generator, and how cylinders are represented.
     pub scene: String,
     pub method: String,
-    /// As it was asked for: a number or `auto`.
+    /// The requested depth: a number or `auto`.
     pub d_max: String,
     pub n_oilf: u32,
-    /// The structure's other settings, `name=value` each, separated by spaces.
+    /// The structure's other settings, each as `name=value`, separated by spaces.
     pub settings: String,
-    /// The settings of picture and camera, likewise.
+    /// The settings of picture and camera, in the same form.
     pub picture: String,
 }
 
@@ -26,21 +27,22 @@ pub struct Key {
 pub struct Row {
     /// Its number in the whole sweep, from 0.
     pub point: usize,
-    /// How many points the whole sweep has.
+    /// Number of points in the whole sweep.
     pub points: usize,
     pub key: Key,
-    /// The values of all [`parameters`] in their order: fractions for shares, seconds for times.
+    /// The values of all [`parameters`], in their order. Shares are fractions; times are in
+    /// seconds.
     pub values: Vec<Option<f64>>,
 }
 
-/// How rows are written.
+/// The text format of rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     Csv,
     JsonLines,
 }
 
-/// Why text does not hold the rows of a sweep.
+/// Why a text cannot be read as rows of a sweep.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RowError {
     #[error("line 1: not the titles of a sweep by this version of the program")]
@@ -55,7 +57,7 @@ pub enum RowError {
 }
 
 impl RowError {
-    /// A row, from 1, that differs like this from the one that belongs in its place.
+    /// Creates the error for a row (from 1) whose key has these differences from the expected one.
     pub(super) fn foreign(row: usize, differences: &[String]) -> RowError {
         let why = match differences {
             [] => "another grid or order of points".to_owned(),
@@ -65,7 +67,7 @@ impl RowError {
     }
 }
 
-/// Why rows do not make one sweep.
+/// Why rows cannot be merged into one sweep.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MergeError {
     #[error("there are no rows")]
@@ -81,7 +83,8 @@ const TITLES: [&str; 9] = [
 ];
 
 impl Form {
-    /// The form for a file, by its extension: `.csv`, or JSON lines for `.jsonl` and `.ndjson`.
+    /// Returns the format of a file by its extension: `.csv`, or JSON Lines for `.jsonl` and
+    /// `.ndjson`.
     pub fn for_path(path: &Path) -> Option<Form> {
         match path.extension()?.to_ascii_lowercase().to_str()? {
             "csv" => Some(Form::Csv),
@@ -96,7 +99,7 @@ fn titles() -> impl Iterator<Item = &'static str> {
     TITLES.into_iter().chain(symbols)
 }
 
-/// The line before the first row, with its end; empty for JSON lines.
+/// Returns the title line with its line break; empty for JSON Lines.
 pub fn header(form: Form) -> String {
     match form {
         Form::Csv => csv_line(titles().map(String::from)),
@@ -104,7 +107,7 @@ pub fn header(form: Form) -> String {
     }
 }
 
-/// A row as a line, with its end.
+/// Returns a row as a line with its line break.
 pub fn line(row: &Row, form: Form) -> String {
     let cells = cells(row);
     match form {
@@ -158,12 +161,12 @@ fn csv_line(cells: impl Iterator<Item = String>) -> String {
     String::from_utf8(bytes).expect("what was written is UTF-8")
 }
 
-/// The rows of a file's text, and the length in bytes of what is complete of it: the last line is
-/// left out if it has no end, because its writer was stopped in the midst of it. Text without a
-/// complete line has no rows.
+/// Reads the rows of a file, and returns the length in bytes of the complete lines. A last line
+/// without a line break is ignored, because its writer was interrupted. Text without a complete
+/// line has no rows.
 ///
 /// # Errors
-/// The first line that is not one of a sweep.
+/// The first line that is not a row of a sweep.
 pub fn read_rows(text: &str, form: Form) -> Result<(Vec<Row>, usize), RowError> {
     let complete = text.rfind('\n').map_or(0, |end| end + 1);
     let text = &text[..complete];
@@ -219,7 +222,7 @@ fn read_json_lines(text: &str) -> Result<Vec<Row>, RowError> {
     Ok(rows)
 }
 
-/// A row from its cells by place; `None` if one is missing or wrong.
+/// Builds a row from cells by index; `None` if one is missing or invalid.
 fn row(
     cell: impl Fn(usize) -> Option<String>,
     number: impl Fn(usize) -> Option<Option<f64>>,
@@ -242,11 +245,12 @@ fn row(
     })
 }
 
-/// The rows of a sweep's parts as one, in the order of points, and the points that are missing. Of
-/// a point that is there twice the first is kept, with its times; its counts must be equal.
+/// Merges the rows of a sweep's parts in the order of points. Also returns the points that are
+/// missing. If a point occurs twice, the first row is kept, with its times; the counts of both must
+/// be equal.
 ///
 /// # Errors
-/// No rows, rows of different sweeps, or a point with different counts.
+/// There are no rows, rows belong to different sweeps, or a point has different counts.
 pub fn merge(mut rows: Vec<Row>) -> Result<(Vec<Row>, Vec<usize>), MergeError> {
     let first = rows.first().ok_or(MergeError::Empty)?;
     let points = first.points;
@@ -274,7 +278,7 @@ pub fn merge(mut rows: Vec<Row>) -> Result<(Vec<Row>, Vec<usize>), MergeError> {
     Ok((rows, missing))
 }
 
-/// Whether two rows are of one point and agree in all that no machine changes.
+/// Returns whether two rows have the same key and agree in all values except times.
 fn same_but_times(a: &Row, b: &Row) -> bool {
     a.key == b.key
         && parameters()
