@@ -1,22 +1,22 @@
-//! What leaves can be colored by. A coloring is one entry of [`COLORINGS`].
+//! Colorings of leaves by their properties. A coloring is one entry of [`COLORINGS`].
 
 use crate::structure::{CellOfNode, NodeKind, Tree};
 use crate::trace::Visits;
 
-/// A leaf as colorings, filters and histograms see it.
+/// A leaf in the form that colorings, filters and histograms use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leaf {
     pub depth: u32,
-    /// Number of objects that it refers to.
+    /// Number of objects in the leaf.
     pub objects: u32,
-    /// Volume of its cell, in cubed units of length.
+    /// Volume of the cell, in cubed scene units.
     pub volume: f64,
-    /// Rays of the picture that visited it; `None` unless counted.
+    /// Number of rays of the picture that visited the leaf; `None` if not counted.
     pub visits: Option<u64>,
 }
 
 impl Leaf {
-    /// The leaf in a cell; `None` for the cell of an inner node.
+    /// Returns the leaf in a cell; `None` for the cell of an inner node.
     pub fn of(tree: &Tree, cell: &CellOfNode, visits: Option<&Visits>) -> Option<Leaf> {
         match tree.kind(cell.node) {
             NodeKind::Leaf { count, .. } => Some(Leaf {
@@ -30,16 +30,16 @@ impl Leaf {
     }
 }
 
-/// How values spread over the colors.
+/// How values map to colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Scale {
-    /// From 0.
+    /// Linear, from 0.
     Linear,
-    /// By log(1 + value): most leaves hold few objects, some very many.
+    /// Logarithmic, by log(1 + value), because most leaves hold few objects and some very many.
     Log,
-    /// By the logarithm, from the least value.
+    /// Logarithmic, from the least value.
     Powers,
-    /// Nothing between the two ends.
+    /// Two values: only the first and the last color.
     TwoValues([&'static str; 2]),
 }
 
@@ -47,16 +47,16 @@ enum Scale {
 pub struct Coloring {
     /// Name in settings.
     pub name: &'static str,
-    /// Name for people.
+    /// Display name.
     pub title: &'static str,
-    /// What the numbers of the legend count; empty where there are none.
+    /// Unit of the numbers in the legend; empty if there are none.
     pub unit: &'static str,
     value: fn(&Leaf) -> Option<f64>,
     scale: Scale,
     gradient: colorous::Gradient,
 }
 
-/// A place in a legend, 0 to 1, and what stands there.
+/// A label of the legend at a place from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
     pub place: f64,
@@ -107,19 +107,18 @@ pub static COLORINGS: &[Coloring] = &[
     },
 ];
 
-/// The coloring of this name.
+/// Returns the coloring with this name.
 pub fn coloring(name: &str) -> Option<&'static Coloring> {
     COLORINGS.iter().find(|c| c.name == name)
 }
 
 impl Coloring {
-    /// The value of a leaf, of which the legend tells the colors; `None` for visits that were not
-    /// counted.
+    /// Returns the value of a leaf that determines its color; `None` if visits were not counted.
     pub fn value(&self, leaf: &Leaf) -> Option<f64> {
         (self.value)(leaf)
     }
 
-    /// Whether visits must be counted for it.
+    /// Returns whether the coloring needs the visits of leaves to be counted.
     pub fn needs_visits(&self) -> bool {
         let unvisited = Leaf {
             depth: 0,
@@ -130,7 +129,8 @@ impl Coloring {
         self.value(&unvisited).is_none()
     }
 
-    /// The least and the greatest value of the legend, from all values; [0, 0] without any.
+    /// Returns the least and the greatest value of the legend for these values; [0, 0] without
+    /// values.
     pub fn range(&self, values: impl Iterator<Item = f64>) -> [f64; 2] {
         let from = match self.scale {
             Scale::Powers => f64::INFINITY,
@@ -142,19 +142,19 @@ impl Coloring {
         [lo.min(hi), hi]
     }
 
-    /// sRGB color of a value in this range.
+    /// Returns the sRGB color of a value in this range.
     pub fn color(&self, value: f64, range: [f64; 2]) -> [u8; 3] {
         self.color_at(self.place(value, range))
     }
 
-    /// sRGB color at a place of the legend, 0 to 1.
+    /// Returns the sRGB color at a place of the legend, 0 to 1.
     pub fn color_at(&self, place: f64) -> [u8; 3] {
-        // The darkest fifth could not be told from the dark ground.
+        // Skip the darkest fifth, which cannot be distinguished from the dark background.
         let color = self.gradient.eval_continuous(0.2 + 0.8 * place);
         [color.r, color.g, color.b]
     }
 
-    /// Whether colors run from one end of the legend to the other.
+    /// Returns whether the legend is a continuous gradient.
     pub fn is_continuous(&self) -> bool {
         !matches!(self.scale, Scale::TwoValues(_))
     }
@@ -166,7 +166,7 @@ impl Coloring {
             Scale::Powers => (value.ln() - lowest.ln()) / (highest.ln() - lowest.ln()),
             Scale::TwoValues(_) => value,
         };
-        // Where all values are equal, all colors are the lowest.
+        // NaN if all values are equal. Then every leaf has the lowest color.
         if place.is_nan() {
             0.0
         } else {
@@ -174,7 +174,7 @@ impl Coloring {
         }
     }
 
-    /// The numbers of the legend from the lowest to the highest place.
+    /// Returns the labels of the legend, from the lowest to the highest place.
     pub fn marks(&self, range: [f64; 2]) -> Vec<Mark> {
         let [lowest, highest] = range;
         let mark = |value: f64| Mark {
@@ -206,7 +206,7 @@ impl Coloring {
             }
             Scale::Log => {
                 let mut marks = vec![mark(0.0)];
-                // So few that their numbers have room.
+                // Few enough that their labels do not overlap.
                 let factor = if highest > 300.0 {
                     libm::exp10((highest.log10() / 4.0).ceil())
                 } else {

@@ -1,20 +1,21 @@
-//! Colors for numbers, all readable by color-blind people. A map is one entry of [`COLORMAPS`].
+//! Color maps, all suitable for color-blind readers. A map is one entry of [`COLORMAPS`].
 
-/// A way from 0 to 1 through colors.
+/// A gradient of colors over the range 0 to 1.
 pub struct Colormap {
     /// Name in settings.
     pub name: &'static str,
-    /// One phrase for people.
+    /// A short description for display.
     pub about: &'static str,
-    /// Two colors that part at a light middle, for differences; the others get lighter from end
-    /// to end.
+    /// Whether the map is diverging: two colors with a light middle, for differences. In the other
+    /// maps, lightness increases from one end to the other.
     pub diverging: bool,
     gradient: colorous::Gradient,
-    /// Whether the gradient is run from its end, so that the greater is the warmer.
+    /// Whether the gradient is reversed, so that larger values are warmer.
     reversed: bool,
 }
 
-/// All color maps: the first is the default, the first diverging one that for differences.
+/// All color maps. The first is the default. The first diverging one is the default for
+/// differences.
 pub static COLORMAPS: &[Colormap] = &[
     Colormap {
         name: "viridis",
@@ -67,13 +68,13 @@ pub static COLORMAPS: &[Colormap] = &[
     },
 ];
 
-/// The color map of this name.
+/// Returns the color map with this name.
 pub fn colormap(name: &str) -> Option<&'static Colormap> {
     COLORMAPS.iter().find(|map| map.name == name)
 }
 
 impl Colormap {
-    /// sRGB color at a place, 0 to 1; beyond, that of the nearer end.
+    /// Returns the sRGB color at a place from 0 to 1. Places outside are clamped.
     pub fn color(&self, place: f64) -> [u8; 3] {
         let place = place.clamp(0.0, 1.0);
         let place = if self.reversed { 1.0 - place } else { place };
@@ -81,7 +82,7 @@ impl Colormap {
         [color.r, color.g, color.b]
     }
 
-    /// What has no value: a color that the map does not have.
+    /// Returns the color for missing values, which is not in the map.
     pub const fn no_value(&self) -> [u8; 3] {
         if self.diverging { [128; 3] } else { [255; 3] }
     }

@@ -1,23 +1,23 @@
-//! The scale of a heatmap: places, colors, ticks and a histogram of its values.
+//! The color scale of a heatmap: places, colors, ticks and a histogram of the values.
 
 use super::Colormap;
 use crate::measure::heat::HeatImage;
 use crate::present::number::{grouped, significant};
 
-/// How values spread over the colors.
+/// How values map to places on the scale.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
     #[default]
     Linear,
-    /// By the logarithm of the value's size, with its sign; linear below the heatmap's grain, so
-    /// that zero and differences have a place too.
+    /// Logarithm of the absolute value, with the value's sign. It is linear below the heatmap's
+    /// grain, so that zero and negative differences have places, too.
     Logarithmic,
 }
 
 impl Scale {
     pub const ALL: [Scale; 2] = [Scale::Linear, Scale::Logarithmic];
 
-    /// Name in settings.
+    /// Returns the name in settings.
     pub const fn name(self) -> &'static str {
         match self {
             Scale::Linear => "linear",
@@ -25,45 +25,46 @@ impl Scale {
         }
     }
 
-    /// The one with this name.
+    /// Returns the scale with this name.
     pub fn named(name: &str) -> Option<Scale> {
         Scale::ALL.into_iter().find(|s| s.name() == name)
     }
 }
 
-/// Which values the colors span.
+/// The range of values that the colors span.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Range {
-    /// From the least value to the greatest; with a diverging map, as far below zero as above.
+    /// From the least value to the greatest. With a diverging map, symmetric around zero.
     #[default]
     Automatic,
-    /// The same for every picture: colors can be compared. Values beyond get the ends' colors.
+    /// A fixed range, so that colors of several pictures are comparable. Values outside have the
+    /// color of the nearer end.
     Fixed { lo: f64, hi: f64 },
 }
 
-/// A number of the legend.
+/// A labeled tick of the legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
     pub value: f64,
-    /// From 0, the lower end, to 1.
+    /// Place from 0 (lower end) to 1.
     pub place: f64,
     pub text: String,
 }
 
-/// Values and their places on a color bar.
+/// The mapping of values to places on a color bar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeatScale {
     pub scale: Scale,
     /// The value at place 0.
     pub lo: f64,
-    /// The value at place 1; `lo` where all values are the same.
+    /// The value at place 1; equal to `lo` if all values are the same.
     pub hi: f64,
     grain: f64,
 }
 
 impl HeatScale {
-    /// The scale for a picture. `None` where the range is automatic and no pixel has a value, and
-    /// where a fixed range is not ascending and finite.
+    /// Creates the scale for a picture. Returns `None` if the range is automatic and no pixel has a
+    /// value, or if a fixed range is not ascending and finite.
     pub fn new(image: &HeatImage, scale: Scale, range: Range, colors: &Colormap) -> Option<Self> {
         let (lo, hi) = match range {
             Range::Fixed { lo, hi } => {
@@ -87,8 +88,8 @@ impl HeatScale {
         })
     }
 
-    /// Where a value lies, 0 to 1; beyond the range at the nearer end. Where all values are the
-    /// same, in the middle. `None` for NaN.
+    /// Returns the place of a value, 0 to 1. Values outside the range are clamped. If all values
+    /// are the same, returns the middle. Returns `None` for NaN.
     pub fn place(&self, value: f64) -> Option<f64> {
         if value.is_nan() {
             return None;
@@ -109,8 +110,9 @@ impl HeatScale {
         }
     }
 
-    /// At most `most` (3 or more) round numbers (1, 2 or 5 times a power of ten, or steps of that) within the
-    /// range, ascending; where all values are the same, that one.
+    /// Returns at most `most` (3 or more) ticks at round numbers within the range, in ascending
+    /// order. Round numbers are 1, 2 or 5 times a power of ten, or multiples of such a step. If all
+    /// values are the same, returns one tick.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if self.lo == self.hi {
             return vec![self.tick(self.lo, significant(self.lo))];
@@ -124,7 +126,7 @@ impl HeatScale {
             Scale::Linear => linear(),
             Scale::Logarithmic => {
                 let powers = self.powers(most);
-                // A range within a decade or so has no powers of ten worth the name.
+                // A range of about one decade contains too few powers of ten.
                 if powers.len() >= 3 { powers } else { linear() }
             }
         }
@@ -135,13 +137,14 @@ impl HeatScale {
         Tick { value, place, text }
     }
 
-    /// Multiples of a round step, with the step.
+    /// Returns a round step, and the multiples of it within the range.
     fn round_values(&self, most: usize) -> (f64, impl Iterator<Item = f64>) {
         let span = self.hi - self.lo;
         let least = span / most.max(2) as f64;
         let power = 10f64.powf(least.log10().floor());
         let steps = [1.0, 2.0, 5.0, 10.0].map(|k| k * power);
-        // Not finer than what matters, unless that is coarser than the whole range.
+        // The step is at least the smallest relevant difference, unless that exceeds the whole
+        // range.
         let step = steps
             .into_iter()
             .find(|&step| step * (most.max(2) - 1) as f64 >= span)
@@ -153,14 +156,14 @@ impl HeatScale {
         };
         let (first, last) = ((self.lo / step).ceil(), (self.hi / step).floor());
         let count = (last - first) as usize + 1;
-        // Adding zero makes −0 a 0.
+        // Adding zero turns −0 into 0.
         (
             step,
             (0..count).map(move |i| (first + i as f64) * step + 0.0),
         )
     }
 
-    /// Zero and the powers of ten with their 2- and 5-folds, as many of them as fit.
+    /// Returns zero and the powers of ten, with 2 and 5 times each if they fit.
     fn powers(&self, most: usize) -> Vec<Tick> {
         let top = self.lo.abs().max(self.hi.abs());
         let exponents = self.grain.log10().ceil() as i32..=top.log10().floor() as i32;
@@ -169,7 +172,7 @@ impl HeatScale {
             .chain((1..=exponents.clone().count().max(1)).map(every));
         let mut ticks = Vec::new();
         for (folds, step) in choices {
-            // From the top: what is left out lies close to zero, where ticks crowd.
+            // Start at the largest. Ticks are dropped near zero, where they are crowded.
             let sizes = exponents
                 .clone()
                 .rev()
@@ -190,8 +193,8 @@ impl HeatScale {
         ticks
     }
 
-    /// How many values fall into each of `bins` equal stretches of the color bar; those beyond the
-    /// range into the outer ones.
+    /// Counts the values in each of `bins` equal parts of the color bar. Values outside the range
+    /// count in the outermost parts.
     pub fn histogram(&self, image: &HeatImage, bins: usize) -> Vec<u64> {
         let mut counts = vec![0; bins];
         for place in image.present().filter_map(|value| self.place(value)) {
@@ -203,7 +206,7 @@ impl HeatScale {
         counts
     }
 
-    /// How many values lie below the range, and how many above.
+    /// Returns the number of values below and above the range.
     pub fn beyond(&self, image: &HeatImage) -> [usize; 2] {
         [
             image.present().filter(|&value| value < self.lo).count(),
@@ -212,7 +215,7 @@ impl HeatScale {
     }
 }
 
-/// A number as text, with as many decimals as a step of this size needs.
+/// Formats a number with as many decimals as a step of this size needs.
 fn with_step(value: f64, step: f64) -> String {
     let (sign, size) = (if value < 0.0 { "−" } else { "" }, value.abs());
     if value == 0.0 {
@@ -227,7 +230,7 @@ fn with_step(value: f64, step: f64) -> String {
     }
 }
 
-/// sRGB colors of all pixels, row by row. Without a scale no pixel has a value.
+/// Returns the sRGB colors of all pixels, row by row. Without a scale, no pixel has a value.
 pub fn heat_colors(
     image: &HeatImage,
     scale: Option<&HeatScale>,
@@ -238,7 +241,7 @@ pub fn heat_colors(
     image.values.iter().map(color).collect()
 }
 
-/// Mixes colors over others, as their sRGB numbers: 0 leaves those below, 1 hides them.
+/// Blends colors over others in sRGB: opacity 0 shows only `below`, 1 only `over`.
 pub fn blend(over: &[[u8; 3]], below: &[[u8; 3]], opacity: f64) -> Vec<[u8; 3]> {
     let mix = |(a, b): (u8, u8)| {
         (f64::from(b) + (f64::from(a) - f64::from(b)) * opacity.clamp(0.0, 1.0)).round() as u8

@@ -1,5 +1,5 @@
-//! Histograms of a tree's leaves, with ranges that select leaves, and a histogram of a picture's
-//! rays. A histogram of leaves is one entry of [`HISTOGRAMS`].
+//! Histograms of a tree's leaves, with ranges that select leaves, and a histogram of the rays of a
+//! picture. A histogram of leaves is one entry of [`HISTOGRAMS`].
 
 use super::Leaf;
 use crate::structure::Tree;
@@ -52,7 +52,7 @@ pub static HISTOGRAMS: [Histogram; HISTOGRAM_COUNT] = [
     },
 ];
 
-/// The axis of the histogram of rays: nodes that a ray visited.
+/// The axis of the histogram of rays: nodes visited per ray.
 pub static NODES_PER_RAY: HistogramAxis = HistogramAxis {
     title: "Nodes per ray",
     unit: "nodes visited, inner ones and leaves",
@@ -60,7 +60,7 @@ pub static NODES_PER_RAY: HistogramAxis = HistogramAxis {
     spread: Spread::Whole,
 };
 
-/// A number that every leaf has.
+/// A histogram of a number that every leaf has.
 pub struct Histogram {
     /// Name in settings.
     pub name: &'static str,
@@ -68,9 +68,9 @@ pub struct Histogram {
     value: fn(&Leaf) -> Option<f64>,
 }
 
-/// What a histogram is of.
+/// The axis of a histogram.
 pub struct HistogramAxis {
-    /// Name for people.
+    /// Display name.
     pub title: &'static str,
     /// What the numbers along the axis count.
     pub unit: &'static str,
@@ -79,33 +79,34 @@ pub struct HistogramAxis {
     pub spread: Spread,
 }
 
-/// How values spread over the axis.
+/// How values are distributed over the axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Spread {
-    /// Whole numbers: bars are a whole number of values wide.
+    /// Integers. Every bar covers an integer number of values.
     Whole,
-    /// Values are exponents of ten.
+    /// Logarithmic: values are powers of ten, given by their exponents.
     Powers,
-    /// Whole numbers of which many are small: values are log₁₀(number + 1).
+    /// Integers that may be 0, most of them small: values are log₁₀(number + 1).
     Counts,
 }
 
 /// The bars of a histogram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bars {
-    /// Where the first bar begins.
+    /// Value at the start of the first bar.
     pub start: f64,
     /// Width of a bar, above 0.
     pub width: f64,
-    /// Full and empty leaves in every bar; rays are all in the first.
+    /// Full and empty leaves in every bar. For rays, all are in the first count.
     pub counts: Vec<[u64; 2]>,
 }
 
-/// A selection of leaves: for every histogram the values that are in, if not all are. Both ends
-/// count.
+/// A selection of leaves: a range of values for every histogram, inclusive at both ends. `None`
+/// selects all values.
 pub type Ranges = [Option<[f64; 2]>; HISTOGRAM_COUNT];
 
-/// Whether a leaf lies in all ranges; one without a value lies in no range of it.
+/// Returns whether a leaf lies in all ranges. A leaf without a value lies in no range of that
+/// histogram.
 pub fn in_ranges(leaf: &Leaf, ranges: &Ranges) -> bool {
     HISTOGRAMS.iter().zip(ranges).all(|(histogram, range)| {
         range.is_none_or(|[lo, hi]| {
@@ -115,13 +116,13 @@ pub fn in_ranges(leaf: &Leaf, ranges: &Ranges) -> bool {
     })
 }
 
-/// Whether visits must be counted for these ranges.
+/// Returns whether these ranges need the visits of leaves to be counted.
 pub fn ranges_need_visits(ranges: &Ranges) -> bool {
     let mut pairs = HISTOGRAMS.iter().zip(ranges);
     pairs.any(|(histogram, range)| range.is_some() && histogram.needs_visits())
 }
 
-/// All leaves of a tree as colorings, filters and histograms see them.
+/// Returns all leaves of a tree in the form that colorings, filters and histograms use.
 pub fn leaves(tree: &Tree, visits: Option<&Visits>) -> Vec<Leaf> {
     tree.cells()
         .filter_map(|cell| Leaf::of(tree, &cell, visits))
@@ -129,12 +130,12 @@ pub fn leaves(tree: &Tree, visits: Option<&Visits>) -> Vec<Leaf> {
 }
 
 impl Histogram {
-    /// The value of a leaf on the axis; `None` for visits that were not counted.
+    /// Returns the value of a leaf on the axis; `None` if visits were not counted.
     pub fn value(&self, leaf: &Leaf) -> Option<f64> {
         (self.value)(leaf)
     }
 
-    /// Whether visits must be counted for it.
+    /// Returns whether the histogram needs the visits of leaves to be counted.
     pub fn needs_visits(&self) -> bool {
         self.value(&Leaf {
             depth: 0,
@@ -145,7 +146,7 @@ impl Histogram {
         .is_none()
     }
 
-    /// At most `most` bars over all leaves that have a value; none without such leaves.
+    /// Returns at most `most` bars over all leaves that have a value; no bars if there are none.
     pub fn bars(&self, leaves: &[Leaf], most: usize) -> Bars {
         let with_value = leaves.iter().filter_map(|leaf| {
             let class = usize::from(leaf.objects == 0);
@@ -155,7 +156,7 @@ impl Histogram {
     }
 }
 
-/// At most `most` bars over all rays of [`NODES_PER_RAY`]; none without rays.
+/// Returns at most `most` bars over all rays, on the axis [`NODES_PER_RAY`]; no bars without rays.
 pub fn ray_bars(visits: &Visits, most: usize) -> Bars {
     let bins = visits.rays_by_nodes.iter().enumerate();
     let visited = bins.filter(|(_, rays)| **rays > 0);
@@ -163,7 +164,7 @@ pub fn ray_bars(visits: &Visits, most: usize) -> Bars {
 }
 
 impl HistogramAxis {
-    /// Bars over values, each of a class, 0 or 1, and counted so often.
+    /// Returns bars over values. Each item is a value, its class (0 or 1), and its count.
     fn bars(&self, items: impl Iterator<Item = (f64, usize, u64)> + Clone, most: usize) -> Bars {
         let most = most.max(1);
         let [lo, hi] = items
@@ -179,11 +180,11 @@ impl HistogramAxis {
             };
         }
         let (start, width) = match self.spread {
-            // Bars lie around their whole numbers.
+            // Bars are centered on integers.
             Spread::Whole => (lo - 0.5, ((hi - lo + 1.0) / most as f64).ceil()),
             Spread::Powers | Spread::Counts => (lo, (hi - lo) / most as f64),
         };
-        // Where all values are equal there is one bar around them.
+        // If all values are equal, use one bar of width 1.
         let width = if width > 0.0 { width } else { 1.0 };
         let place = |value: f64| (((value - start) / width) as usize).min(most - 1);
         let mut counts = vec![[0; 2]; place(hi) + 1];
@@ -197,7 +198,7 @@ impl HistogramAxis {
         }
     }
 
-    /// A value of the axis for people.
+    /// Formats a value of the axis for display.
     pub fn format(&self, value: f64) -> String {
         match self.spread {
             Spread::Whole => format!("{value:.0}"),
@@ -213,14 +214,15 @@ impl HistogramAxis {
         }
     }
 
-    /// The values from one edge of a bar to another, for people.
+    /// Formats the values between two edges of bars for display.
     pub fn format_range(&self, [lo, hi]: [f64; 2]) -> String {
         let (lo, hi) = match self.spread {
-            // Bars lie around whole numbers.
+            // Bars are centered on integers.
             Spread::Whole => (lo + 0.5, hi - 0.5),
             Spread::Powers => (lo, hi),
             Spread::Counts => {
-                // The first and the last whole number inside, unless rounding moves an edge.
+                // The first and the last integer inside. The margin allows for rounding of the
+                // edges.
                 let [lo, hi] = [lo, hi].map(|edge| libm::exp10(edge) - 1.0);
                 let (lo, hi) = ((lo - 1e-9 * lo).ceil(), (hi + 1e-9 * hi).floor());
                 ((lo + 1.0).log10(), (hi.max(lo) + 1.0).log10())
@@ -236,12 +238,12 @@ impl HistogramAxis {
 }
 
 impl Bars {
-    /// Where the last bar ends.
+    /// Returns the value at the end of the last bar.
     pub fn end(&self) -> f64 {
         self.start + self.width * self.counts.len() as f64
     }
 
-    /// Leaves or rays in the highest bar.
+    /// Returns the number of leaves or rays in the highest bar.
     pub fn highest(&self) -> u64 {
         self.counts.iter().map(|[a, b]| a + b).max().unwrap_or(0)
     }

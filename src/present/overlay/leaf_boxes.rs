@@ -1,4 +1,4 @@
-//! The cells of leaves as colored boxes, filtered.
+//! The cells of leaves as colored boxes, with a filter.
 
 use super::{Coloring, Leaf, Ranges, in_ranges, ranges_need_visits};
 use crate::geometry::Vec3;
@@ -6,23 +6,23 @@ use crate::structure::{Moment, Tree};
 use crate::trace::Visits;
 use serde::{Deserialize, Serialize};
 
-/// Leaves by whether rays of the picture visited them.
+/// A filter of leaves by visits: whether rays of the picture visited them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Visited {
     /// All leaves.
     #[default]
     Either,
-    /// Those that a ray visited.
+    /// Leaves that a ray visited.
     Yes,
-    /// Those that no ray visited.
+    /// Leaves that no ray visited.
     Never,
 }
 
 impl Visited {
     pub const ALL: [Visited; 3] = [Visited::Either, Visited::Yes, Visited::Never];
 
-    /// Name for people.
+    /// Returns the display name.
     pub const fn title(self) -> &'static str {
         match self {
             Visited::Either => "Visited or not",
@@ -31,7 +31,8 @@ impl Visited {
         }
     }
 
-    /// Whether a leaf is among them; none is while its visits are not counted.
+    /// Returns whether a leaf passes the filter. No leaf passes a filter by visits before they are
+    /// counted.
     fn holds(self, leaf: &Leaf) -> bool {
         match self {
             Visited::Either => true,
@@ -41,7 +42,7 @@ impl Visited {
     }
 }
 
-/// Which leaves are shown.
+/// A filter of leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Filter {
     /// Least and greatest depth shown.
@@ -49,14 +50,14 @@ pub struct Filter {
     pub empty: bool,
     pub full: bool,
     pub visited: Visited,
-    /// The moment of the build that is shown; `None` for the finished tree.
+    /// The step of the build to show; `None` for the finished tree.
     pub moment: Option<Moment>,
     /// Ranges of the histograms.
     pub ranges: Ranges,
 }
 
 impl Default for Filter {
-    /// All leaves.
+    /// Returns a filter that all leaves pass.
     fn default() -> Self {
         Filter {
             depth: [0, u32::MAX],
@@ -70,7 +71,7 @@ impl Default for Filter {
 }
 
 impl Filter {
-    /// Whether a leaf is shown.
+    /// Returns whether a leaf passes.
     pub fn passes(&self, leaf: &Leaf) -> bool {
         let [lowest, highest] = self.depth;
         let wanted = if leaf.objects == 0 {
@@ -84,7 +85,7 @@ impl Filter {
             && in_ranges(leaf, &self.ranges)
     }
 
-    /// Whether visits must be counted for it.
+    /// Returns whether the filter needs the visits of leaves to be counted.
     pub fn needs_visits(&self) -> bool {
         self.visited != Visited::Either || ranges_need_visits(&self.ranges)
     }
@@ -96,30 +97,32 @@ impl Filter {
 pub struct Instance {
     pub lo: [f32; 3],
     pub hi: [f32; 3],
-    /// sRGB; the fourth is 255 for solid edges (full leaves), 0 for dashed ones (empty leaves),
-    /// 128 for dotted ones (cells that were not decided yet).
+    /// sRGB and line style: 255 for solid edges (full leaves), 0 for dashed edges (empty leaves),
+    /// 128 for dotted edges (undecided cells).
     pub color: [u8; 4],
 }
 
-/// The color of cells that were not decided yet: no coloring of leaves has it.
+/// The color of undecided cells of an unfinished tree. No coloring of leaves uses it.
 pub const UNDECIDED_COLOR: [u8; 3] = [235; 3];
 
 /// The boxes of a tree's leaves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LeafBoxes {
     pub instances: Vec<Instance>,
-    /// Leaves of the tree, hidden ones included.
+    /// Number of leaves in the tree, including hidden ones.
     pub leaves: usize,
-    /// Boxes of cells that were not decided yet.
+    /// Number of boxes of undecided cells.
     pub undecided: usize,
-    /// The least and the greatest value of the legend.
+    /// Least and greatest value of the legend.
     pub range: [f64; 2],
 }
 
-/// The boxes of the leaves that pass the filter, colored, relative to `center` to stay precise in
-/// 32 bits. The legend spans all leaves of the tree, so that a filter changes no color. Filters and
-/// colorings by visits need them; without, no leaf has a color or passes. At a moment of the build,
-/// cells that were not decided yet pass by their depth alone.
+/// Returns the colored boxes of the leaves that pass the filter.
+///
+/// Boxes are relative to `center`, which keeps them precise in `f32`. The legend spans all leaves
+/// of the tree, so a filter changes no color. A filter or coloring by visits needs `visits`;
+/// without them, no leaf passes or has a color. At a step of the build, undecided cells are
+/// filtered by depth only.
 pub fn leaf_boxes(
     tree: &Tree,
     filter: &Filter,
@@ -137,7 +140,7 @@ pub fn leaf_boxes(
         ..LeafBoxes::default()
     };
     boxes.leaves = leaves().count();
-    // At the greatest depth the tree is finished.
+    // At the greatest depth, the tree is finished.
     let moment = filter.moment.unwrap_or(Moment::Depth(u32::MAX));
     for (cell, decided) in tree.cells_at(moment) {
         let mut add = |[r, g, b]: [u8; 3], edges: u8| {

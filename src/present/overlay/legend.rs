@@ -1,20 +1,20 @@
-//! A heatmap as a picture to keep: with a title, a color bar, its numbers and a histogram.
+//! Draws a heatmap for export: with a title, a color bar with numbers, and a histogram.
 
 use super::text::Pen;
 use super::{Colormap, HeatScale};
 use crate::measure::heat::HeatImage;
 use image::{Rgb, RgbImage};
 
-/// The words around a heatmap.
+/// The text around a heatmap.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Captions {
-    /// One line, large.
+    /// One line in large type.
     pub title: String,
-    /// Below the title: what is shown of what.
+    /// Below the title: what the heatmap shows, and of which scene.
     pub subtitle: String,
-    /// Below the color bar: what it counts.
+    /// Below the color bar: the unit of the values.
     pub unit: String,
-    /// At the foot: figures of the whole picture.
+    /// At the bottom: statistics of the whole picture.
     pub figures: String,
 }
 
@@ -23,11 +23,11 @@ const INK: [u8; 3] = [24; 3];
 const SOFT_INK: [u8; 3] = [80; 3];
 const HISTOGRAM: [u8; 3] = [150; 3];
 
-/// Below this width a legend's words do not fit.
+/// The narrowest image on which the legend's text fits, in pixels.
 const LEAST_WIDTH: u32 = 480;
 
-/// Sizes in pixels; all grow with wide pictures, so that they stay legible where those are shown
-/// small.
+/// Sizes in pixels. They grow with the width of the picture, so that text stays legible when a wide
+/// picture is shown small.
 struct Sizes {
     unit: u32,
     margin: u32,
@@ -52,14 +52,14 @@ impl Sizes {
 /// A heatmap in colors.
 pub struct HeatPicture<'a> {
     pub image: &'a HeatImage,
-    /// sRGB, one for each of the image's, row by row.
+    /// sRGB colors of the image's pixels, row by row.
     pub pixels: Vec<[u8; 3]>,
-    /// `None` where no pixel has a value.
+    /// `None` if no pixel has a value.
     pub scale: Option<HeatScale>,
     pub colors: &'a Colormap,
 }
 
-/// Puts a heatmap on paper, with its legend.
+/// Returns the heatmap on a white sheet with its legend.
 pub fn with_legend(picture: &HeatPicture<'_>, captions: &Captions) -> RgbImage {
     let HeatPicture { image, pixels, .. } = picture;
     let sizes = Sizes::for_width(image.width);
@@ -91,7 +91,7 @@ pub fn with_legend(picture: &HeatPicture<'_>, captions: &Captions) -> RgbImage {
     y += margin / 2;
 
     let left = margin + (inner - image.width) / 2;
-    // The frame parts pixels without a value from the paper.
+    // The frame separates pixels without a value from the sheet.
     let framed = [
         left - unit,
         y - unit,
@@ -136,7 +136,7 @@ impl BarLayout {
         self.histogram + self.bar + self.tick + self.numbers + self.unit
     }
 
-    /// Draws into a stretch of the sheet: left, top, width.
+    /// Draws the color bar at the given left, top and width.
     fn draw(
         &self,
         sheet: &mut RgbImage,
@@ -168,7 +168,7 @@ impl BarLayout {
         for tick in &ticks {
             let x = left + ((f64::from(width - sizes.unit)) * tick.place).round() as u32;
             fill(sheet, [x, bar_top + self.bar, sizes.unit, self.tick], INK);
-            // The ends' colors stand for all that lies beyond, too.
+            // The first and last colors also stand for all values beyond the range.
             let text = match tick.place {
                 place if place <= 0.0 && below > 0 => format!("≤ {}", tick.text),
                 place if place >= 1.0 && above > 0 => format!("≥ {}", tick.text),
@@ -187,7 +187,7 @@ impl BarLayout {
             .draw(sheet, left, number_top + self.numbers, unit);
     }
 
-    /// Columns as high as the root of their count: the rare values are what is looked for.
+    /// Draws columns whose height is the square root of the count, so that rare values are visible.
     fn draw_histogram(&self, sheet: &mut RgbImage, [left, top, width]: [u32; 3], counts: &[u64]) {
         let most = counts.iter().copied().max().unwrap_or(0).max(1) as f64;
         let bins = counts.len() as u32;
@@ -202,7 +202,7 @@ impl BarLayout {
     }
 }
 
-/// Fills a rectangle: left, top, width, height.
+/// Fills a rectangle, given as left, top, width and height.
 fn fill(sheet: &mut RgbImage, [left, top, width, height]: [u32; 4], color: [u8; 3]) {
     for y in top..top + height {
         for x in left..left + width {

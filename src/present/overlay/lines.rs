@@ -1,4 +1,4 @@
-//! Lines over a scene: outlines of boxes, the view of a camera.
+//! Lines in a scene: edges of boxes, and the view frustum of a camera.
 
 use crate::geometry::{Aabb, Vec3};
 use crate::scene::Camera;
@@ -9,9 +9,9 @@ use crate::scene::Camera;
 pub struct Line {
     pub a: [f32; 3],
     pub b: [f32; 3],
-    /// sRGB; the fourth is 255 for a solid line, 0 for a dashed one.
+    /// sRGB and line style: 255 for a solid line, 0 for a dashed one.
     pub color: [u8; 4],
-    /// In points of the screen.
+    /// Width in points of the screen.
     pub width: f32,
 }
 
@@ -26,7 +26,7 @@ impl Line {
     }
 }
 
-/// Pairs of corners ([`Aabb::corners`]) that edges join.
+/// Pairs of corner indices ([`Aabb::corners`]) that edges connect.
 pub const BOX_EDGES: [[usize; 2]; 12] = [
     [0, 1],
     [2, 3],
@@ -42,7 +42,7 @@ pub const BOX_EDGES: [[usize; 2]; 12] = [
     [3, 7],
 ];
 
-/// The edges of a box.
+/// Returns the edges of a box.
 pub fn box_lines(bounds: &Aabb, center: Vec3, color: [u8; 4], width: f32) -> Vec<Line> {
     let corners = bounds.corners();
     BOX_EDGES
@@ -51,15 +51,15 @@ pub fn box_lines(bounds: &Aabb, center: Vec3, color: [u8; 4], width: f32) -> Vec
         .collect()
 }
 
-/// The color of the `i`-th of `n` leaves along a ray, from light pink to purple: no coloring of
-/// leaves has these.
+/// Returns the color of leaf `i` of `n` along a ray, from light pink to purple. No coloring of
+/// leaves uses these colors.
 pub fn order_color(i: usize, n: usize) -> [u8; 3] {
     let place = i as f64 / (n.max(2) - 1) as f64;
     let color = colorous::RED_PURPLE.eval_continuous(0.2 + 0.55 * place);
     [color.r, color.g, color.b]
 }
 
-/// The pyramid that a camera sees, `length` deep; nothing for a camera without a view.
+/// Returns the view frustum of a camera, `length` deep; no lines for a camera without a view.
 pub fn frustum_lines(camera: &Camera, aspect: f64, length: f64, center: Vec3) -> Vec<Line> {
     let Ok([forward, right, up]) = camera.frame() else {
         return Vec::new();
@@ -80,7 +80,7 @@ pub fn frustum_lines(camera: &Camera, aspect: f64, length: f64, center: Vec3) ->
         lines.push(Line::new(camera.from, c, center, color, 1.5));
         lines.push(Line::new(c, corners[(i + 1) % 4], center, color, 1.5));
     }
-    // A tick says which side is up.
+    // A tick marks the upper side.
     let top = (corners[2] + corners[3]) * 0.5;
     let tick = top + length * 0.2 * half * up;
     lines.push(Line::new(corners[2], tick, center, color, 1.5));

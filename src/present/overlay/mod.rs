@@ -1,4 +1,4 @@
-//! What is drawn over scenes and pictures, as plain colors, boxes and lines, without a window.
+//! Overlays of scenes and pictures as plain colors, boxes and lines, independent of a window.
 
 mod coloring;
 mod colormap;

@@ -1,21 +1,22 @@
-//! All rays of a pixel as lines: what kind they are by color and strokes, how they end by a mark.
+//! All rays of a pixel as lines. Color and dash pattern show the kind of ray; a mark shows how it
+//! ends.
 
 use super::Line;
 use crate::geometry::{Aabb, Ray, Vec3};
 use crate::trace::{PixelRecord, RayKind, RayPath};
 
-/// How rays of a kind are drawn; color and strokes each tell the kind alone.
+/// How rays of a kind are drawn. Color and dash pattern are each unique to the kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayStyle {
     /// sRGB.
     pub color: [u8; 3],
-    /// Lengths of strokes and gaps in turn, in an arbitrary unit; empty is a solid line.
+    /// Lengths of dashes and gaps in turn, in an arbitrary unit; empty for a solid line.
     pub strokes: &'static [f64],
-    /// The strokes in words.
+    /// Name of the dash pattern.
     pub text: &'static str,
 }
 
-/// How rays of this kind are drawn.
+/// Returns how rays of this kind are drawn.
 pub const fn ray_style(kind: RayKind) -> RayStyle {
     match kind {
         RayKind::Primary => RayStyle {
@@ -41,28 +42,29 @@ pub const fn ray_style(kind: RayKind) -> RayStyle {
     }
 }
 
-/// What is drawn of a pixel's rays.
+/// Which rays of a pixel are drawn, and how.
 #[derive(Clone, Copy, Debug)]
 pub struct RaysShown {
-    /// The ray drawn thicker, by its place.
+    /// Index of the ray to draw thicker.
     pub selected: usize,
-    /// Whether the other rays are drawn, too.
+    /// Whether to draw the other rays, too.
     pub others: bool,
-    /// Rays are drawn inside this box only.
+    /// Box that clips the rays.
     pub space: Aabb,
-    /// Size of marks, a length in the scene.
+    /// Size of marks, in scene units.
     pub mark: f64,
 }
 
 impl RaysShown {
-    /// More rays than this could not be told apart.
+    /// The most rays to draw. More could not be distinguished.
     pub const MOST: usize = 1000;
 }
 
-/// Longest chain of strokes that a ray is drawn with.
+/// The most repetitions of the dash pattern along one ray.
 const MOST_STROKES: f64 = 80.0;
 
-/// The rays of a pixel, the selected one last. A hit has a cross, a light that is reached a star.
+/// Returns the rays of a pixel as lines, the selected ray last. A cross marks a hit. A star marks a
+/// light that the ray reaches.
 pub fn ray_lines(record: &PixelRecord, shown: &RaysShown, center: Vec3) -> Vec<Line> {
     let mut lines = Vec::new();
     let others = (0..record.rays.len().min(RaysShown::MOST))
@@ -110,7 +112,8 @@ fn one_ray(path: &RayPath, shown: &RaysShown, width: f32, center: Vec3, lines: &
     }
 }
 
-/// Where a ray's line ends: at its hit, at its light, or where it leaves what is shown.
+/// Returns the ray parameter where the line ends: the hit, the light, or the border of the visible
+/// space.
 fn end_of(path: &RayPath, shown: &RaysShown) -> f64 {
     if path.hit.is_hit() {
         return path.hit.t;
@@ -119,14 +122,14 @@ fn end_of(path: &RayPath, shown: &RaysShown) -> f64 {
     if path.kind == RayKind::Shadow {
         path.ray.t_max.min(leaves)
     } else if path.steps.is_empty() {
-        // It misses the tree: a stub shows where it went.
+        // The ray misses the tree. A short line shows its direction.
         leaves.min(shown.mark * 12.0)
     } else {
         path.end()
     }
 }
 
-/// Where a ray that starts inside a box leaves it.
+/// Returns the ray parameter where a ray that starts inside a box leaves it.
 fn exit(bounds: &Aabb, ray: &Ray) -> f64 {
     (0..3)
         .filter(|&k| ray.direction[k] != 0.0)
@@ -142,7 +145,7 @@ fn exit(bounds: &Aabb, ray: &Ray) -> f64 {
         .max(0.0)
 }
 
-/// The stretches of a line of some length that are drawn.
+/// Returns the intervals of a line of this length that are drawn.
 fn strokes(length: f64, pattern: &[f64], unit: f64) -> Vec<[f64; 2]> {
     let period: f64 = pattern.iter().sum();
     if period <= 0.0 || length <= 0.0 {

@@ -1,26 +1,27 @@
-//! A selected cell with its split plane, as lines and translucent faces; cells along a ray.
+//! The selected cell with its split plane, as lines and translucent faces, and the cells along a
+//! ray.
 
 use super::lines::{Line, box_lines};
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
 use crate::structure::{CellOfNode, NodeKind, Tree};
 
-/// A corner of a translucent triangle, relative to a center.
+/// A vertex of a translucent triangle, relative to a center.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct FaceCorner {
     pub place: [f32; 3],
-    /// sRGB and how much of what lies behind is covered.
+    /// sRGB and opacity.
     pub color: [u8; 4],
 }
 
-/// The color of the selected cell, and of its plane: no coloring of leaves and no ray has these.
+/// The color of the selected cell and its split plane. No coloring of leaves and no ray uses it.
 pub const CELL_COLOR: [u8; 3] = [255, 176, 0];
 pub const PLANE_COLOR: [u8; 3] = [90, 200, 255];
 
-/// The color of the leaves that refer to the selected object.
+/// The color of the leaves that contain the selected object.
 pub const REFERRING_COLOR: [u8; 3] = [255, 80, 70];
 
-/// The edges of a cell, and the outline and diagonals of its plane, if there is one.
+/// Returns the edges of a cell, and the outline and diagonals of its split plane, if any.
 pub fn cell_lines(cell: &Aabb, plane: Option<(Axis, f64)>, center: Vec3) -> Vec<Line> {
     let [r, g, b] = CELL_COLOR;
     let mut lines = box_lines(cell, center, [r, g, b, 255], 3.5);
@@ -38,7 +39,7 @@ pub fn cell_lines(cell: &Aabb, plane: Option<(Axis, f64)>, center: Vec3) -> Vec<
     lines
 }
 
-/// The faces of a cell and its plane as triangles.
+/// Returns the faces of a cell and its split plane as triangles.
 pub fn cell_faces(cell: &Aabb, plane: Option<(Axis, f64)>, center: Vec3) -> Vec<FaceCorner> {
     let mut faces = Vec::new();
     let mut add = |quad: [Vec3; 4], [r, g, b]: [u8; 3], cover: u8| {
@@ -58,7 +59,7 @@ pub fn cell_faces(cell: &Aabb, plane: Option<(Axis, f64)>, center: Vec3) -> Vec<
     faces
 }
 
-/// The part of a plane inside a cell, its corners in order around it.
+/// Returns the rectangle where a plane intersects a cell, as corners in order.
 fn quad(cell: &Aabb, axis: Axis, at: f64) -> [Vec3; 4] {
     let (k, u, v) = (
         axis.index(),
@@ -74,8 +75,8 @@ fn quad(cell: &Aabb, axis: Axis, at: f64) -> [Vec3; 4] {
     })
 }
 
-/// The leaves that a ray passes through, nearest first; objects do not stop it. The leaf in which
-/// the ray starts is not among them.
+/// Returns the leaves that a ray passes through, nearest first. Objects do not stop the ray. The
+/// leaf in which the ray starts is not included.
 pub fn leaves_along(tree: &Tree, ray: &Ray) -> Vec<CellOfNode> {
     let mut found: Vec<(f64, CellOfNode)> = Vec::new();
     let mut stack = vec![tree.root()];
@@ -93,7 +94,8 @@ pub fn leaves_along(tree: &Tree, ray: &Ray) -> Vec<CellOfNode> {
     found.into_iter().map(|(_, cell)| cell).collect()
 }
 
-/// Where a ray enters a box; its own start if that lies inside, `None` if it misses.
+/// Returns the ray parameter where a ray enters a box. Returns its start if it starts inside, and
+/// `None` if it misses.
 fn entry(bounds: &Aabb, ray: &Ray) -> Option<f64> {
     let (mut enter, mut exit) = (ray.t_min, ray.t_max);
     for k in 0..3 {

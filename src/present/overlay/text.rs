@@ -1,12 +1,12 @@
-//! Text in pictures, drawn without a window.
+//! Draws text into images without a window.
 //!
-//! `imageproc` draws text, too, but it is a whole image-processing library with its dependencies, for
-//! what are 60 lines on top of `ab_glyph`.
+//! `imageproc` draws text, too, but it is a large image-processing library. This needs 60 lines on
+//! top of `ab_glyph`.
 
 use ab_glyph::{Font, FontRef, PxScale, ScaleFont, point};
 use image::{Rgb, RgbImage};
 
-/// Text of one size and color.
+/// A pen that draws text of one size and color.
 pub struct Pen {
     font: FontRef<'static>,
     scale: PxScale,
@@ -14,7 +14,7 @@ pub struct Pen {
 }
 
 impl Pen {
-    /// `size` is the height of a line in pixels.
+    /// Creates a pen. `size` is the height of a line in pixels.
     pub fn new(size: f32, color: [u8; 3]) -> Pen {
         let font = FontRef::try_from_slice(epaint_default_fonts::UBUNTU_LIGHT)
             .expect("the font is part of the program");
@@ -25,18 +25,19 @@ impl Pen {
         }
     }
 
-    /// Distance from line to line, in pixels.
+    /// Returns the distance between lines, in pixels.
     pub fn line_height(&self) -> u32 {
         let font = self.font.as_scaled(self.scale);
         (font.height() + font.line_gap()).ceil() as u32
     }
 
-    /// Width in pixels.
+    /// Returns the width of a text in pixels.
     pub fn width(&self, text: &str) -> u32 {
         self.walk(text, |_, _| ()).ceil() as u32
     }
 
-    /// The text in lines of at most this width, broken between words; a longer word stays whole.
+    /// Breaks the text between words into lines of at most this width. A longer word stays in one
+    /// piece.
     pub fn wrapped(&self, text: &str, width: u32) -> Vec<String> {
         let mut lines: Vec<String> = Vec::new();
         for word in text.split(' ') {
@@ -51,7 +52,8 @@ impl Pen {
         lines
     }
 
-    /// Draws a line of text with its upper left corner here. What lies outside is cut off.
+    /// Draws a line of text with its upper left corner at (`x`, `y`). Clips what lies outside the
+    /// image.
     pub fn draw(&self, image: &mut RgbImage, x: u32, y: u32, text: &str) {
         let top = y as f32 + self.font.as_scaled(self.scale).ascent();
         self.walk(text, |glyph, along| {
@@ -80,7 +82,7 @@ impl Pen {
         });
     }
 
-    /// Calls back with each glyph and where it starts along the line; returns the width of the line.
+    /// Calls back with each glyph and its offset along the line. Returns the width of the line.
     fn walk(&self, text: &str, mut each: impl FnMut(ab_glyph::GlyphId, f32)) -> f32 {
         let font = self.font.as_scaled(self.scale);
         let (mut along, mut last) = (0.0, None);

@@ -1,4 +1,4 @@
-//! The traversal of a ray: the leaves that it visits in order, and one step in detail.
+//! The traversal of a ray: the visited leaves in order, and one step in detail.
 
 use super::lines::{Line, box_lines, order_color};
 use crate::geometry::Vec3;
@@ -7,7 +7,7 @@ use crate::trace::{RayPath, Step};
 
 /// Color of the ray inside the current cell.
 pub const INTERVAL: [u8; 3] = [90, 255, 120];
-/// Color of the cells that wait.
+/// Color of the pending cells.
 pub const WAITING: [u8; 3] = [200, 200, 200];
 
 const SOLID: u8 = 255;
@@ -17,8 +17,8 @@ fn rgba([r, g, b]: [u8; 3], strokes: u8) -> [u8; 4] {
     [r, g, b, strokes]
 }
 
-/// The outlines of the leaves that a ray visited, colored by their order; empty ones are dashed,
-/// and those after the current step thin.
+/// Returns the edges of the leaves that a ray visited, colored by their order. Empty leaves are
+/// dashed. Leaves after the current step are thin.
 pub fn visited_lines(path: &RayPath, step: usize, center: Vec3) -> Vec<Line> {
     let n = path.leaves().count();
     let leaves = path.steps.iter().enumerate().filter_map(|(i, s)| match s {
@@ -35,8 +35,8 @@ pub fn visited_lines(path: &RayPath, step: usize, center: Vec3) -> Vec<Line> {
     lines
 }
 
-/// One step: the cells that wait, and the ray inside the node's cell. The cell itself is the
-/// selected node's. Nothing where there is no such step.
+/// Returns one step: the pending cells, and the part of the ray inside the node's cell. The cell
+/// itself is drawn as the selected node's. Returns no lines if there is no such step.
 pub fn step_lines(tree: &Tree, path: &RayPath, step: usize, center: Vec3) -> Vec<Line> {
     let Some(current) = path.steps.get(step) else {
         return Vec::new();
