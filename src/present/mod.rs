@@ -1,5 +1,5 @@
-//! What people are shown of results: number text, words, charts, overlays as plain geometry and
-//! colors, reports, exports.
+//! Presentation of results: number formats, words, charts, overlays as plain geometry and colors,
+//! reports, exports.
 
 pub mod chart;
 pub mod export;

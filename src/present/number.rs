@@ -1,4 +1,4 @@
-//! Numbers as people read them: values with their units, groups of digits, changes.
+//! Formats numbers for people: values with units, groups of digits, changes.
 //!
 //! The types are those of [`crate::measure`], which holds numbers only.
 
@@ -28,7 +28,7 @@ impl Unit {
 }
 
 impl Parameter {
-    /// Formats a value with its unit; `–` if there is none.
+    /// Formats a value with its unit; `–` if there is no value.
     pub fn format(&self, value: Option<f64>) -> String {
         match value {
             None => "–".into(),
@@ -51,7 +51,7 @@ impl fmt::Display for Change {
             }
             Change::Ratio(ratio) => {
                 let percent = ratio * 100.0;
-                // Three significant digits, as many as the paper gives.
+                // Three significant digits, as in the paper.
                 let decimals = if percent == 0.0 {
                     0
                 } else {

@@ -62,7 +62,7 @@ impl Mark {
         }
     }
 
-    /// One character for tables.
+    /// Returns the mark as one character for tables.
     pub const fn sign(self) -> &'static str {
         match self {
             Mark::Equal => "=",
@@ -73,8 +73,8 @@ impl Mark {
 }
 
 impl Cell {
-    /// The computed figure, with a digit more than is printed where it differs and is no whole
-    /// number; `–` where there is none.
+    /// Formats the computed figure. If it differs from the printed one and is not an integer, it
+    /// has one digit more. `–` if there is no figure.
     pub fn computed_text(&self) -> String {
         let more = usize::from(self.mark != Some(Mark::Equal));
         match self.computed {

@@ -6,24 +6,24 @@ use crate::measure::{Parameter, Unit, parameter};
 /// One curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// The method and the leaf size.
+    /// Method and leaf size.
     pub name: String,
-    /// Place of its method, in the order of rows.
+    /// Index of the method, in the order of rows.
     pub method: usize,
-    /// Tells the curves of one method apart, from 0.
+    /// Distinguishes the curves of one method, from 0.
     pub mark: usize,
-    /// By depth; one at least.
+    /// Points in order of depth; at least one.
     pub points: Vec<CurvePoint>,
 }
 
 /// A point of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePoint {
-    /// `D_MAX`.
+    /// The maximum depth, `D_MAX`.
     pub depth: f64,
-    /// Shares in percent.
+    /// The value; shares are in percent.
     pub value: f64,
-    /// Place of its row.
+    /// Index of the row.
     pub row: usize,
 }
 
@@ -73,10 +73,10 @@ pub fn curves(rows: &[Row], shown: &Parameter) -> Vec<Curve> {
     curves
 }
 
-/// Values that differ by more than this factor are drawn by their logarithm.
+/// If values differ by more than this factor, the axis is logarithmic.
 const WIDE: f64 = 20.0;
 
-/// Whether values from the least to the most are drawn by their logarithm.
+/// Returns whether an axis from `least` to `most` is logarithmic.
 pub fn is_wide(least: f64, most: f64) -> bool {
     least > 0.0 && most > WIDE * least
 }

@@ -1,4 +1,4 @@
-//! Charts of a sweep: a parameter over the greatest depth, as PNG or SVG.
+//! Charts of a sweep: a parameter over the maximum depth, as PNG or SVG.
 
 mod curves;
 mod sweep;

@@ -12,7 +12,7 @@ use plotters::style::{FontStyle, register_font};
 use std::io::Cursor;
 use std::ops::Range;
 
-/// What is drawn.
+/// The content of a chart.
 #[derive(Clone, Copy)]
 pub struct Chart<'a> {
     pub rows: &'a [Row],
@@ -21,7 +21,7 @@ pub struct Chart<'a> {
     pub size: (u32, u32),
 }
 
-/// Why a chart could not be drawn.
+/// Why a chart cannot be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ChartError {
     #[error("no row of the sweep has a value of {0}")]
@@ -42,10 +42,10 @@ const COLORS: [RGBColor; 6] = [
     RGBColor(86, 180, 233),
 ];
 
-/// The chart as a PNG file's bytes.
+/// Returns the chart as a PNG file.
 ///
 /// # Errors
-/// Nothing to draw, or what the drawing library says.
+/// There is nothing to draw, or the drawing library fails.
 pub fn png(chart: &Chart<'_>) -> Result<Vec<u8>, ChartError> {
     let (width, height) = chart.size;
     let mut pixels = vec![0; width as usize * height as usize * 3];
@@ -62,10 +62,10 @@ pub fn png(chart: &Chart<'_>) -> Result<Vec<u8>, ChartError> {
     Ok(bytes.into_inner())
 }
 
-/// The chart as an SVG file's text.
+/// Returns the chart as an SVG file.
 ///
 /// # Errors
-/// As [`png`].
+/// The same as those of [`png`].
 pub fn svg(chart: &Chart<'_>) -> Result<String, ChartError> {
     let mut text = String::new();
     draw(
@@ -107,7 +107,7 @@ fn draw<B: DrawingBackend>(
     }
 }
 
-/// Draws everything on an axis of values, by the logarithm or not.
+/// Draws the whole chart, with a linear or a logarithmic value axis.
 fn draw_on<B: DrawingBackend, V>(
     chart: &Chart<'_>,
     area: &DrawingArea<B, Shift>,
@@ -167,7 +167,7 @@ where
 
 type Context<'a, B, Y> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, Y>>;
 
-/// A line with a mark at every point, and the same in the legend.
+/// Draws a line with a mark at every point, and its entry in the legend.
 fn add_curve<'a, B: DrawingBackend + 'a, Y: Ranged<ValueType = f64>>(
     context: &mut Context<'a, B, Y>,
     curve: &Curve,
@@ -191,8 +191,8 @@ fn add_curve<'a, B: DrawingBackend + 'a, Y: Ranged<ValueType = f64>>(
     Ok(())
 }
 
-/// The outline of a mark, in pixels from its middle, moved to the right: a square, a triangle, a
-/// diamond, a cross and so on.
+/// Returns the outline of a mark relative to its center, in pixels, shifted to the right: a square,
+/// a triangle, a diamond, a cross and so on.
 fn outline(mark: usize, right: i32) -> Vec<(i32, i32)> {
     let shape: &[(i32, i32)] = match mark % 5 {
         0 => &[(-3, -3), (3, -3), (3, 3), (-3, 3), (-3, -3)],

@@ -1,4 +1,4 @@
-//! A heatmap as a file: in colors with its legend, or its raw values.
+//! A heatmap as a file: in colors with its legend, or as raw values.
 
 use super::png;
 use crate::measure::heat::{HeatImage, HeatStatistics, Heatmap, RayFilter, Whole};
@@ -12,26 +12,26 @@ use exr::prelude::{SpecificChannels, WritableImage};
 use image::{ImageError, RgbImage};
 use std::io::Cursor;
 
-/// A heatmap with all that decides how it looks on paper.
+/// A heatmap with everything that determines its exported picture.
 pub struct HeatSheet<'a> {
     pub heatmap: &'a Heatmap,
     pub image: &'a HeatImage,
-    /// Of the whole picture; `None` where it has no value, and for a difference.
+    /// The value of the whole picture; `None` if it has no value, and for a difference.
     pub total: Option<f64>,
-    /// Whether values are those of a tree B less those of a tree A.
+    /// Whether values are those of tree B minus those of tree A.
     pub difference: bool,
     pub rays: RayFilter,
     pub scale: Scale,
     pub range: Range,
     pub colors: &'a Colormap,
-    /// The picture below, and how much of it is hidden, 0 to 1.
+    /// The rendered picture below, and the opacity of the heatmap over it, 0 to 1.
     pub below: Option<(&'a Picture, f64)>,
-    /// What it is of, such as scene and method.
+    /// The subject, such as scene and method.
     pub of: String,
 }
 
 impl HeatSheet<'_> {
-    /// The picture with title, color bar, histogram and figures.
+    /// Returns the picture with title, color bar, histogram and statistics.
     pub fn drawn(&self) -> RgbImage {
         let HeatSheet { image, colors, .. } = self;
         let scale = HeatScale::new(image, self.scale, self.range, colors);
@@ -62,19 +62,19 @@ impl HeatSheet<'_> {
         with_legend(&picture, &captions)
     }
 
-    /// The bytes of a PNG file of it.
+    /// Encodes the picture as a PNG file.
     ///
     /// # Errors
-    /// Those of the encoder.
+    /// Errors of the encoder.
     pub fn png(&self) -> Result<Vec<u8>, ImageError> {
         png(&self.drawn())
     }
 
-    /// The bytes of an OpenEXR file: the values as 32-bit floats in one channel named after the
-    /// symbol; NaN where there is none.
+    /// Encodes the values as an OpenEXR file: 32-bit floats in one channel named after the symbol;
+    /// NaN for missing values.
     ///
     /// # Errors
-    /// Those of the encoder.
+    /// Errors of the encoder.
     pub fn exr(&self) -> Result<Vec<u8>, exr::error::Error> {
         let image = self.image;
         let (width, height) = (image.width as usize, image.height as usize);
@@ -88,7 +88,7 @@ impl HeatSheet<'_> {
         Ok(bytes.into_inner())
     }
 
-    /// What is shown of what.
+    /// Returns the subtitle: what the heatmap shows, and of which scene.
     fn subtitle(&self) -> String {
         let mut words = self.of.clone();
         if self.heatmap.filters().len() > 1 {
@@ -100,7 +100,7 @@ impl HeatSheet<'_> {
         words
     }
 
-    /// The figures of the whole picture.
+    /// Returns the statistics of the whole picture.
     fn figures(&self) -> String {
         let HeatSheet { heatmap, image, .. } = self;
         let mut words = Vec::new();
@@ -112,7 +112,7 @@ impl HeatSheet<'_> {
                     format!("{} {number}", parameters.join(" + "))
                 }
                 ([], Whole::Sum) => {
-                    // A sum over pixels is not per pixel any more.
+                    // The sum over all pixels no longer has a unit per pixel.
                     let unit = heatmap.unit.trim_end_matches(" per pixel");
                     format!("total {} {unit}", number(total))
                 }
@@ -146,7 +146,7 @@ impl HeatSheet<'_> {
     }
 }
 
-/// A whole number in full, any other to four digits.
+/// Formats an integer in full, and any other number to four digits.
 fn number(value: f64) -> String {
     if value.fract() == 0.0 {
         grouped(value)

@@ -1,4 +1,5 @@
-//! The cells of leaves as boxes for other programs. A form is one entry of [`LEAF_WRITERS`].
+//! Exports the cells of leaves as boxes for other programs. A format is one entry of
+//! [`LEAF_WRITERS`].
 
 use crate::geometry::Aabb;
 use crate::present::overlay::{Filter, Leaf};
@@ -14,7 +15,7 @@ pub struct LeafCell {
     pub node: u32,
     /// The root has depth 0.
     pub depth: u32,
-    /// Number of objects that it refers to; 0 for an empty leaf.
+    /// Number of objects in the leaf; 0 for an empty leaf.
     pub objects: u32,
     /// Its cell, in the scene's units.
     pub bounds: Aabb,
@@ -23,12 +24,12 @@ pub struct LeafCell {
 /// The leaves of a tree that pass a filter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeafCells {
-    /// What they are of, in one line.
+    /// A one-line description of the tree.
     pub of: String,
     pub cells: Vec<LeafCell>,
 }
 
-/// All forms; the first is the default.
+/// All formats; the first is the default.
 pub static LEAF_WRITERS: &[Writer<LeafCells>] = &[
     Writer {
         name: "obj",
@@ -44,8 +45,8 @@ pub static LEAF_WRITERS: &[Writer<LeafCells>] = &[
     },
 ];
 
-/// The corners of a box's six faces, counter-clockwise seen from outside; bits 0 to 2 of a corner
-/// say where it lies on x, y and z: 0 the lower end, 1 the upper.
+/// The corners of a box's six faces, counterclockwise seen from outside. Bits 0 to 2 of a corner
+/// stand for x, y and z: 0 is the lower end, 1 the upper.
 const FACES: [[u32; 4]; 6] = [
     [0, 4, 6, 2],
     [1, 3, 7, 5],
@@ -55,15 +56,15 @@ const FACES: [[u32; 4]; 6] = [
     [4, 5, 7, 6],
 ];
 
-/// The eight corners of a box, in the order of their bits.
+/// Returns the eight corners of a box, in the order of their bits.
 fn corners(bounds: &Aabb) -> [[f64; 3]; 8] {
     let ends = [bounds.lo.to_array(), bounds.hi.to_array()];
     std::array::from_fn(|corner| std::array::from_fn(|k| ends[corner >> k & 1][k]))
 }
 
 impl LeafCells {
-    /// The leaves of a tree that pass a filter, in the order of their nodes. Filters by visits need
-    /// them; without, none passes.
+    /// Returns the leaves of a tree that pass a filter, in the order of their nodes. A filter by
+    /// visits needs `visits`; without them, no leaf passes.
     pub fn new(of: String, tree: &Tree, filter: &Filter, visits: Option<&Visits>) -> Self {
         let mut cells: Vec<LeafCell> = tree
             .cells()
@@ -100,7 +101,7 @@ fn write_obj(leaves: &LeafCells, out: &mut dyn Write) -> Result<()> {
         for [x, y, z] in corners(&cell.bounds) {
             writeln!(out, "v {x} {y} {z}")?;
         }
-        // Vertices are numbered from 1 through the whole file.
+        // Vertices are numbered from 1 throughout the file.
         let first = 8 * i as u64 + 1;
         for face in FACES {
             let [a, b, c, d] = face.map(|corner| first + u64::from(corner));
@@ -142,7 +143,7 @@ fn write_ply(leaves: &LeafCells, out: &mut dyn Write) -> Result<()> {
     Ok(())
 }
 
-/// Text that ends no comment early.
+/// Replaces line breaks, which would end a comment.
 fn one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
 }

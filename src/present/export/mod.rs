@@ -1,4 +1,5 @@
-//! Results as files for other programs: pictures, heatmaps with their legends, the boxes of leaves.
+//! Exports results as files for other programs: pictures, heatmaps with legends, the boxes of
+//! leaves.
 
 mod heatmap;
 mod leaves;

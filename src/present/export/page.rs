@@ -10,11 +10,12 @@ use crate::trace::Picture;
 use image::{ImageError, ImageFormat};
 use std::io::{Error, Result, Write};
 
-/// The heatmaps of every run on the page, by their symbols.
+/// The symbols of the heatmaps that the page shows for every run.
 const HEATMAPS: [&str; 2] = ["N_NODES", "N_IT"];
 
-/// Writes a report as one HTML file: a picture, which is the same for every run, and the heatmaps of
-/// every run whose pixels' counts are given (in the order of the runs; `None` where there are none).
+/// Writes a report as one HTML file. It shows one picture, which is the same for every run, and the
+/// heatmaps of every run. `None` in the pixel counts, which are in the order of the runs, leaves
+/// out the heatmaps of that run.
 ///
 /// # Errors
 /// Those of `out`, and of encoding the pictures.

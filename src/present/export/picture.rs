@@ -1,16 +1,16 @@
-//! A picture as the bytes of a file.
+//! Encodes a picture as a file.
 
 use crate::trace::Picture;
 use image::{DynamicImage, ImageError, ImageFormat, Rgb32FImage, RgbImage};
 use std::io::Cursor;
 
-/// The bytes of a picture's file: linear 32-bit float for OpenEXR, else 8-bit sRGB.
+/// Encodes a picture: as linear 32-bit floats for OpenEXR, otherwise as 8-bit sRGB.
 ///
 /// # Errors
-/// Those of the encoder.
+/// Errors of the encoder.
 ///
 /// # Panics
-/// If the picture has not as many pixels as its size says.
+/// If the number of pixels does not match the picture's size.
 pub fn encoded(picture: &Picture, format: ImageFormat) -> Result<Vec<u8>, ImageError> {
     let (width, height) = (picture.width, picture.height);
     let image = if format == ImageFormat::OpenExr {
@@ -26,10 +26,10 @@ pub fn encoded(picture: &Picture, format: ImageFormat) -> Result<Vec<u8>, ImageE
     Ok(bytes.into_inner())
 }
 
-/// The bytes of a PNG file.
+/// Encodes a picture as a PNG file.
 ///
 /// # Errors
-/// Those of the encoder.
+/// Errors of the encoder.
 pub fn png(image: &RgbImage) -> Result<Vec<u8>, ImageError> {
     let mut bytes = Cursor::new(Vec::new());
     image.write_to(&mut bytes, ImageFormat::Png)?;

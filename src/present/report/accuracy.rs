@@ -1,4 +1,4 @@
-//! The trade of time for accuracy: text for people, JSON and CSV for programs.
+//! Reports of the accuracy study: text for people, JSON and CSV for programs.
 
 use super::table::plain_table;
 use crate::measure::accuracy::{Outcome, Trade};
@@ -6,7 +6,7 @@ use crate::present::number::significant;
 use serde_json::{Value, json};
 use std::io::{Result, Write};
 
-/// A trade with what it was taken of.
+/// An accuracy study with the name of its scene.
 pub struct TradeReport<'a> {
     pub scene: &'a str,
     pub trade: &'a Trade,
@@ -27,7 +27,7 @@ const TITLES: [&str; 12] = [
     "objects",
 ];
 
-/// Two tables: choices that move the picture, and those that move only its time.
+/// Writes two tables: choices that change the picture, and choices that change only its time.
 ///
 /// # Errors
 /// Those of `out`.
@@ -86,6 +86,8 @@ fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 12] {
     ]
 }
 
+/// Writes the study as one JSON document.
+///
 /// # Errors
 /// Those of `out`.
 pub fn write_json(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
@@ -117,7 +119,7 @@ pub fn write_json(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
     writeln!(out)
 }
 
-/// One line a choice.
+/// Writes one line per choice.
 ///
 /// # Errors
 /// Those of `out`.

@@ -1,4 +1,4 @@
-//! What a report says, in whatever form.
+//! The content of a report, independent of its format.
 
 use crate::geometry::Aabb;
 use crate::measure::Measurement;
@@ -25,7 +25,7 @@ pub struct SceneSummary {
     pub objects: usize,
     pub lights: usize,
     pub requirements: Requirements,
-    /// The load report: notes of the reader on the file.
+    /// Notes of the file reader.
     pub notes: Vec<Note>,
     /// The scene's own camera.
     pub camera: Camera,

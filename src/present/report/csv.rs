@@ -1,4 +1,4 @@
-//! CSV for spreadsheets and statistics: one line for every parameter of every run.
+//! CSV for spreadsheets and statistics: one line per parameter and run.
 
 use super::content::Report;
 use super::exact::exact_value;
@@ -62,7 +62,7 @@ fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
     csv.flush()
 }
 
-/// A value as a cell; empty where there is none.
+/// Returns a value as a cell; empty if there is none.
 fn text(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
@@ -70,7 +70,7 @@ fn text(value: &Value) -> String {
     }
 }
 
-/// The unit of [`exact_value`], which is not always the one that people read.
+/// Returns the unit of [`exact_value`], which is not always the unit in tables for people.
 const fn unit(unit: Unit) -> &'static str {
     match unit {
         Unit::Count => "count",

@@ -1,15 +1,15 @@
-//! Values for programs.
+//! Exact values for programs.
 
 use crate::measure::{Measurement, Parameter, Unit};
 use serde_json::Value;
 
-/// A parameter's value for machines, as [`exact`].
+/// Returns a parameter's value for programs, as [`exact`] does.
 pub fn exact_value(parameter: &Parameter, measurement: &Measurement) -> Value {
     exact(parameter.value(measurement), parameter.unit)
 }
 
-/// A value for machines: whole numbers for what is counted, fractions for shares; null where there is
-/// no value.
+/// Returns a value for programs: counts as integers, shares as fractions; null if there is no
+/// value.
 pub fn exact(value: Option<f64>, unit: Unit) -> Value {
     match (value, unit) {
         (None, _) => Value::Null,

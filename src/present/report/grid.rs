@@ -1,21 +1,21 @@
-//! A plain table of text in the forms for people: terminal, Markdown, LaTeX.
+//! A plain table of text that can be written for a terminal, as Markdown, or as LaTeX.
 
 use super::escape;
 use super::table::plain_table;
 use std::io::{Result, Write};
 
-/// A table: titles, and rows with as many cells.
+/// A table with titles. Every row has one cell per title.
 #[derive(Clone, Debug, Default)]
 pub struct Grid {
     pub title: String,
     pub header: Vec<String>,
     pub rows: Vec<Vec<String>>,
-    /// The first column set to the right.
+    /// Index of the first right-aligned column.
     pub first_number: usize,
 }
 
 impl Grid {
-    /// For a terminal.
+    /// Writes the table for a terminal.
     ///
     /// # Errors
     /// Those of `out`.
@@ -27,7 +27,7 @@ impl Grid {
         writeln!(out, "\n{}\n{}", self.title, table.trim_fmt())
     }
 
-    /// As Markdown.
+    /// Writes the table as Markdown.
     ///
     /// # Errors
     /// Those of `out`.
@@ -46,7 +46,7 @@ impl Grid {
             .try_for_each(|row| writeln!(out, "{}", line(row)))
     }
 
-    /// As a tabular environment of LaTeX.
+    /// Writes the table as a LaTeX tabular environment.
     ///
     /// # Errors
     /// Those of `out`.

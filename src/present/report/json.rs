@@ -37,7 +37,7 @@ fn scene(scene: &SceneSummary) -> Result<Value> {
         .collect::<Result<Map<_, _>>>()?;
     let mut requirements = serde_json::to_value(&scene.requirements)?;
     if let Some(fields) = requirements.as_object_mut() {
-        // They have a place of their own, by name.
+        // These have separate entries, by name.
         fields.shift_remove("primitives");
     }
     Ok(json!({
@@ -72,8 +72,8 @@ fn run(report: &Report, run: &Measurement) -> Value {
     })
 }
 
-/// Everything that was set, under the names of the command line's options with underscores, and what
-/// was used of it.
+/// Returns all settings and the values that were used. The names are those of the command-line
+/// options, with underscores.
 fn settings(report: &Report, run: &Measurement) -> Value {
     let setup = Setup {
         scene: report.scene.request.clone(),
@@ -110,7 +110,7 @@ fn settings(report: &Report, run: &Measurement) -> Value {
     Value::Object(settings)
 }
 
-/// The value of a setting; null for the scene's own.
+/// Returns the value of a setting; null if it is the scene's own.
 fn value(setting: &Setting, setup: &Setup) -> Value {
     use crate::setup::Value as Of;
     match setting.value(setup) {
@@ -131,7 +131,7 @@ fn value(setting: &Setting, setup: &Setup) -> Value {
     }
 }
 
-/// The name under which a plain enum is serialised.
+/// Returns the name under which a plain enum is serialized.
 fn name(value: &impl serde::Serialize) -> Result<String> {
     Ok(match serde_json::to_value(value)? {
         Value::String(name) => name,

@@ -1,4 +1,4 @@
-//! LaTeX tables for papers, in the manner of the paper's Table 5; no package is needed.
+//! LaTeX tables for papers, in the style of the paper's Table 5. They need no package.
 
 use super::content::Report;
 use super::sections::{Section, delta_and_lambda, rows, tables, value_titles};
@@ -59,7 +59,7 @@ fn write_section(section: &Section, report: &Report, out: &mut dyn Write) -> Res
     writeln!(out, "\\hline\n\\end{{tabular}}")
 }
 
-/// A symbol as a formula: `T_TT/T_TR` becomes `$T_{TT}/T_{TR}$`.
+/// Formats a symbol as a formula: `T_TT/T_TR` becomes `$T_{TT}/T_{TR}$`.
 fn symbol(symbol: &str) -> String {
     let parts: Vec<_> = symbol
         .split('/')
@@ -71,7 +71,7 @@ fn symbol(symbol: &str) -> String {
     format!("${}$", parts.join("/"))
 }
 
-/// A number, whose groups of digits must not come apart at the end of a line.
+/// Formats a number so that its groups of digits are never broken across lines.
 fn number(text: &str) -> String {
     escape::latex(text).replace(' ', "\\,")
 }

@@ -1,10 +1,10 @@
-//! The machine that figures come from, and when.
+//! The machine on which a report was made, and the time.
 
 use sysinfo::{CpuRefreshKind, MemoryRefreshKind, RefreshKind, System};
 use time::OffsetDateTime;
 use time::macros::format_description;
 
-/// What a report says of the machine; what is not known is a dash.
+/// The machine of a report. Unknown entries are a dash.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machine {
     pub processor: String,
@@ -12,12 +12,12 @@ pub struct Machine {
     /// Physical memory.
     pub memory: String,
     pub system: String,
-    /// Of this program, and what it was built for.
+    /// Version of this program, and its target platform.
     pub version: String,
 }
 
 impl Machine {
-    /// This one.
+    /// Returns the current machine.
     pub fn here() -> Self {
         let known = RefreshKind::nothing()
             .with_cpu(CpuRefreshKind::nothing())
@@ -56,7 +56,7 @@ impl Machine {
     }
 }
 
-/// Now, as a report has it: date and time in UTC.
+/// Returns the current date and time in UTC, as reports show it.
 pub fn now() -> String {
     let format = format_description!("[year]-[month]-[day] [hour]:[minute] UTC");
     let now = OffsetDateTime::now_utc();

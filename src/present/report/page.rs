@@ -1,4 +1,4 @@
-//! A report as one HTML file that refers to nothing outside: pictures, tables, settings, machine.
+//! A report as one self-contained HTML file: pictures, tables, settings, machine.
 
 use super::content::Report;
 use super::exact::exact_value;
@@ -10,20 +10,20 @@ use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::io::{Result, Write};
 
-/// Everything on the page.
+/// The content of the page.
 pub struct Page<'a> {
     pub report: &'a Report,
     pub figures: Vec<Figure>,
     pub machine: Machine,
-    /// When it was made ([`super::now`]).
+    /// Date and time of the report ([`super::now`]).
     pub date: String,
-    /// What the user wrote down; empty for nothing.
+    /// The user's notes; may be empty.
     pub notes: String,
     /// Commands that repeat the measurements, one per line.
     pub commands: Vec<String>,
 }
 
-/// A picture with what it shows.
+/// A picture with its caption.
 pub struct Figure {
     pub caption: String,
     /// The bytes of a PNG file.
@@ -158,7 +158,7 @@ fn table(section: &Section, report: &Report) -> Markup {
                             td { (row.unit()) }
                             @for (run, value) in report.runs.iter().zip(&row.values) {
                                 td.number {
-                                    // The exact value, as the JSON report has it.
+                                    // The exact value, as in the JSON report.
                                     data value=(exact_value(row.parameter, run)) { (value) }
                                 }
                             }

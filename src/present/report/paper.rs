@@ -43,12 +43,12 @@ pub static PAPER_WRITERS: &[Writer<[Reproduction]>] = &[
     },
 ];
 
-/// What the columns of Tables 5 and 6 are called.
+/// The titles of the columns of Tables 5 and 6.
 pub const COLUMNS: [&str; 3] = ["1", "2", "2/1"];
 
 const PAPER: &str = "V. Havran and J. Žára, Evaluation of BSP properties for ray-tracing";
 
-/// What the marks mean.
+/// Returns the explanation of the marks.
 fn legend() -> String {
     let marks = [Mark::Equal, Mark::SameDirection, Mark::Differs];
     let marks = marks.map(|mark| format!("{} {}", mark.sign(), mark.name()));
@@ -87,7 +87,7 @@ fn write_latex(results: &[Reproduction], out: &mut dyn Write) -> Result<()> {
         .try_for_each(|grid| grid.write_latex(out))
 }
 
-/// Table 4 of all scenes, then Table 5 or 6 scene by scene.
+/// Returns Table 4 of all scenes, then Table 5 or 6 of each scene.
 fn grids(results: &[Reproduction]) -> Vec<Grid> {
     let mut grids = vec![table_4(results)];
     grids.extend(results.iter().map(properties));
@@ -155,7 +155,7 @@ fn texts(cell: &Cell) -> [String; 3] {
     ]
 }
 
-/// What is to be known of scenes and cells, each thing once.
+/// Returns the notes about scenes and cells, each only once.
 fn remarks(results: &[Reproduction]) -> Vec<String> {
     let mut remarks = Vec::new();
     for result in results {
@@ -183,7 +183,7 @@ fn remarks(results: &[Reproduction]) -> Vec<String> {
     remarks
 }
 
-/// A note with the scenes and the cells that it is about.
+/// A note with its scenes and cells.
 #[derive(Debug, PartialEq)]
 struct Note {
     text: &'static str,
@@ -209,7 +209,7 @@ fn add_note(notes: &mut Vec<Note>, text: &'static str, scene: &'static str, cell
     }
 }
 
-/// Every cell with its symbol and the title of its column; none in Table 4.
+/// Returns every cell with its symbol and the title of its column. Cells of Table 4 have no title.
 fn cells(result: &Reproduction) -> Vec<(&'static str, Option<&'static str>, Cell)> {
     let characteristics = result.characteristics();
     let mut all: Vec<_> = characteristics

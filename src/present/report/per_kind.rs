@@ -19,8 +19,8 @@ fn kinds(report: &Report) -> impl Iterator<Item = RayKind> {
         .filter(move |kind| report.per_kind && has_rays(kind))
 }
 
-/// The values of a figure in all runs, and how the second relates to the first where there are
-/// exactly two runs.
+/// Returns the values of a figure in all runs. If there are exactly two runs, also returns the
+/// second relative to the first.
 fn values(
     report: &Report,
     figure: &RayFigure,
@@ -69,8 +69,8 @@ fn capitalised(word: &str) -> String {
     first.to_uppercase() + rest
 }
 
-/// By kind and figure, the values of all runs and the second relative to the first; `None` if they
-/// are not asked for.
+/// Returns, by kind and figure, the values of all runs and the second relative to the first. `None`
+/// if the report does not include them.
 pub fn json(report: &Report) -> Option<Value> {
     let of_kind = |kind| -> Map<String, Value> {
         let figures = ray_figures().iter().map(|figure| {
@@ -89,7 +89,7 @@ pub fn json(report: &Report) -> Option<Value> {
 pub struct Line {
     pub kind: RayKind,
     pub figure: &'static RayFigure,
-    /// Place of the run; `None` for the second relative to the first.
+    /// Index of the run; `None` for the second relative to the first.
     pub run: Option<usize>,
     pub value: Value,
 }

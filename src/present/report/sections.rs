@@ -1,4 +1,4 @@
-//! The tables of a report, as all writers for people show them.
+//! The tables of a report that all writers for people share.
 
 use super::content::Report;
 use crate::measure::{Class, DELTA, LAMBDA, Parameter, Table, change, parameter, parameters};
@@ -12,8 +12,8 @@ pub struct Section {
     pub parameters: Vec<&'static Parameter>,
 }
 
-/// One line of a table: a value for every run, and how the second relates to the first where there
-/// are exactly two.
+/// A row of a table: a value for every run. If there are exactly two runs, also the second relative
+/// to the first.
 pub struct Row {
     pub parameter: &'static Parameter,
     /// Without units; those are [`Row::unit`].
@@ -22,13 +22,13 @@ pub struct Row {
 }
 
 impl Row {
-    /// The unit of the values; empty for plain numbers.
+    /// Returns the unit of the values; empty for plain numbers.
     pub fn unit(&self) -> &'static str {
         self.parameter.unit.suffix().trim_start()
     }
 }
 
-/// Δ and Λ, as in the paper's Tables 5 and 6.
+/// Returns Δ and Λ, as in the paper's Tables 5 and 6.
 pub fn delta_and_lambda() -> [Section; 2] {
     let section = |title, symbols: &[&str]| Section {
         title,
@@ -40,7 +40,7 @@ pub fn delta_and_lambda() -> [Section; 2] {
     ]
 }
 
-/// All parameters by the paper's tables.
+/// Returns all parameters, grouped by the paper's tables.
 pub fn tables() -> [Section; 4] {
     [Table::Scene, Table::Static, Table::Dynamic, Table::Ours].map(|table| Section {
         title: table.title(),
@@ -48,7 +48,7 @@ pub fn tables() -> [Section; 4] {
     })
 }
 
-/// The lines of a table for these runs.
+/// Returns the rows of a table for these runs.
 pub fn rows(section: &Section, report: &Report) -> Vec<Row> {
     section
         .parameters
@@ -58,7 +58,7 @@ pub fn rows(section: &Section, report: &Report) -> Vec<Row> {
             Row {
                 parameter,
                 second_to_first: match values[..] {
-                    // What is given is the same for both.
+                    // Given parameters are the same for both.
                     [_, _] if parameter.class == Class::S => Some(String::new()),
                     [first, second] => {
                         let change = change(parameter.unit, first, second);
@@ -75,7 +75,7 @@ pub fn rows(section: &Section, report: &Report) -> Vec<Row> {
         .collect()
 }
 
-/// Titles of the columns of values: the methods, and `2/1` where there are exactly two.
+/// Returns the titles of the value columns: the methods, and `2/1` if there are exactly two.
 pub fn value_titles(report: &Report) -> Vec<String> {
     let mut titles: Vec<String> = report
         .runs

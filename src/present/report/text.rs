@@ -27,7 +27,7 @@ fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
     grids.try_for_each(|grid| grid.write_text(out))
 }
 
-/// The scene, Δ and Λ, and the times.
+/// Writes the scene, Δ and Λ, and the times.
 ///
 /// # Errors
 /// Those of `out`.

@@ -48,8 +48,8 @@ pub fn scene(report: &Report) -> Vec<String> {
     lines
 }
 
-/// The settings of picture and camera, what was used of them, and the settings of every tree, a
-/// sentence per line.
+/// Describes the settings of picture and camera, the values that were used, and the settings of
+/// every tree, one sentence per line.
 pub fn settings(report: &Report) -> Vec<String> {
     let mut lines = Vec::new();
     for (i, run) in report.runs.iter().enumerate() {
@@ -86,7 +86,7 @@ pub fn settings(report: &Report) -> Vec<String> {
     lines
 }
 
-/// The setup that a run answers.
+/// Returns the setup of a run.
 fn setup(report: &Report, run: &Measurement) -> Setup {
     Setup {
         scene: report.scene.request.clone(),
@@ -95,7 +95,7 @@ fn setup(report: &Report, run: &Measurement) -> Setup {
     }
 }
 
-/// A setting and its value, such as `D_AREC 4` or `512 × 512 pixels`.
+/// Returns a setting with its value, such as `D_AREC 4` or `512 × 512 pixels`.
 fn with_value(setting: &Setting, setup: &Setup) -> String {
     match setting.value(setup) {
         Value::Size([width, height]) => {
@@ -138,7 +138,7 @@ pub fn times(report: &Report) -> Vec<String> {
         .collect()
 }
 
-/// The settings that a tree was built with.
+/// Returns the settings that a tree was built with.
 fn tree(report: &Report, run: &Measurement) -> String {
     let setup = setup(report, run);
     let build = &run.build;
@@ -171,14 +171,14 @@ fn threads(count: usize) -> String {
     }
 }
 
-/// The point to about six digits of a length, without the noise of rounding behind them.
+/// Formats a point to about six digits relative to `size`, which hides the noise of rounding.
 fn rounded(p: Vec3, size: f64) -> Vec3 {
     if !(1e-100..1e100).contains(&size) {
         return p;
     }
     let decimals = 5 - size.log10().floor() as i32;
     let scale = 10f64.powi(decimals.abs());
-    // Adding zero makes -0 a 0.
+    // Adding zero turns −0 into 0.
     if decimals >= 0 {
         (p * scale).round() / scale + 0.0
     } else {

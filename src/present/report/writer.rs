@@ -1,13 +1,13 @@
-//! What a form of report declares.
+//! The declaration of a report format.
 
 use super::content::Report;
 use std::io::Write;
 
-/// A form that a report can be written in.
+/// A format in which a report can be written.
 pub struct Writer<R: ?Sized = Report> {
     /// Name on the command line.
     pub name: &'static str,
-    /// One phrase: what it is good for.
+    /// A short phrase: what the format is good for.
     pub about: &'static str,
     /// File name extension, lower case, without the dot.
     pub extension: &'static str,

@@ -1,5 +1,5 @@
-//! A pixel's record for programs. Lengths are in scene units; null where a ray has no end, no hit
-//! or no parent, and where it runs along a plane.
+//! The record of a pixel for programs. Lengths are in scene units. A value is null if a ray has no
+//! end, no hit or no parent, or if it runs along a plane.
 
 use super::report::PixelReport;
 use crate::trace::{PixelRecord, RayKind, RecordedRay, Tally, srgb8};
@@ -62,7 +62,7 @@ fn ray(ray: &RecordedRay) -> Value {
         "weight": ray.weight,
         "origin": path.ray.origin,
         "direction": path.ray.direction,
-        // Infinite for a ray without an end, which JSON has no number for.
+        // Infinite for a ray without an end. JSON has no number for that.
         "t_max": path.ray.t_max,
         "hit": hit,
         "counts": path.counts(),

@@ -1,10 +1,10 @@
-//! What a pixel report holds.
+//! The content of a pixel report.
 
 use crate::scene::Scene;
 use crate::structure::Method;
 use crate::trace::{PixelRecord, RenderSettings};
 
-/// What the rays of one pixel did in the trees of one or more methods.
+/// Records of the rays of one pixel, in the trees of one or more methods.
 pub struct PixelReport<'a> {
     pub scene: &'a Scene,
     pub render: RenderSettings,

@@ -1,4 +1,4 @@
-//! A pixel's record for people: an outline with one line per node that a ray visits.
+//! The record of a pixel for people: an outline with one line per node that a ray visits.
 
 use super::report::PixelReport;
 use crate::geometry::Vec3;
@@ -56,7 +56,7 @@ fn write_record(scene: &Scene, record: &PixelRecord, out: &mut dyn Write) -> Res
     Ok(())
 }
 
-/// What the rays of each kind did, and all together.
+/// Writes the totals of the rays of each kind, and of all rays.
 fn write_totals(record: &PixelRecord, out: &mut dyn Write) -> Result<()> {
     let titles = [
         "rays",
@@ -92,7 +92,7 @@ fn write_totals(record: &PixelRecord, out: &mut dyn Write) -> Result<()> {
 
 fn write_ray(scene: &Scene, number: usize, ray: &RecordedRay, out: &mut dyn Write) -> Result<()> {
     let path = &ray.path;
-    // A shadow ray has its parent's depth, and stands below it.
+    // A shadow ray has the same depth as its parent but is indented below it.
     let depth = ray.depth as usize + usize::from(path.kind == RayKind::Shadow);
     let indent = "    ".repeat(depth);
     let parent = ray.parent.map_or(String::new(), |parent| {
@@ -214,10 +214,10 @@ fn vector(v: Vec3) -> String {
     )
 }
 
-/// A number with six significant digits, without zeros at its end.
+/// Formats a number with six significant digits, without trailing zeros.
 fn number_of(value: f64) -> String {
     let size = value.abs();
-    // Adding zero makes −0 a 0.
+    // Adding zero turns −0 into 0.
     if value == 0.0 || !value.is_finite() {
         return format!("{}", value + 0.0);
     }
