@@ -81,13 +81,15 @@ fn workspace(args: &WindowArgs) -> Result<Option<(PathBuf, Workspace)>> {
 fn open(args: &WindowArgs, workspace: Option<(PathBuf, Workspace)>) -> Result<Option<String>> {
     use crate::gui::{GuiError, StartOptions};
 
-    let mut start = StartOptions::default();
-    // The window shows one method at a time.
-    start.setup = args.settings.setup(scene_text(args))?;
-    start.last_session = args.scene.is_none() && args.lesson.is_none() && args.settings.is_empty();
-    start.workspace = workspace;
     let lesson = args.lesson.as_deref().map(crate::lesson::Lesson::open);
-    start.lesson = lesson.transpose()?;
+    let start = StartOptions {
+        // The window shows one method at a time.
+        setup: args.settings.setup(scene_text(args))?,
+        last_session: args.scene.is_none() && args.lesson.is_none() && args.settings.is_empty(),
+        workspace,
+        lesson: lesson.transpose()?,
+        ..StartOptions::default()
+    };
     match crate::gui::run(start) {
         Ok(()) => Ok(None),
         Err(GuiError::NoDisplay(why)) => Ok(Some(format!("no display ({why})"))),

@@ -43,12 +43,9 @@ pub fn rows(
 /// What a setting does, which values it takes, and what it is on the command line.
 pub fn about(setting: &Setting, setup: &Setup) -> String {
     let mut text = format!("{}.", setting.about);
-    let constants = setup.build.method.info().constants.iter();
-    let source = constants
-        .filter(|c| c.name == setting.name)
-        .map(|c| c.source);
-    if let Some(source) = source.last() {
-        text += &format!("\nSource: {source}");
+    let mut constants = setup.build.method.info().constants.iter();
+    if let Some(constant) = constants.find(|c| c.name == setting.name) {
+        text += &format!("\nSource: {}", constant.source);
     }
     let default = setting.default(setup);
     text += &format!("\nValue: {}; default {default}.", setting.expected());

@@ -166,7 +166,7 @@ impl State {
                     && (timed || other.place == Place::Waiting { timed: true });
                 let goes_first =
                     other.priority > job.priority || (other.priority == job.priority && is_before);
-                !disturbs && !(other.counts() && goes_first)
+                !(disturbs || other.counts() && goes_first)
             })
     }
 

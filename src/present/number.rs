@@ -89,6 +89,12 @@ pub fn significant(value: f64) -> String {
     }
 }
 
+/// Returns a count with its noun, such as `1 sample` or `4 samples`.
+pub fn counted(count: usize, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{plural}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

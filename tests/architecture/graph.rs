@@ -65,16 +65,15 @@ impl Graph {
     pub fn cycles(&self) -> Vec<Vec<usize>> {
         let n = self.files.len();
         let reached: Vec<Vec<bool>> = (0..n).map(|file| self.reached_from(file)).collect();
-        let mut cycles: Vec<Vec<usize>> = Vec::new();
-        for file in 0..n {
-            let cycle: Vec<usize> = (0..n)
-                .filter(|&other| reached[file][other] && reached[other][file])
-                .collect();
-            if cycle.first() == Some(&file) {
-                cycles.push(cycle);
-            }
-        }
-        cycles
+        let is_in_cycle = |a: usize, b: usize| reached[a][b] && reached[b][a];
+        let cycle_of = |file: usize| -> Vec<usize> {
+            (0..n).filter(|&other| is_in_cycle(file, other)).collect()
+        };
+        (0..n)
+            .map(|file| (file, cycle_of(file)))
+            .filter(|(file, cycle)| cycle.first() == Some(file))
+            .map(|(_, cycle)| cycle)
+            .collect()
     }
 
     fn reached_from(&self, file: usize) -> Vec<bool> {

@@ -2,7 +2,7 @@
 
 use super::table::plain_table;
 use crate::measure::accuracy::{Outcome, Trade};
-use crate::present::number::significant;
+use crate::present::number::{counted, significant};
 use serde_json::{Value, json};
 use std::io::{Result, Write};
 
@@ -38,17 +38,17 @@ pub fn write_text(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
         let render = &setup.render;
         writeln!(
             out,
-            "Scene {}. Reference: f64, exact shapes, D_AREC {}, {} samples a pixel, {} × {} pixels, \
-             {}: {} s of CPU time,\nthe median of {} interleaved rounds. Times are ratios to it. \
-             Errors are on linear light from 0 to 1.",
+            "Scene {}. Reference: f64, exact shapes, D_AREC {}, {} per pixel, {} × {} pixels, {}: \
+             {} s of CPU time,\nthe median of {}. Times are ratios to it. Errors are on linear light \
+             from 0 to 1.",
             report.scene,
             render.d_arec,
-            render.samples,
+            counted(render.samples as usize, "sample"),
             render.width,
             render.height,
             setup.build.method.name,
             significant(first.median()),
-            first.seconds.len()
+            counted(first.seconds.len(), "interleaved round")
         )?;
     }
     let rows = || trade.outcomes.iter().zip(trade.front()).enumerate();

@@ -92,7 +92,7 @@ fn settings(report: &Report, run: &Measurement) -> Value {
     }
     settings.insert("depth_limit".into(), json!(run.depth_limit));
     let overlap = run.build.method.overlap_text(run.build.overlap);
-    settings.insert("overlap_text".into(), json!(overlap));
+    settings.insert("overlap_in_words".into(), json!(overlap));
     settings.insert("constants".into(), Value::Object(constants));
     let precision = json!({
         "asked": settings["precision"],

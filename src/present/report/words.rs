@@ -127,7 +127,7 @@ pub fn times(report: &Report) -> Vec<String> {
             );
             if let Some(rendering) = run.rendering {
                 line += &format!(
-                    "; picture traced in {:.1?} ({:.1?} CPU) on {}",
+                    "; picture rendered in {:.1?} ({:.1?} CPU) on {}",
                     rendering.wall,
                     rendering.cpu,
                     threads(rendering.threads)
