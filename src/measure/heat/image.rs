@@ -7,7 +7,7 @@ pub struct HeatImage {
     pub height: u32,
     /// Row by row; NaN if a pixel has no value. Values above 2²⁴ are rounded.
     pub values: Vec<f32>,
-    /// The smallest difference that matters ([`Heatmap::grain`]).
+    /// The smallest difference that matters ([`Heatmap::grain`](super::Heatmap::grain)).
     pub grain: f64,
 }
 
