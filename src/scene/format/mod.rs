@@ -6,7 +6,7 @@
 //!   lines, byte-order marks, whole numbers written as decimals, `-1.#IND` for what is not a
 //!   number.
 //! - **What was changed or ignored is reported,** with its count and its first place: the load
-//!   report consists of the scene's [`Note`]s.
+//!   report consists of the scene's [`Note`](crate::scene::Note)s.
 //! - **Only what would give wrong geometry is refused,** with file, line and reason: a coordinate
 //!   that is not a finite number, the index of a vertex that does not exist, missing data,
 //!   compressed meshes. A bad normal, texture coordinate, color, material, light or camera never
