@@ -307,7 +307,9 @@ fn random_sequences_of_requests_come_to_rest_with_the_last_ones_answered() {
     let [units, timed, interrupted] =
         [&totals.all_units, &totals.all_timed, &totals.interrupted].map(|n| n.load(SeqCst));
     println!("{units} units, {timed} timed, {interrupted} interrupted");
-    assert!(units > 20_000 && timed > 5_000 && interrupted > 1_000);
+    assert!(units > 20_000 && timed > 5_000);
+    // How many depends on the load of the machine.
+    assert!(interrupted > 0);
 }
 
 fn wait_until(done: impl Fn() -> bool) {
