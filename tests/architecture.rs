@@ -1,7 +1,9 @@
-//! The layers of DESIGN.md, as the table in `src/lib.rs` lists them: a folder imports only from those
+//! The layers, as the table in `src/lib.rs` lists them: a folder imports only from those
 //! above it, and no files under `src` import each other in a cycle.
 
+#[path = "architecture/graph.rs"]
 mod graph;
+#[path = "architecture/source.rs"]
 mod source;
 
 use graph::{Graph, Import};
