@@ -164,7 +164,7 @@ impl App {
             Action::NextMethod => {
                 let all: Vec<Method> = Method::all().collect();
                 let at = all.iter().position(|m| *m == build.method).unwrap_or(0);
-                top_bar::choose_method(build, all[(at + 1) % all.len()]);
+                build.set_method(all[(at + 1) % all.len()]);
             }
             Action::Deeper | Action::Shallower => {
                 let step = if action == Action::Deeper { 1 } else { -1 };
@@ -254,7 +254,7 @@ impl App {
                 shortcuts::choose(ctx, action);
             }
             Command::Method(method) => {
-                top_bar::choose_method(&mut self.state.wanted.build, method);
+                self.state.wanted.build.set_method(method);
             }
             Command::Open(source) => self.files.open(source, ctx, &mut self.state),
             Command::Heatmap(heatmap) => {

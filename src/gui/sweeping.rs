@@ -146,14 +146,11 @@ impl State {
     }
 }
 
-/// What a method is swept with: what is set of the method on view, else the paper's; rules that all
-/// methods share as on view.
+/// Returns the setup that a method is swept with: the one on view, with the default constants of the
+/// method if that is another one.
 fn base(method: Method, on_view: &Setup) -> Setup {
     let mut setup = on_view.clone();
-    if method != on_view.build.method {
-        setup.build.method = method;
-        setup.build.constants.clear();
-    }
+    setup.build.set_method(method);
     setup
 }
 

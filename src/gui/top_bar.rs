@@ -5,7 +5,7 @@ use super::files::Files;
 use super::shortcuts::{Action, choose, text, tip};
 use super::state::{State, Work};
 use crate::measure::parameter;
-use crate::structure::{BuildSettings, MaxDepth, Method};
+use crate::structure::{MaxDepth, Method};
 
 /// The most that the window lets secondary rays recurse.
 pub const MOST_RECURSION: u32 = 50;
@@ -125,7 +125,7 @@ fn method(ui: &mut egui::Ui, state: &mut State) {
                 let item = ui.selectable_label(other == method, other.title);
                 let item = item.on_hover_text(format!("{}\nSource: {}", other.about, other.source));
                 if item.clicked() {
-                    choose_method(&mut state.wanted.build, other);
+                    state.wanted.build.set_method(other);
                 }
             }
         })
@@ -135,14 +135,6 @@ fn method(ui: &mut egui::Ui, state: &mut State) {
             &format!("{}\n{}", method.title, method.about),
             Action::NextMethod,
         ));
-}
-
-/// Another method, everything but its own constants as before.
-pub fn choose_method(build: &mut BuildSettings, method: Method) {
-    if build.method != method {
-        build.method = method;
-        build.constants.clear();
-    }
 }
 
 fn d_max(ui: &mut egui::Ui, state: &mut State) {

@@ -39,10 +39,7 @@ pub static SETTINGS: &[Setting] = &[
         get: |_, setup| Value::Choice(setup.build.method.name),
         set: |_, setup, value| {
             let method = named(Method::all(), |m| m.name, value);
-            if setup.build.method != method {
-                setup.build.method = method;
-                setup.build.constants.clear();
-            }
+            setup.build.set_method(method);
         },
     },
     Setting {

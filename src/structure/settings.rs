@@ -260,6 +260,15 @@ impl BuildSettings {
         }
     }
 
+    /// Changes the method. The constants of another method return to their defaults; everything else
+    /// stays.
+    pub fn set_method(&mut self, method: Method) {
+        if self.method != method {
+            self.method = method;
+            self.constants.clear();
+        }
+    }
+
     /// Returns the value of a constant of the method: as set, or its default.
     ///
     /// # Panics
