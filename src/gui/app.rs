@@ -55,6 +55,7 @@ struct Panes {
 impl App {
     /// Makes the window's contents and asks for the first scene.
     pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Self {
+        super::theme::install(&cc.egui_ctx);
         let recent = Recent::kept(KeptFile::new(&start, "recent.json"));
         let mut notices = Notices::default();
         let jobs = tasks::scheduler(&cc.egui_ctx);

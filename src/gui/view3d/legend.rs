@@ -43,10 +43,7 @@ pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) -> bool {
     /// Around the contents.
     const MARGIN: f32 = 6.0;
     // The ground is dark in both themes, and so is the legend.
-    let visuals = egui::Visuals {
-        override_text_color: Some(Color32::from_gray(225)),
-        ..egui::Visuals::dark()
-    };
+    let visuals = ui.ctx().style_of(egui::Theme::Dark).visuals.clone();
     // Its height is known once it was laid out: the last frame's tells where it begins.
     let id = ui.scope_id().with("legend height");
     let height = ui.data(|data| data.get_temp::<f32>(id)).unwrap_or(100.0);
@@ -181,11 +178,11 @@ fn lines(legend: &Legend<'_>, boxes: Option<&LeafBoxes>, roomy: bool, ui: &mut e
 /// The colours from the lowest to the highest value, with numbers.
 pub fn color_bar(coloring: &Coloring, range: [f64; 2], ui: &mut egui::Ui) {
     let bar = BAR.min(ui.available_width() - 24.0);
-    let (rect, _) = ui.allocate_exact_size(vec2(bar + 24.0, 28.0), egui::Sense::hover());
+    let (rect, _) = ui.allocate_exact_size(vec2(bar + 24.0, 32.0), egui::Sense::hover());
     let painter = ui.painter();
     let left = rect.left() + 6.0;
     let text = ui.visuals().text_color();
-    let font = egui::FontId::proportional(11.0);
+    let font = egui::FontId::proportional(12.0);
     let color = |place: f64| {
         let [r, g, b] = coloring.color_at(place);
         Color32::from_rgb(r, g, b)
