@@ -34,6 +34,8 @@ fn spacing() -> Spacing {
         icon_width: 16.0,
         icon_width_inner: 10.0,
         icon_spacing: 8.0,
+        // All build methods without scrolling.
+        combo_height: 480.0,
         ..Spacing::default()
     }
 }
@@ -80,7 +82,7 @@ fn widgets(t: &Tokens) -> Widgets {
     let border = Stroke::new(1.0, t.border);
     Widgets {
         noninteractive: widget(t.panel, Stroke::new(1.0, t.divider), t.label),
-        inactive: widget(t.control, Stroke::new(1.0, t.divider), t.text),
+        inactive: widget(t.control, border, t.text),
         hovered: widget(t.hover, border, t.text),
         // Pressed, or with the focus.
         active: widget(t.hover, Stroke::new(2.0, t.border), t.text),

@@ -8,6 +8,7 @@ use crate::gui::inspect::TreeKey;
 use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::{Current, State};
 use crate::gui::symbol::grouped;
+use crate::gui::theme;
 use crate::gui::visits;
 use crate::jobs::PictureVisits;
 use crate::structure::{NodeKind, Tree, TreeIndex};
@@ -28,29 +29,29 @@ pub struct Outline {
 const COLUMNS: [(&str, [f32; 2], &str); 9] = [
     (
         "node",
-        [100.0, 164.0],
+        [86.0, 164.0],
         "Index of the node in the tree's array; 0 is the root",
     ),
     ("depth", [38.0, 42.0], "Levels below the root"),
     (
         "plane, or why a leaf",
-        [92.0, 164.0],
+        [76.0, 164.0],
         "Axis and place of the split plane, in units of length; or why the cell was not split",
     ),
     (
         "objects",
-        [48.0, 54.0],
+        [46.0, 54.0],
         "Objects in the cell, each counted once",
     ),
-    ("refs", [52.0, 66.0], "References of all leaves below"),
+    ("refs", [50.0, 66.0], "References of all leaves below"),
     (
         "area",
-        [58.0, 58.0],
+        [56.0, 58.0],
         "Surface area of the cell, in percent of the root's",
     ),
     (
         "tests",
-        [44.0, 54.0],
+        [42.0, 54.0],
         "Expected cost: intersection tests of a ray through the cell if nothing stops it \
          (MacDonald and Booth 1990)",
     ),
@@ -273,6 +274,7 @@ impl Table<'_> {
             .auto_shrink(false)
             .show(ui, |ui| {
                 ui.spacing_mut().item_spacing.x = 6.0;
+                ui.style_mut().override_text_style = Some(theme::named(theme::HINT));
                 ui.set_min_width(width);
                 let mut builder = TableBuilder::new(ui)
                     .striped(true)
