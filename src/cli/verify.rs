@@ -5,6 +5,7 @@ use super::outcome::Outcome;
 use super::{bar, output, resolve};
 use crate::measure::judge::{Answer, Case, Verdict};
 use crate::measure::{Answers, RaySample, Verification, answer, compare, sample_rays, unsplit};
+use crate::present::number::{counted, grouped};
 use crate::present::report::plain_table;
 use crate::primitive::Precision;
 use crate::scene::Scene;
@@ -137,7 +138,7 @@ fn replay(file: &Path) -> Result<Outcome> {
     let mut lines = vec![
         format!(
             "{}, {method}: the {} ray from {} along {}",
-            objects(case.scene.objects().len()),
+            counted(case.scene.objects().len(), "object"),
             case.kind.name(),
             ray.origin,
             ray.direction
@@ -164,13 +165,6 @@ fn replay(file: &Path) -> Result<Outcome> {
         lines.iter().try_for_each(|line| writeln!(out, "{line}"))
     })?;
     Ok(outcome)
-}
-
-fn objects(count: usize) -> String {
-    match count {
-        1 => "1 object".to_owned(),
-        n => format!("{n} objects"),
-    }
 }
 
 fn both(expected: Answer, found: Answer) -> String {
@@ -249,9 +243,9 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
                     "invalid".into()
                 },
                 kind.name().to_owned(),
-                finding.rays.rays[k].to_string(),
-                finding.rays.others[k].ties.to_string(),
-                finding.rays.others[k].faults.to_string(),
+                grouped(finding.rays.rays[k] as f64),
+                grouped(finding.rays.others[k].ties as f64),
+                grouped(finding.rays.others[k].faults as f64),
             ]);
         }
     }

@@ -52,13 +52,5 @@ fn with_numbers(formula: &str, measurement: &Measurement) -> String {
 
 /// A whole number in groups of three digits.
 pub fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let mut out = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            out.push(' ');
-        }
-        out.push(digit);
-    }
-    out
+    crate::present::number::grouped(number as f64)
 }

@@ -1,7 +1,6 @@
-//! Formats numbers for people: values with units, groups of digits, changes.
-//!
-//! The types are those of [`crate::measure`], which holds numbers only.
+//! Numbers in the form of the paper's tables, for reports and exports.
 
+use super::digits::{SPACE, grouped};
 use crate::measure::{Change, Parameter, Unit};
 use std::fmt;
 
@@ -17,10 +16,11 @@ impl Unit {
         }
     }
 
-    /// Formats a value without its unit.
+    /// Formats a value without its unit, which is [`Unit::suffix`].
     pub fn number(self, value: f64) -> String {
         match self {
-            Unit::Count | Unit::Bytes => grouped(value),
+            // Plain spaces, so that a search in a report finds the number.
+            Unit::Count | Unit::Bytes => grouped(value).replace(SPACE, " "),
             Unit::Percent => significant(value * 100.0),
             Unit::Ratio | Unit::Volume | Unit::Seconds => significant(value),
         }
@@ -28,15 +28,7 @@ impl Unit {
 }
 
 impl Parameter {
-    /// Formats a value with its unit; `–` if there is no value.
-    pub fn format(&self, value: Option<f64>) -> String {
-        match value {
-            None => "–".into(),
-            Some(value) => format!("{}{}", self.number(value), self.unit.suffix()),
-        }
-    }
-
-    /// Formats a value without its unit.
+    /// Formats a value without its unit, for reports.
     pub fn number(&self, value: f64) -> String {
         self.unit.number(value)
     }
@@ -63,19 +55,6 @@ impl fmt::Display for Change {
     }
 }
 
-/// Formats a whole number in groups of three digits.
-pub fn grouped(value: f64) -> String {
-    let digits = format!("{value:.0}");
-    let mut out = String::new();
-    for (i, c) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) && out != "-" {
-            out.push(' ');
-        }
-        out.push(c);
-    }
-    out
-}
-
 /// Formats a number with at least four significant digits.
 pub fn significant(value: f64) -> String {
     let size = value.abs();
@@ -89,21 +68,16 @@ pub fn significant(value: f64) -> String {
     }
 }
 
-/// Returns a count with its noun, such as `1 sample` or `4 samples`.
-pub fn counted(count: usize, noun: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {noun}{plural}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::measure::{change, parameter};
 
     #[test]
-    fn numbers_are_written_for_people() {
-        assert_eq!(grouped(2127616.0), "2 127 616");
-        assert_eq!(grouped(12.0), "12");
+    fn reports_have_plain_numbers() {
+        assert_eq!(Unit::Count.number(2127616.0), "2 127 616");
+        assert_eq!(Unit::Bytes.number(12.0), "12");
+        assert_eq!(Unit::Percent.number(0.2507), "25.07");
         assert_eq!(significant(0.5), "0.5000");
         assert_eq!(significant(34.567), "34.57");
         assert_eq!(significant(12345.6), "12346");
