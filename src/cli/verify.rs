@@ -5,7 +5,7 @@ use super::outcome::Outcome;
 use super::{bar, output, resolve};
 use crate::measure::judge::{Answer, Case, Verdict};
 use crate::measure::{Answers, RaySample, Verification, answer, compare, sample_rays, unsplit};
-use crate::present::number::{counted, grouped};
+use crate::present::number::counted;
 use crate::present::report::plain_table;
 use crate::primitive::Precision;
 use crate::scene::Scene;
@@ -243,9 +243,9 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
                     "invalid".into()
                 },
                 kind.name().to_owned(),
-                grouped(finding.rays.rays[k] as f64),
-                grouped(finding.rays.others[k].ties as f64),
-                grouped(finding.rays.others[k].faults as f64),
+                finding.rays.rays[k].to_string(),
+                finding.rays.others[k].ties.to_string(),
+                finding.rays.others[k].faults.to_string(),
             ]);
         }
     }
