@@ -164,10 +164,10 @@ impl Current {
             .map_or_else(Selection::default, |before| before.selection);
         Current {
             number,
+            sample: shown.sample,
             shown,
             complete: false,
             done: false,
-            sample: 0,
             fresh: Fresh::All,
             wish,
             picked: None,
