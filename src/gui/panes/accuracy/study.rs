@@ -3,7 +3,7 @@
 use crate::gui::document::Document;
 use crate::gui::document::study::Study;
 use crate::jobs::{Measured, StudyAccuracy};
-use crate::measure::accuracy::Trade;
+use crate::measure::accuracy::AccuracyStudy;
 use crate::setup::Setup;
 use crate::trace::RenderSettings;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ pub struct Found {
     /// What was on view when the trade began.
     pub of: Setup,
     /// The outcomes so far, in the order of the choices.
-    pub trade: Trade,
+    pub trade: AccuracyStudy,
     /// By outcome, the error of every pixel of the reference, row by row; none where they would take
     /// too much memory.
     pub pixel_errors: Vec<Arc<Vec<f32>>>,
@@ -107,7 +107,7 @@ impl Trading {
         let found = Found {
             number: self.begun,
             of: of.clone(),
-            trade: Trade {
+            trade: AccuracyStudy {
                 outcomes: Vec::new(),
             },
             pixel_errors: Vec::new(),
@@ -118,6 +118,7 @@ impl Trading {
             scene: Arc::clone(&shown.scene),
             setup: of,
             rounds: self.rounds,
+            only: Vec::new(),
         });
         self.study.follow(handle, found);
     }

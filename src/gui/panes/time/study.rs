@@ -5,13 +5,16 @@
 use crate::gui::document::study::Study;
 use crate::gui::document::{Current, Document};
 use crate::jobs::{FitTimeModel, Timed};
-use crate::measure::model::{Fit, InPlace, Observation, TermTimes, parted, trees};
+use crate::measure::model::{Equation, Fit, InPlace, Observation, TermTimes, parted, trees};
 use crate::scene::Scene;
 use crate::trace::RenderSettings;
 use std::sync::Arc;
 
 /// Pictures are traced for the model with at most so many pixels.
 const MOST_PIXELS: f64 = 128.0 * 128.0;
+
+/// How often each tree is timed.
+const ROUNDS: u32 = 3;
 
 /// The measurement of the time model.
 #[derive(Default)]
@@ -99,8 +102,10 @@ impl Modelling {
         let handle = doc.jobs.start(FitTimeModel {
             scene,
             render,
-            build,
             builds,
+            rounds: ROUNDS,
+            equation: Equation::Corrected,
+            in_place: Some(build),
         });
         self.study.follow(handle, found);
     }
