@@ -45,10 +45,10 @@ impl Current {
             .map_or_else(Selection::default, |before| before.selection);
         Current {
             number,
+            sample: shown.sample,
             shown,
             complete: false,
             done: false,
-            sample: 0,
             fresh: Fresh::All,
             wish,
             picked: None,
