@@ -1,6 +1,7 @@
 //! Puts the window together: bars, panes of the current task, messages, and the order of a frame.
 
 use super::actions::ACTIONS;
+use super::clipboard::Clipboard;
 use super::exporting::Exports;
 use super::files::Files;
 use super::first_hint::{Chosen, FirstHint};
@@ -10,6 +11,7 @@ use super::palette::{Command, Palette};
 use super::recent::Recent;
 use super::status::StatusLine;
 use super::tasks::{Task, TaskId, task};
+use super::title::Title;
 use super::workspaces::Workspaces;
 use super::{help, keys, top_bar};
 use crate::gui::StartOptions;
@@ -47,6 +49,12 @@ pub struct App {
     palette: Palette,
     exports: Exports,
     first_hint: FirstHint,
+    clipboard: Clipboard,
+    title: Title,
+    /// The largest window that the graphics adapter can draw, in pixels on a side; 0 before it is known.
+    largest: usize,
+    /// When the work in progress began, in seconds.
+    working_since: Option<f64>,
     /// What panes and menus asked for in this frame.
     requests: Vec<Request>,
 }
@@ -93,6 +101,10 @@ impl App {
             palette: Palette::default(),
             exports: Exports::default(),
             first_hint: FirstHint::new(&start),
+            clipboard: Clipboard::default(),
+            title: Title::default(),
+            largest: 0,
+            working_since: None,
             requests: Vec::new(),
         };
         app.doc.notices = notices;
@@ -191,8 +203,7 @@ impl App {
 
     pub(super) fn copy_command(&mut self, ctx: &egui::Context) {
         let command = measure_command(&self.doc.wanted);
-        self.doc.notices.say(format!("Copied: {command}"));
-        ctx.copy_text(command);
+        self.clipboard.copy(command, ctx);
     }
 
     /// Ends what is in the way, one at a time: a message, a maximized pane, the presentation, the work in
@@ -265,7 +276,7 @@ impl App {
                 Request::Run(id) => self.run(id, ctx),
                 Request::Open(source) => self.files.open(source, ctx, &mut self.doc),
                 Request::Export(export) => self.exports.ask(*export, &mut self.doc),
-                Request::Copy(text) => ctx.copy_text(text),
+                Request::Copy(text) => self.clipboard.copy(text, ctx),
             }
             ctx.request_repaint();
         }
@@ -423,6 +434,17 @@ impl App {
         }
     }
 
+    /// Keeps the window within what the graphics adapter can draw: a larger one could not be shown.
+    fn limit_size(&mut self, ctx: &egui::Context) {
+        let largest = ctx.input(|i| i.max_texture_side);
+        if largest != self.largest {
+            self.largest = largest;
+            let side = largest as f32 / ctx.pixels_per_point();
+            let size = egui::vec2(side, side);
+            ctx.send_viewport_cmd(egui::ViewportCommand::MaxInnerSize(size));
+        }
+    }
+
     /// Takes note of theme and size, and keeps the layout if it is another; a drag counts when it
     /// is over.
     fn keep_layout(&mut self, ctx: &egui::Context) {
@@ -518,6 +540,10 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
         keys::note_focus(&ctx);
+        self.clipboard.follow(&ctx, &mut self.doc.notices);
+        self.limit_size(&ctx);
+        let is_unsaved = self.files.workspaces.is_changed(&self.doc.all_wanted());
+        self.title.follow(&self.doc, is_unsaved, &ctx);
         if let Some(current) = &self.doc.current {
             self.doc.inspect.follow(current);
         }

@@ -3,6 +3,7 @@
 
 mod actions;
 mod app;
+mod clipboard;
 mod exporting;
 mod files;
 mod first_hint;
@@ -15,12 +16,14 @@ mod recent;
 mod save_as;
 mod status;
 mod tasks;
+mod title;
 mod top_bar;
 mod workspaces;
 
 pub use app::App;
 pub use kept::KeptFile;
 pub use layout::{LAYOUT_FILE, LEAST_SIZE, Layout};
+pub use title::PROGRAM;
 
 use help::Section;
 
