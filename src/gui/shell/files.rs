@@ -3,8 +3,8 @@
 use super::recent::Recent;
 use super::workspaces::Workspaces;
 use crate::gui::action::tip;
-use crate::gui::document::{Document, Failure};
 use crate::gui::document::tasks::{Task, dialog, take};
+use crate::gui::document::{Document, Failure};
 use crate::scene::SceneSource;
 use crate::scene::builtin::BUILTINS;
 use crate::scene::format::{FORMATS, names};
