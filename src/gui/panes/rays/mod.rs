@@ -4,6 +4,7 @@ mod pixel;
 
 use crate::gui::action::shortcut;
 use crate::gui::document::Document;
+use crate::gui::edits::Edits;
 use crate::gui::pane::{Cx, Pane};
 use crate::gui::widgets::rows::{Column, List, Row, chip};
 use crate::gui::widgets::step_text;
@@ -13,6 +14,12 @@ use crate::present::overlay::ray_style;
 use crate::scene::Scene;
 use crate::trace::{RayKind, RecordedRay, Tally};
 use egui::{Rect, pos2, vec2};
+
+/// With less room, in points, nothing is shown.
+const LEAST_HEIGHT: f32 = 140.0;
+
+/// The height of a row in points.
+const ROW: f32 = 21.0;
 
 const COLUMNS: &[Column] = &[
     Column {
@@ -42,7 +49,7 @@ const COLUMNS: &[Column] = &[
     },
     Column {
         title: "weight",
-        about: "What its radiance counts for in the pixel's colour; for a shadow ray what the light \
+        about: "Its share of the pixel's color; for a shadow ray what the light \
                 adds if it is reached: the largest of red, green and blue",
         width: 40.0,
     },
@@ -100,26 +107,29 @@ impl Pane for RaysPane {
     const ABOUT: &'static str = "The picked pixel, its rays and what they did.";
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        pixel::show(ui, cx.doc);
+        let doc: &Document = cx.doc;
+        // Below the picture there may be no room; *Steps of the ray* has a list of the rays, too.
+        if ui.clip_rect().bottom() - ui.cursor().top() < LEAST_HEIGHT {
+            return;
+        }
+        pixel::show(ui, doc);
         ui.add_space(8.0);
-        show(ui, cx.doc);
+        show(ui, doc, cx.edits);
     }
 }
 
-fn show(ui: &mut egui::Ui, doc: &mut Document) {
-    let Some(current) = &mut doc.current else {
-        ui.weak("No picture yet");
+fn show(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
+    let Some(current) = &doc.current else {
         return;
     };
     let Some(picked) = &current.picked else {
-        ui.weak("Pick a pixel to see all its rays.");
         return;
     };
     let (record, scene) = (&picked.record, &current.shown.scene);
     let n = record.rays.len();
     ui.horizontal(|ui| {
         ui.label(step_text::count(n as u32, "ray", "rays")).on_hover_text(format!(
-            "Of the pixel's first sample, down to D_AREC {}.\nShortcuts: {} and {} select a ray",
+            "Of the pixel's first sample, with up to {} bounces (D_AREC).\nShortcuts: {} and {} select a ray",
             current.shown.setup.render.d_arec,
             shortcut("ray.previous-ray"),
             shortcut("ray.next-ray")
@@ -131,9 +141,9 @@ fn show(ui: &mut egui::Ui, doc: &mut Document) {
             let [x, y] = picked.pixel;
             let place = y as usize * current.shown.setup.render.width as usize + x as usize;
             if counts.tally(place, RayFilter::All) == record.tallies().into_iter().sum() {
-                ui.weak("· sums as in the counted pass");
+                ui.weak("· sums equal those of the counting kernel");
             } else {
-                ui.strong("· sums differ from the counted pass");
+                ui.strong("· sums differ from those of the counting kernel");
             }
         }
     });
@@ -143,6 +153,7 @@ fn show(ui: &mut egui::Ui, doc: &mut Document) {
         rows: n,
         selected: Some(picked.ray),
         most: 8,
+        row: ROW,
     };
     let clicked = list.show(
         ui,
@@ -162,7 +173,11 @@ fn show(ui: &mut egui::Ui, doc: &mut Document) {
     );
     totals(ui, &record.tallies());
     if let Some(ray) = clicked {
-        current.select_ray(ray);
+        edits.add(move |doc| {
+            if let Some(current) = &mut doc.current {
+                current.select_ray(ray);
+            }
+        });
     }
 }
 
@@ -232,6 +247,7 @@ fn totals(ui: &mut egui::Ui, tallies: &[Tally<u32>; 4]) {
         rows: rows.len(),
         selected: None,
         most: rows.len(),
+        row: ROW,
     };
     list.show(
         ui,
