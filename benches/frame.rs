@@ -80,7 +80,7 @@ fn main() {
     window.drop_at(view.center());
     window.run_steps(2);
 
-    window.get_by_label("Build steps").click();
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::G);
     window.run_steps(6);
     // Near the finished tree, where there is most to make.
     let moments = window

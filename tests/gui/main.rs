@@ -20,4 +20,5 @@ mod rays;
 mod settings;
 mod sweep;
 mod tree;
+mod view3d;
 mod window;

@@ -36,7 +36,7 @@ pub struct List<'a> {
 
 impl List<'_> {
     /// Shows the list; returns the row that was clicked. `mark` paints into a row's first column, in
-    /// the rectangle and with the colour of text that it is given.
+    /// the rectangle and with the color of text that it is given.
     pub fn show(
         self,
         ui: &mut egui::Ui,
@@ -167,7 +167,7 @@ fn text(ui: &egui::Ui, rect: Rect, text: String, color: Color32) {
     ui.painter().galley(at.min, galley, color);
 }
 
-/// A letter on a dark ground: bright colours can be read in both themes.
+/// A letter on a dark ground: bright colors can be read in both themes.
 pub fn chip(painter: &Painter, at: Rect, letter: &str, [r, g, b]: [u8; 3]) {
     painter.rect_filled(at, 3.0, Color32::from_gray(24));
     let font = FontId::monospace(at.height() - 2.0);

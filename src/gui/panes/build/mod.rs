@@ -48,7 +48,7 @@ impl Pane for BuildPane {
         ui.horizontal(|ui| {
             ui.set_min_height(transport::HEIGHT);
             let mut on = doc.inspect.build.on;
-            let check = ui.checkbox(&mut on, "Build steps").on_hover_text(tip(
+            let check = ui.checkbox(&mut on, "Step through the build").on_hover_text(tip(
                 "Show the tree as it stood at a moment of its build, in 3D, outline and icicle.",
                 "build.show",
             ));

@@ -1,4 +1,4 @@
-// Scene, leaf boxes and lines of the 3D view; places are relative to a centre of the scene.
+// Scene, leaf boxes and lines of the 3D view; places are relative to a center of the scene.
 
 struct Globals {
     clip_from_scene: mat4x4f,
