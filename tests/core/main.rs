@@ -33,4 +33,5 @@ mod simd;
 mod stability;
 mod tolerant;
 mod visits;
+mod wording;
 mod workspace;
