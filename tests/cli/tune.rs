@@ -57,8 +57,8 @@ fn what_a_budget_leaves_out_is_stated() {
     let program = Program::new();
     let text = program.done(QUICK);
     for part in [
-        "Scene tetra. All candidates: 24 × 16 pixels",
-        "Only 1 of 3 rounds of all methods were completed in the budget of 0 s.",
+        "Scene tetra:3. All candidates: 24 × 16 pixels",
+        "The budget of 0 s was spent before the end of round 2 of 3 of all methods.",
         "38 combinations of depth and leaf size were not tried",
         "Best for time: ",
         "\nbspscope measure tetra:3 --method ",

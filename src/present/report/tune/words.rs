@@ -72,11 +72,11 @@ pub fn recommendation(tuned: &Tuned) -> String {
             row.rounds()
         );
     }
-    text += &format!(", the tree {}.", kibibytes(row.bytes()));
+    text += &format!(" and the tree {}.", kibibytes(row.bytes()));
     if tuned.search.goal == Goal::Memory {
         text += &format!(
-            " It is the smallest tree that takes at most {MOST_SLOWDOWN} times as long as the \
-             fastest."
+            " It is the smallest tree whose picture takes at most {MOST_SLOWDOWN} times as long as \
+             that of the fastest."
         );
         return text;
     }
@@ -98,13 +98,13 @@ pub fn command(row: &Row) -> String {
 
 /// Describes what was left out, one sentence per line.
 pub fn left_out(tuned: &Tuned) -> Vec<String> {
-    let budget = format!("the budget of {} s", tuned.search.budget.as_secs_f64());
+    let budget = format!("budget of {} s", tuned.search.budget.as_secs_f64());
     let mut lines = Vec::new();
     let mut same = 0;
     for left_out in &tuned.left_out {
         match left_out {
             LeftOut::Method { method, objects } => lines.push(format!(
-                "Method {} was left out: the scene has {} objects; it is only tried with at most {}.",
+                "Method {} was left out: the scene has {} objects; it is only tried with at most {} objects.",
                 method.name,
                 grouped(*objects as f64),
                 grouped(NAIVE_LIMIT as f64)
@@ -122,14 +122,15 @@ pub fn left_out(tuned: &Tuned) -> Vec<String> {
                     Phase::Methods => "all methods",
                     Phase::Refinement => "depths and leaf sizes",
                 };
+                let round = whole + 1;
                 lines.push(format!(
-                    "Only {whole} of {ROUNDS} rounds of {of} were completed in {budget}."
+                    "The {budget} was spent before the end of round {round} of {ROUNDS} of {of}."
                 ));
             }
             LeftOut::Untried { settings } => {
                 let verb = if *settings == 1 { "was" } else { "were" };
                 lines.push(format!(
-                    "{} of depth and leaf size {verb} not tried: {budget} was spent.",
+                    "{} of depth and leaf size {verb} not tried: the {budget} was spent.",
                     counted(*settings, "combination")
                 ));
             }
