@@ -3,15 +3,15 @@
 use super::args::{ListFormat, ModelArgs};
 use super::outcome::Outcome;
 use super::{bar, output, resolve};
-use crate::measure::model::{
-    Equation, Fit, InPlace, Observation, Term, fit, observe, parted, time_in_place, trees,
-};
+use crate::jobs::{FitTimeModel, Timed};
+use crate::measure::model::{Fit, InPlace, Observation, Term, fastest, parted, trees};
 use crate::present::number::grouped;
 use crate::present::report::grid::Grid;
 use crate::scene::Scene;
 use crate::trace::RenderSettings;
 use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// What is found of a scene.
 struct Found {
@@ -30,14 +30,14 @@ pub fn run(args: &ModelArgs) -> Result<Outcome> {
     let mut all = Vec::new();
     for source in &args.scenes {
         let setup = args.settings.setup(source)?;
-        let scene = resolve::scene(&setup.scene)?;
+        let scene = Arc::new(resolve::scene(&setup.scene)?);
         // One thread: others would compete for caches and memory.
         let render = RenderSettings {
             threads: 1,
             ..setup.render
         };
         render.view(&scene)?;
-        all.push(found(&scene, &render, args.rounds, args.equation)?);
+        all.push(found(&scene, render, args)?);
     }
     output::write_to(args.output.as_deref(), |out| match args.format {
         ListFormat::Text => all.iter().try_for_each(|found| {
@@ -60,32 +60,31 @@ pub fn run(args: &ModelArgs) -> Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-fn found(scene: &Scene, render: &RenderSettings, rounds: u32, equation: Equation) -> Result<Found> {
+fn found(scene: &Arc<Scene>, render: RenderSettings, args: &ModelArgs) -> Result<Found> {
     ensure!(!scene.objects().is_empty(), "{}: no objects", scene.name());
-    let mut observations = Vec::new();
-    let trees = trees(scene);
-    for (i, build) in trees.iter().enumerate() {
-        let stage = format!("{}: tree {} of {}", scene.name(), i + 1, trees.len());
-        observations.push(bar::with_bar(&stage, |progress| {
-            observe(scene, build, render, rounds, progress)
-        })?);
-    }
-    let [fitted, left_out] = parted(&observations);
-    let fit = fit(&fitted, &Term::of(scene), equation)?;
-    let fastest = observations
-        .iter()
-        .min_by(|a, b| a.seconds.total_cmp(&b.seconds))
-        .context("no tree was timed")?;
-    let stage = format!("{}: timing in place", scene.name());
-    let in_place = bar::with_bar(&stage, |progress| {
-        time_in_place(scene, &fastest.build, render, progress)
+    let job = FitTimeModel {
+        scene: Arc::clone(scene),
+        render,
+        builds: trees(scene),
+        rounds: args.rounds,
+        equation: args.equation,
+        in_place: None,
+    };
+    let (mut observations, mut in_place) = (Vec::new(), None);
+    let fit = bar::follow(job, |timed| {
+        match timed {
+            Timed::InPlace(times) => in_place = Some(times),
+            Timed::Tree(observation) => observations.push(observation),
+        }
+        Ok(())
     })?;
+    let [fitted, left_out] = parted(&observations);
     Ok(Found {
         scene: scene.name().to_owned(),
         errors: fit.errors(&left_out),
         fit,
-        in_place,
-        fastest: fastest.clone(),
+        in_place: in_place.context("nothing was timed in place")?,
+        fastest: fastest(&observations).context("no tree was timed")?.clone(),
         trees: fitted.len(),
     })
 }

@@ -10,7 +10,7 @@ use crate::jobs::PictureVisits;
 use crate::present::overlay::{HISTOGRAMS, Leaf, Ranges, in_ranges, leaves};
 use crate::scene::Scene;
 use crate::structure::{NodeCost, Tree, TreeIndex};
-use crate::workspace::NODES_A_RAY;
+use crate::workspace::NODES_PER_RAY;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -154,7 +154,7 @@ impl Inspect {
         let leaves = HISTOGRAMS.iter().map(|histogram| histogram.name);
         let all = leaves
             .zip(self.ranges)
-            .chain([(NODES_A_RAY, self.nodes_a_ray)]);
+            .chain([(NODES_PER_RAY, self.nodes_a_ray)]);
         all.filter_map(|(name, range)| Some((name.to_owned(), range?)))
             .collect()
     }
@@ -164,7 +164,7 @@ impl Inspect {
         for (histogram, range) in HISTOGRAMS.iter().zip(&mut self.ranges) {
             *range = named.get(histogram.name).copied();
         }
-        self.nodes_a_ray = named.get(NODES_A_RAY).copied();
+        self.nodes_a_ray = named.get(NODES_PER_RAY).copied();
     }
 
     /// Takes the tried plane away; says whether there was one.

@@ -5,13 +5,18 @@
 use super::state::{Current, State};
 use super::study::Study;
 use crate::jobs::{FitTimeModel, Timed};
-use crate::measure::model::{Fit, InPlace, Observation, Region, TermTimes, parted, trees};
+use crate::measure::model::{
+    Equation, Fit, InPlace, Observation, Region, TermTimes, parted, trees,
+};
 use crate::scene::Scene;
 use crate::trace::RenderSettings;
 use std::sync::Arc;
 
 /// Pictures are traced for the model with at most so many pixels.
 const MOST_PIXELS: f64 = 128.0 * 128.0;
+
+/// How often each tree is timed.
+const ROUNDS: u32 = 3;
 
 /// The time model, and which part of the picture is asked about.
 #[derive(Default)]
@@ -101,8 +106,10 @@ impl State {
         let handle = self.jobs.start(FitTimeModel {
             scene,
             render,
-            build,
             builds,
+            rounds: ROUNDS,
+            equation: Equation::Corrected,
+            in_place: Some(build),
         });
         self.modelling.study.follow(handle, found);
     }

@@ -3,7 +3,7 @@
 use super::state::State;
 use super::study::Study;
 use crate::jobs::{Measured, StudyAccuracy};
-use crate::measure::accuracy::Trade;
+use crate::measure::accuracy::AccuracyStudy;
 use crate::setup::Setup;
 use crate::trace::RenderSettings;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ pub struct Found {
     /// What was on view when the trade began.
     pub of: Setup,
     /// The outcomes so far, in the order of the choices.
-    pub trade: Trade,
+    pub trade: AccuracyStudy,
     /// By outcome, the error of every pixel of the reference, row by row; none where they would take
     /// too much memory.
     pub pixel_errors: Vec<Arc<Vec<f32>>>,
@@ -108,7 +108,7 @@ impl State {
         let found = Found {
             number: trading.begun,
             of: of.clone(),
-            trade: Trade {
+            trade: AccuracyStudy {
                 outcomes: Vec::new(),
             },
             pixel_errors: Vec::new(),
@@ -119,6 +119,7 @@ impl State {
             scene: Arc::clone(&shown.scene),
             setup: of,
             rounds: trading.rounds,
+            only: Vec::new(),
         });
         trading.study.follow(handle, found);
     }

@@ -1,16 +1,16 @@
-//! What accuracy costs: every choice that trades accuracy for time.
+//! The accuracy study: time and error of every cheaper setting.
 
 use super::context::{Context, JobError};
 use super::job::Job;
 use super::load::Load;
 use super::slot::{Priority, Slot};
-use crate::measure::accuracy::{Outcome, Trading, choices, reference};
+use crate::measure::accuracy::{AccuracyStudy, Knob, Outcome, StudyRun, choices, reference};
 use crate::scene::{Cylinders, Scene, SceneRequest};
 use crate::setup::Setup;
 use std::sync::Arc;
 
-/// The most bytes that the errors of all pixels of all choices may take; in a study of larger
-/// pictures they are not kept.
+/// The maximum memory, in bytes, for the errors of all pixels of all choices. Studies of larger
+/// pictures do not send them.
 const MOST_BYTES: usize = 512 << 20;
 
 /// Measures time and error of every choice for a scene.
@@ -18,24 +18,26 @@ pub struct StudyAccuracy {
     /// As `setup` describes it.
     pub scene: Arc<Scene>,
     pub setup: Setup,
-    /// Rounds in which every choice is timed once, at least 1.
+    /// Number of rounds, at least 1. Each round times every choice once.
     pub rounds: u32,
+    /// The only knobs to vary, each alone. Empty varies all knobs, alone and together.
+    pub only: Vec<&'static Knob>,
 }
 
-/// What is known after one choice was timed once more.
+/// The result of timing one choice once.
 pub struct Measured {
-    /// Which of the outcomes has another time now; in the first round, which is new.
+    /// Index of the outcome that has a new time. In the first round, the outcome itself is new.
     pub place: usize,
     pub outcome: Outcome,
     /// In the first round, the error of every pixel, row by row, unless they take too much memory.
     pub pixel_errors: Option<Vec<f32>>,
-    /// Steps in all.
+    /// Total number of steps.
     pub steps: usize,
 }
 
 impl Job for StudyAccuracy {
     type Partial = Measured;
-    type Output = ();
+    type Output = AccuracyStudy;
 
     fn slot(&self) -> Slot {
         Slot::named("accuracy study")
@@ -45,11 +47,12 @@ impl Job for StudyAccuracy {
         Priority::Study
     }
 
-    fn run(self, context: &Context<Measured>) -> Result<(), JobError> {
+    fn run(self, context: &Context<Measured>) -> Result<AccuracyStudy, JobError> {
         let StudyAccuracy {
             scene,
             setup,
             rounds,
+            only,
         } = self;
         let scene = if setup.scene.cylinders == Cylinders::Exact {
             scene
@@ -61,24 +64,32 @@ impl Job for StudyAccuracy {
             exact.run(&context.silent())?
         };
         let render = &setup.render;
-        let choices = choices(&reference(&setup), &scene);
+        let mut choices = choices(&reference(&setup), &scene);
+        if !only.is_empty() {
+            let is_asked = |name: &str| only.iter().any(|knob| knob.name() == name);
+            choices.retain(|choice| match &choice.turned[..] {
+                [] => true,
+                [(knob, _)] => is_asked(knob),
+                _ => false,
+            });
+        }
         let pixels = render.width as usize * render.height as usize;
         let keeps = choices.len() * pixels * size_of::<f32>() <= MOST_BYTES;
-        let mut trading = Trading::new(&scene, choices, rounds)?;
-        let steps = trading.turns();
-        context.stage("measuring choices");
+        context.stage(format!("measuring {} choices", choices.len()));
+        let mut run = StudyRun::new(&scene, choices, rounds)?;
+        let steps = run.turns();
         for step in 0..steps {
             context.part(step, steps);
-            let Some(turn) = context.timed(|progress| trading.turn(progress))? else {
+            let Some(turn) = context.timed(|progress| run.turn(progress))? else {
                 break;
             };
             context.send(Measured {
                 place: turn.place,
-                outcome: trading.outcomes()[turn.place].clone(),
+                outcome: run.outcomes()[turn.place].clone(),
                 pixel_errors: turn.pixel_errors.filter(|_| keeps),
                 steps,
             });
         }
-        Ok(())
+        Ok(run.finish())
     }
 }

@@ -4,24 +4,25 @@ use super::context::{Context, JobError};
 use super::job::Job;
 use super::slot::{Priority, Slot};
 use crate::measure::model::{
-    Equation, Fit, InPlace, Observation, Term, fit, observe, parted, time_in_place,
+    Equation, Fit, InPlace, Observation, Term, fastest, fit, observe, parted, time_in_place,
 };
 use crate::scene::Scene;
 use crate::structure::BuildSettings;
 use crate::trace::RenderSettings;
 use std::sync::Arc;
 
-/// How often each tree is timed.
-const ROUNDS: u32 = 3;
-
 /// Measures the time model of a scene.
 pub struct FitTimeModel {
     pub scene: Arc<Scene>,
     pub render: RenderSettings,
-    /// The tree whose times are measured in place.
-    pub build: BuildSettings,
     /// The trees that are timed for the regression.
     pub builds: Vec<BuildSettings>,
+    /// How often each tree is timed; the shortest time counts.
+    pub rounds: u32,
+    pub equation: Equation,
+    /// The tree whose times are measured in place, before the others. `None` measures those of the
+    /// fastest tree, at the end.
+    pub in_place: Option<BuildSettings>,
 }
 
 /// One more thing that is known.
@@ -46,25 +47,38 @@ impl Job for FitTimeModel {
         let FitTimeModel {
             scene,
             render,
-            build,
             builds,
+            rounds,
+            equation,
+            in_place,
         } = self;
         // Timing in place is one more step than there are trees.
         let steps = builds.len() + 1;
-        context.stage("measuring times");
-        context.part(0, steps);
-        let in_place =
-            context.timed(|progress| time_in_place(&scene, &build, &render, progress))?;
-        context.send(Timed::InPlace(in_place));
+        context.stage(format!("{}: timing {} trees", scene.name(), builds.len()));
+        let time_in_place = |build: &BuildSettings| {
+            let times =
+                context.timed(|progress| time_in_place(&scene, build, &render, progress))?;
+            context.send(Timed::InPlace(times));
+            Ok::<_, JobError>(())
+        };
+        let is_first = in_place.is_some();
+        if let Some(build) = in_place {
+            context.part(0, steps);
+            time_in_place(&build)?;
+        }
         let mut observations = Vec::new();
         for (place, build) in builds.iter().enumerate() {
-            context.part(place + 1, steps);
+            context.part(place + usize::from(is_first), steps);
             let observation =
-                context.timed(|progress| observe(&scene, build, &render, ROUNDS, progress))?;
+                context.timed(|progress| observe(&scene, build, &render, rounds, progress))?;
             observations.push(observation.clone());
             context.send(Timed::Tree(observation));
         }
+        if let Some(fastest) = fastest(&observations).filter(|_| !is_first) {
+            context.part(steps - 1, steps);
+            time_in_place(&fastest.build)?;
+        }
         let [fitted, _] = parted(&observations);
-        Ok(fit(&fitted, &Term::of(&scene), Equation::Corrected)?)
+        Ok(fit(&fitted, &Term::of(&scene), equation)?)
     }
 }

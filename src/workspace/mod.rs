@@ -7,7 +7,7 @@ mod side;
 mod view;
 
 pub use view::{
-    Arrangement, CutSettings, Heat, NODES_A_RAY, PicturePlace, Selected, View, View3dSettings,
+    Arrangement, CutSettings, Heat, NODES_PER_RAY, PicturePlace, Selected, View, View3dSettings,
     Which,
 };
 

@@ -9,7 +9,21 @@ pub fn one_of<'de, D: Deserializer<'de>>(
     what: &str,
     known: impl IntoIterator<Item = &'static str>,
 ) -> Result<String, D::Error> {
+    one_of_or(deserializer, what, known, &[])
+}
+
+/// A name that must be known. Each pair of `renamed` is the name of an earlier version and its
+/// name now.
+pub fn one_of_or<'de, D: Deserializer<'de>>(
+    deserializer: D,
+    what: &str,
+    known: impl IntoIterator<Item = &'static str>,
+    renamed: &[(&str, &str)],
+) -> Result<String, D::Error> {
     let found = String::deserialize(deserializer)?;
+    if let Some((_, now)) = renamed.iter().find(|(before, _)| *before == found) {
+        return Ok((*now).to_owned());
+    }
     let known: Vec<_> = known.into_iter().collect();
     if known.contains(&found.as_str()) {
         return Ok(found);

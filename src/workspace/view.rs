@@ -155,7 +155,10 @@ impl PicturePlace {
 }
 
 /// The name of the histogram of rays in [`View::ranges`].
-pub const NODES_A_RAY: &str = "nodes a ray";
+pub const NODES_PER_RAY: &str = "nodes per ray";
+
+/// Its name in earlier versions.
+const NODES_PER_RAY_BEFORE: &str = "nodes a ray";
 
 /// The selection in the tree in front.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -235,7 +238,13 @@ fn known_ranges<'de, D: Deserializer<'de>>(
 
 fn known_histogram<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
     let known = HISTOGRAMS.iter().map(|histogram| histogram.name);
-    names::one_of(from, "histogram", known.chain([NODES_A_RAY]))
+    let known = known.chain([NODES_PER_RAY]);
+    names::one_of_or(
+        from,
+        "histogram",
+        known,
+        &[(NODES_PER_RAY_BEFORE, NODES_PER_RAY)],
+    )
 }
 
 fn known_heatmap<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {

@@ -9,7 +9,7 @@ use bspscope::setup::Setup;
 use bspscope::structure::{BuildSettings, MaxDepth, Method, Moment, OverlapRule};
 use bspscope::trace::{KernelChoice, PrecisionChoice, RenderSettings};
 use bspscope::workspace::{
-    Arrangement, CutSettings, Heat, NODES_A_RAY, PicturePlace, Selected, VERSION, View,
+    Arrangement, CutSettings, Heat, NODES_PER_RAY, PicturePlace, Selected, VERSION, View,
     View3dSettings, Which, Workspace, WorkspaceError,
 };
 use std::path::Path;
@@ -81,7 +81,7 @@ fn changed() -> Workspace {
             object: Some(3),
         },
         build: Some(Moment::Node(7)),
-        ranges: [("depth", [2.0, 5.0]), (NODES_A_RAY, [10.0, 20.5])]
+        ranges: [("depth", [2.0, 5.0]), (NODES_PER_RAY, [10.0, 20.5])]
             .map(|(name, range)| (name.to_owned(), range))
             .into(),
         heatmap: Heat {
@@ -244,6 +244,15 @@ fn what_is_left_out_of_the_view_is_at_its_default() {
     let read = Workspace::parse(head, Path::new("a.bspscope")).unwrap();
     assert_eq!(read.view, View::default());
     assert_eq!(read.b, changed().b);
+}
+
+#[test]
+fn the_histogram_of_nodes_per_ray_is_read_by_its_earlier_name() {
+    let text = changed().to_text(None);
+    let earlier = text.replace(NODES_PER_RAY, "nodes a ray");
+    assert_ne!(earlier, text);
+    let read = Workspace::parse(&earlier, Path::new("a.bspscope")).unwrap();
+    assert_eq!(read, changed());
 }
 
 #[test]

@@ -8,7 +8,7 @@ use bspscope::gui::StartOptions;
 use bspscope::measure::model::Region;
 use bspscope::scene::SceneSource;
 use bspscope::structure::{MaxDepth, Moment};
-use bspscope::workspace::{Arrangement, NODES_A_RAY, VERSION, Workspace};
+use bspscope::workspace::{Arrangement, NODES_PER_RAY, VERSION, Workspace};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::path::Path;
@@ -107,7 +107,7 @@ fn saved_changed_and_restored_it_is_the_same() {
         width: 10,
         height: 20,
     });
-    let ranges = [("depth", [1.0, 5.0]), (NODES_A_RAY, [2.0, 9.0])];
+    let ranges = [("depth", [1.0, 5.0]), (NODES_PER_RAY, [2.0, 9.0])];
     saved.view.ranges = ranges.map(|(name, range)| (name.to_owned(), range)).into();
     saved.write(&path).unwrap();
 

@@ -36,12 +36,12 @@ use std::sync::{Mutex, PoisonError};
 
 /// The result of an accuracy study: all choices that were measured.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Trade {
+pub struct AccuracyStudy {
     /// The reference comes first, with error 0 and time ratio 1.
     pub outcomes: Vec<Outcome>,
 }
 
-impl Trade {
+impl AccuracyStudy {
     /// Returns the outcome's time relative to the reference: the minimum, median and maximum over
     /// the rounds, each divided by the reference's median.
     pub fn ratios(&self, outcome: &Outcome) -> [f64; 3] {
@@ -136,34 +136,9 @@ pub fn choices(reference: &Setup, scene: &Scene) -> Vec<Choice> {
     choices
 }
 
-/// Runs an accuracy study: measures every choice in `rounds` rounds (at least 1). Calls
-/// `on_outcome` after each turn with the index of the choice and its times so far.
-///
-/// # Errors
-/// Settings out of range, a tree beyond the memory limit, no view, or cancellation.
-pub fn trade(
-    exact: &Scene,
-    choices: Vec<Choice>,
-    rounds: u32,
-    progress: &Progress,
-    mut on_outcome: impl FnMut(usize, &Outcome),
-) -> Result<Trade, MeasureError> {
-    let mut trading = Trading::new(exact, choices, rounds)?;
-    let turns = trading.turns() as f64;
-    for turn in 0..trading.turns() {
-        let part = progress.part(turn as f64 / turns, (turn + 1) as f64 / turns);
-        if let Some(turn) = trading.turn(&part)? {
-            on_outcome(turn.place, &trading.outcomes[turn.place]);
-        }
-    }
-    Ok(Trade {
-        outcomes: trading.outcomes,
-    })
-}
-
-/// An accuracy study that runs turn by turn. A turn measures one choice once. A cancelled turn can
-/// be run again.
-pub struct Trading<'a> {
+/// An accuracy study that is under way, turn by turn. A turn measures one choice once. A cancelled
+/// turn can be run again.
+pub struct StudyRun<'a> {
     exact: &'a Scene,
     choices: Vec<Choice>,
     rounds: usize,
@@ -184,7 +159,7 @@ pub struct Turn {
     pub pixel_errors: Option<Vec<f32>>,
 }
 
-impl<'a> Trading<'a> {
+impl<'a> StudyRun<'a> {
     /// Creates a study of every choice in `rounds` rounds (at least 1), the reference first. Runs
     /// no turn yet.
     ///
@@ -192,7 +167,7 @@ impl<'a> Trading<'a> {
     /// The thread pool of the reference cannot be created.
     pub fn new(exact: &'a Scene, choices: Vec<Choice>, rounds: u32) -> Result<Self, MeasureError> {
         let threads = choices.first().map_or(0, |c| c.setup.render.threads);
-        Ok(Trading {
+        Ok(StudyRun {
             exact,
             choices,
             rounds: rounds.max(1) as usize,
@@ -212,6 +187,13 @@ impl<'a> Trading<'a> {
     /// Returns the outcomes so far. After the first round, every choice has one.
     pub fn outcomes(&self) -> &[Outcome] {
         &self.outcomes
+    }
+
+    /// Returns the study of the turns that were run.
+    pub fn finish(self) -> AccuracyStudy {
+        AccuracyStudy {
+            outcomes: self.outcomes,
+        }
     }
 
     /// Runs the next turn. Returns `None` if all turns are done.

@@ -17,4 +17,4 @@ pub use fit::{Coefficient, Fit, FitError, fit};
 pub use in_place::{InPlace, time_in_place};
 pub use observe::{Observation, Terms, observe};
 pub use picture::{Part, PictureTerms, RayTerms, Region, TermTimes};
-pub use trees::{parted, trees};
+pub use trees::{fastest, parted, trees};

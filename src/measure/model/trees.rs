@@ -39,3 +39,10 @@ pub fn parted(observations: &[Observation]) -> [Vec<&Observation>; 2] {
             .collect(),
     ]
 }
+
+/// Returns the observation with the least time; `None` if there is none.
+pub fn fastest(observations: &[Observation]) -> Option<&Observation> {
+    observations
+        .iter()
+        .min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+}

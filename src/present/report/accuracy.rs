@@ -1,15 +1,15 @@
 //! Reports of the accuracy study: text for people, JSON and CSV for programs.
 
 use super::table::plain_table;
-use crate::measure::accuracy::{Outcome, Trade};
+use crate::measure::accuracy::{AccuracyStudy, Outcome};
 use crate::present::number::{counted, significant};
 use serde_json::{Value, json};
 use std::io::{Result, Write};
 
 /// An accuracy study with the name of its scene.
-pub struct TradeReport<'a> {
+pub struct AccuracyReport<'a> {
     pub scene: &'a str,
-    pub trade: &'a Trade,
+    pub study: &'a AccuracyStudy,
 }
 
 const TITLES: [&str; 12] = [
@@ -31,9 +31,9 @@ const TITLES: [&str; 12] = [
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_text(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
-    let trade = report.trade;
-    if let Some(first) = trade.outcomes.first() {
+pub fn write_text(report: &AccuracyReport<'_>, out: &mut dyn Write) -> Result<()> {
+    let study = report.study;
+    if let Some(first) = study.outcomes.first() {
         let setup = &first.choice.setup;
         let render = &setup.render;
         writeln!(
@@ -51,7 +51,7 @@ pub fn write_text(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
             counted(first.seconds.len(), "interleaved round")
         )?;
     }
-    let rows = || trade.outcomes.iter().zip(trade.front()).enumerate();
+    let rows = || study.outcomes.iter().zip(study.front()).enumerate();
     for (title, moves_image) in [
         ("What moves the picture", true),
         ("What moves only the time", false),
@@ -60,15 +60,15 @@ pub fn write_text(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
         for (_, (outcome, front)) in
             rows().filter(|(i, (o, _))| *i == 0 || o.choice.moves_image == moves_image)
         {
-            table.add_row(cells(trade, outcome, front));
+            table.add_row(cells(study, outcome, front));
         }
         writeln!(out, "\n{title}\n{}", table.trim_fmt())?;
     }
     Ok(())
 }
 
-fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 12] {
-    let [least, median, most] = trade.ratios(outcome);
+fn cells(study: &AccuracyStudy, outcome: &Outcome, front: bool) -> [String; 12] {
+    let [least, median, most] = study.ratios(outcome);
     let error = &outcome.error;
     [
         outcome.choice.words(),
@@ -90,14 +90,14 @@ fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 12] {
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_json(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
-    let trade = report.trade;
-    let outcomes: Vec<Value> = trade
+pub fn write_json(report: &AccuracyReport<'_>, out: &mut dyn Write) -> Result<()> {
+    let study = report.study;
+    let outcomes: Vec<Value> = study
         .outcomes
         .iter()
-        .zip(trade.front())
+        .zip(study.front())
         .map(|(outcome, front)| {
-            let [least, median, most] = trade.ratios(outcome);
+            let [least, median, most] = study.ratios(outcome);
             let turned = outcome.choice.turned.iter();
             let turned: serde_json::Map<_, _> = turned
                 .map(|(knob, value)| (knob.clone(), json!(value)))
@@ -123,8 +123,8 @@ pub fn write_json(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_csv(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
-    let trade = report.trade;
+pub fn write_csv(report: &AccuracyReport<'_>, out: &mut dyn Write) -> Result<()> {
+    let study = report.study;
     let mut csv = csv::Writer::from_writer(out);
     csv.write_record([
         "scene",
@@ -142,8 +142,8 @@ pub fn write_csv(report: &TradeReport<'_>, out: &mut dyn Write) -> Result<()> {
         "flip",
         "object_bytes",
     ])?;
-    for (outcome, front) in trade.outcomes.iter().zip(trade.front()) {
-        let [least, median, most] = trade.ratios(outcome);
+    for (outcome, front) in study.outcomes.iter().zip(study.front()) {
+        let [least, median, most] = study.ratios(outcome);
         let error = &outcome.error;
         csv.write_record([
             report.scene.to_owned(),

@@ -10,7 +10,7 @@ use crate::gui::shortcuts::{Action, Scope, pressed, tip};
 use crate::gui::state::State;
 use crate::gui::trading::Found;
 use crate::jobs::{End, Standing};
-use crate::measure::accuracy::{ERROR_MEASURES, ErrorMeasure, Outcome, Trade};
+use crate::measure::accuracy::{AccuracyStudy, ERROR_MEASURES, ErrorMeasure, Outcome};
 use crate::present::number::significant;
 use egui::vec2;
 
@@ -196,7 +196,7 @@ fn about(found: &Found) -> String {
 }
 
 /// An outcome in words: its choice, its time and its error by one measure.
-fn words(trade: &Trade, outcome: &Outcome, measure: &ErrorMeasure) -> String {
+fn words(trade: &AccuracyStudy, outcome: &Outcome, measure: &ErrorMeasure) -> String {
     format!(
         "{}: {:.3} of the reference's time, {} {}",
         outcome.choice.words(),

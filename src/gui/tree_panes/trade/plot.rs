@@ -2,7 +2,7 @@
 
 use super::words;
 use crate::gui::tree_panes::log_axis::{marks, number};
-use crate::measure::accuracy::{ErrorMeasure, Outcome, Trade};
+use crate::measure::accuracy::{AccuracyStudy, ErrorMeasure, Outcome};
 use crate::present::number::significant;
 use egui::{Color32, Pos2, Rect, Sense, vec2};
 use egui_plot::{AxisHints, GridMark, Line, MarkerShape, Plot, PlotPoint, Points};
@@ -16,7 +16,7 @@ const ZERO_BELOW: f64 = 1.0;
 /// Shows the plot; gives the outcome that is clicked.
 pub fn show(
     ui: &mut egui::Ui,
-    trade: &Trade,
+    trade: &AccuracyStudy,
     measure: &'static ErrorMeasure,
     front: &[bool],
     chosen: Option<usize>,
@@ -179,7 +179,7 @@ fn nearest(places: &[Pos2], to: Pos2) -> usize {
 }
 
 /// All that is known of an outcome.
-fn details(ui: &mut egui::Ui, trade: &Trade, outcome: &Outcome) {
+fn details(ui: &mut egui::Ui, trade: &AccuracyStudy, outcome: &Outcome) {
     let [least, median, most] = trade.ratios(outcome);
     let error = &outcome.error;
     ui.strong(outcome.choice.words());
@@ -205,7 +205,7 @@ fn details(ui: &mut egui::Ui, trade: &Trade, outcome: &Outcome) {
 }
 
 /// Where no error is drawn: a whole number of decades, below the least error that there is.
-fn zero_place(trade: &Trade, measure: &ErrorMeasure) -> f64 {
+fn zero_place(trade: &AccuracyStudy, measure: &ErrorMeasure) -> f64 {
     let errors = trade.outcomes.iter().map(measure.value);
     let least = errors.filter(|&error| error > 0.0).reduce(f64::min);
     least.unwrap_or(1e-3).log10().floor() - ZERO_BELOW

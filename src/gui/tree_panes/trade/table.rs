@@ -1,6 +1,6 @@
 //! The outcomes as rows.
 
-use crate::measure::accuracy::{Outcome, Trade};
+use crate::measure::accuracy::{AccuracyStudy, Outcome};
 use crate::present::number::significant;
 use egui::{Align, Sense};
 use egui_extras::{Column, TableBuilder};
@@ -67,7 +67,7 @@ const COLUMNS: [(&str, f32, &str); 11] = [
 /// Shows the table, scrolled to a row if asked; gives the outcome that is clicked.
 pub fn show(
     ui: &mut egui::Ui,
-    trade: &Trade,
+    trade: &AccuracyStudy,
     front: &[bool],
     chosen: Option<usize>,
     scroll: Option<usize>,
@@ -139,7 +139,7 @@ pub fn show(
     clicked
 }
 
-fn cells(trade: &Trade, outcome: &Outcome, front: bool) -> [String; 11] {
+fn cells(trade: &AccuracyStudy, outcome: &Outcome, front: bool) -> [String; 11] {
     let [least, median, most] = trade.ratios(outcome);
     let error = &outcome.error;
     [
