@@ -1,7 +1,7 @@
 //! Everything that a setup asks for: the scene, its tree, the picture with its time, and the counts.
 
 use super::build::Build;
-use super::cache::Cache;
+use super::cache::{Cache, Finished};
 use super::context::{Context, JobError};
 use super::job::Job;
 use super::load::Load;
@@ -10,17 +10,22 @@ use super::slot::{Priority, Slot};
 use crate::geometry::Vec3;
 use crate::measure::Measurement;
 use crate::measure::heat::PixelCounts;
+use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::setup::Setup;
 use crate::structure::Tree;
-use crate::trace::{Picture, RenderSettings, Tile, preview, render_timed};
-use std::sync::{Arc, Mutex, PoisonError};
+use crate::trace::{
+    Picture, RenderError, RenderSettings, Tile, TimedRender, preview, render_timed,
+};
+use rayon::ThreadPool;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Edge, in pixels, of the squares of the coarse first picture.
 const PREVIEW_STEP: u32 = 8;
 
-/// Answers a setup. Redoes only what changed since the scenes and trees in the cache: a camera move
-/// builds no tree, a new `D_MAX` loads no scene.
+/// Answers a setup. Redoes only what its settings affect, compared with the setups in the cache: a
+/// camera move builds no tree, a new `D_MAX` loads no scene, and after a change of the kernel only the
+/// time is measured again.
 pub struct RenderPicture {
     pub setup: Setup,
     /// How often the scene's file was to be read again.
@@ -48,8 +53,10 @@ pub struct Shown {
     pub reload: u64,
     pub scene: Arc<Scene>,
     pub tree: Arc<Tree>,
-    /// The coarse first picture.
+    /// The coarse first picture, or the finished one if only times change.
     pub picture: Arc<Picture>,
+    /// Number of the last sample in the picture.
+    pub sample: u32,
     /// What is known so far.
     pub measurement: Measurement,
 }
@@ -67,8 +74,9 @@ pub enum Update {
         sample: u32,
         colors: Vec<Vec3>,
     },
-    /// What every pixel cost. Comes right before the complete figures, except for pictures of more
-    /// than [`PIXEL_COUNTS_LIMIT`](crate::measure::heat::PIXEL_COUNTS_LIMIT) pixels.
+    /// What every pixel cost. Comes right before the complete figures, or with a finished picture
+    /// right after it, except for pictures of more than
+    /// [`PIXEL_COUNTS_LIMIT`](crate::measure::heat::PIXEL_COUNTS_LIMIT) pixels.
     PixelCounts(Arc<PixelCounts>),
     /// More is known. Figures are provisional until `complete`.
     Measured {
@@ -96,12 +104,12 @@ impl Job for RenderPicture {
             cache,
         } = self;
         let stage = |stage| context.send(Update::Stage(stage));
-        let scene = match cache.scene(&setup.scene, reload) {
+        let scene = match cache.scene(&setup, reload) {
             Some(scene) => scene,
             None => {
                 stage(Stage::Loading);
                 let scene = Load(setup.scene.clone()).run(&context.silent())?;
-                cache.put_scene(setup.scene.clone(), reload, Arc::clone(&scene));
+                cache.put_scene(setup.clone(), reload, Arc::clone(&scene));
                 scene
             }
         };
@@ -109,7 +117,7 @@ impl Job for RenderPicture {
         // A wrong camera or size is reported before work is done for it.
         render.view(&scene)?;
         let pool = cache.pool(render.threads)?;
-        let built = match cache.tree(&scene, &setup.build) {
+        let built = match cache.tree(&setup, &scene) {
             Some(built) => built,
             None => {
                 stage(Stage::Building);
@@ -119,78 +127,177 @@ impl Job for RenderPicture {
                     pool: Arc::clone(&pool),
                 };
                 let built = build.run(&context.silent())?;
-                cache.put_tree(built.clone());
+                cache.put_tree(setup.clone(), built.clone());
                 built
             }
         };
-        let tree = built.tree;
-        let mut measurement = built.known.with_render(&scene, &render);
-
-        stage(Stage::Previewing);
-        context.stage("first picture");
-        let picture = context.unit(|progress| {
-            let picture = Mutex::new(Picture::new(render.width, render.height));
-            let add = |tile: &Tile, colors: &[Vec3]| {
-                let mut picture = picture.lock().unwrap_or_else(PoisonError::into_inner);
-                picture.add_tile(tile, 0, colors);
-            };
-            preview(&scene, &tree, &render, PREVIEW_STEP, &pool, progress, add)?;
-            let picture = picture.into_inner();
-            Ok::<_, JobError>(picture.unwrap_or_else(PoisonError::into_inner))
-        })?;
-        context.send(Update::Shown(Box::new(Shown {
-            setup: setup.clone(),
+        let finished = cache.picture(&setup, &built.tree);
+        let answer = Answer {
+            measurement: built.known.with_render(&scene, &render),
+            setup,
             reload,
-            scene: Arc::clone(&scene),
-            tree: Arc::clone(&tree),
-            picture: Arc::new(picture),
+            scene,
+            tree: built.tree,
+            pool,
+            context,
+        };
+        match finished {
+            Some(finished) => answer.measure_time(finished),
+            None => {
+                if let Some(finished) = answer.render()? {
+                    cache.put_picture(answer.setup, finished);
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+/// A job whose scene is loaded and whose tree is built.
+struct Answer<'a> {
+    setup: Setup,
+    reload: u64,
+    scene: Arc<Scene>,
+    tree: Arc<Tree>,
+    pool: Arc<ThreadPool>,
+    /// What is known before a ray is traced.
+    measurement: Measurement,
+    context: &'a Context<Update>,
+}
+
+impl Answer<'_> {
+    fn stage(&self, stage: Stage) {
+        self.context.send(Update::Stage(stage));
+    }
+
+    fn show(&self, picture: Arc<Picture>, sample: u32, measurement: &Measurement) {
+        self.context.send(Update::Shown(Box::new(Shown {
+            setup: self.setup.clone(),
+            reload: self.reload,
+            scene: Arc::clone(&self.scene),
+            tree: Arc::clone(&self.tree),
+            picture,
+            sample,
             measurement: measurement.clone(),
         })));
+    }
 
-        let sample_with = |sample, progress: &_| {
-            let send = |&tile: &Tile, colors: &[Vec3]| {
+    fn complete(&self, measurement: Measurement) {
+        self.context.send(Update::Measured {
+            measurement: Box::new(measurement),
+            complete: true,
+        });
+    }
+
+    /// Measures the time of a picture that is finished and otherwise stays as it is.
+    fn measure_time(&self, finished: Finished) -> Result<(), JobError> {
+        let mut measurement = self.measurement.clone();
+        measurement.counted = Some(finished.counted);
+        let last = self.setup.render.samples.saturating_sub(1);
+        self.show(finished.picture, last, &measurement);
+        self.context
+            .send(Update::PixelCounts(finished.pixel_counts));
+        measurement.rendering = Some(self.render_first_sample(|_, _| ())?);
+        self.complete(measurement);
+        Ok(())
+    }
+
+    /// Renders the picture, measures its time and counts what it costs. Returns what can be reused;
+    /// `None` if the picture has too many pixels for that.
+    fn render(&self) -> Result<Option<Finished>, JobError> {
+        let context = self.context;
+        let mut measurement = self.measurement.clone();
+        let preview = self.preview()?;
+        self.show(Arc::new(preview), 0, &measurement);
+
+        let render = &self.setup.render;
+        let picture = Mutex::new(Picture::new(render.width, render.height));
+        let add = |sample| {
+            let picture = &picture;
+            move |&tile: &Tile, colors: &[Vec3]| {
+                lock(picture).add_tile(&tile, sample, colors);
                 context.send(Update::Tile {
                     tile,
                     sample,
                     colors: colors.to_vec(),
                 });
-            };
-            render_timed(&scene, &tree, &render, sample, &pool, progress, send)
+            }
         };
-        stage(Stage::Rendering);
-        context.stage("rendering (timed)");
-        let time = context.timed(|progress| sample_with(0, progress))?;
-        measurement.rendering = Some(time);
-
-        stage(Stage::Counting);
-        let count = CountPixels {
-            scene: Arc::clone(&scene),
-            tree: Arc::clone(&tree),
-            render,
-            pool: Arc::clone(&pool),
-            measurement,
-        };
-        let provisional = context.map(|measurement| Update::Measured {
-            measurement: Box::new(measurement),
-            complete: false,
-        });
+        measurement.rendering = Some(self.render_first_sample(add(0))?);
         let CountedPixels {
             measurement,
             pixels,
-        } = count.run(&provisional)?;
-        if let Some(pixels) = pixels {
-            context.send(Update::PixelCounts(Arc::new(pixels)));
+        } = self.count(measurement)?;
+        let counted = measurement.counted.unwrap_or_default();
+        let pixel_counts = pixels.map(Arc::new);
+        if let Some(counts) = &pixel_counts {
+            context.send(Update::PixelCounts(Arc::clone(counts)));
         }
-        context.send(Update::Measured {
-            measurement: Box::new(measurement),
-            complete: true,
-        });
+        self.complete(measurement);
 
         for sample in 1..render.samples {
-            stage(Stage::Refining(sample, render.samples));
+            self.stage(Stage::Refining(sample, render.samples));
             context.stage(format!("sample {} of {}", sample + 1, render.samples));
-            context.unit(|progress| sample_with(sample, progress))?;
+            context.unit(|progress| self.render_sample(sample, progress, add(sample)))?;
         }
-        Ok(())
+        let picture = picture.into_inner();
+        Ok(pixel_counts.map(|pixel_counts| Finished {
+            tree: Arc::clone(&self.tree),
+            picture: Arc::new(picture.unwrap_or_else(PoisonError::into_inner)),
+            pixel_counts,
+            counted,
+        }))
     }
+
+    fn preview(&self) -> Result<Picture, JobError> {
+        let (scene, tree, render) = (&self.scene, &self.tree, &self.setup.render);
+        self.stage(Stage::Previewing);
+        self.context.stage("first picture");
+        self.context.unit(|progress| {
+            let picture = Mutex::new(Picture::new(render.width, render.height));
+            let add = |tile: &Tile, colors: &[Vec3]| lock(&picture).add_tile(tile, 0, colors);
+            preview(scene, tree, render, PREVIEW_STEP, &self.pool, progress, add)?;
+            let picture = picture.into_inner();
+            Ok::<_, JobError>(picture.unwrap_or_else(PoisonError::into_inner))
+        })
+    }
+
+    fn render_first_sample(
+        &self,
+        on_tile: impl Fn(&Tile, &[Vec3]) + Sync + Copy,
+    ) -> Result<TimedRender, JobError> {
+        self.stage(Stage::Rendering);
+        self.context.stage("rendering (timed)");
+        self.context
+            .timed(|progress| self.render_sample(0, progress, on_tile))
+    }
+
+    fn render_sample(
+        &self,
+        sample: u32,
+        progress: &Progress,
+        on_tile: impl Fn(&Tile, &[Vec3]) + Sync,
+    ) -> Result<TimedRender, RenderError> {
+        let (scene, tree, render) = (&self.scene, &self.tree, &self.setup.render);
+        render_timed(scene, tree, render, sample, &self.pool, progress, on_tile)
+    }
+
+    fn count(&self, measurement: Measurement) -> Result<CountedPixels, JobError> {
+        self.stage(Stage::Counting);
+        let count = CountPixels {
+            scene: Arc::clone(&self.scene),
+            tree: Arc::clone(&self.tree),
+            render: self.setup.render,
+            pool: Arc::clone(&self.pool),
+            measurement,
+        };
+        count.run(&self.context.map(|measurement| Update::Measured {
+            measurement: Box::new(measurement),
+            complete: false,
+        }))
+    }
+}
+
+fn lock(picture: &Mutex<Picture>) -> MutexGuard<'_, Picture> {
+    picture.lock().unwrap_or_else(PoisonError::into_inner)
 }

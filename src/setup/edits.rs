@@ -1,7 +1,6 @@
 //! Settings as text: `method=sah-cut,d-max=16,precision=f32`.
 
-use super::{Setting, Setup, setting};
-use crate::structure::Method;
+use super::{Setting, Setup};
 
 /// Settings by name with the text of their values, in their original order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -78,16 +77,4 @@ impl Setup {
     pub fn differences(&self) -> impl Iterator<Item = Setting> {
         self.settings().filter(|s| !s.is_default(self))
     }
-}
-
-/// The setting of this name that some method or every setup has.
-///
-/// # Errors
-/// There is none.
-pub fn any_setting(name: &str) -> Result<Setting, String> {
-    let mut constants = Method::all().flat_map(|m| m.info().constants);
-    let of_constant = constants.find(|c| c.name == name).map(Setting::of_constant);
-    of_constant
-        .or_else(|| setting(name).copied())
-        .ok_or_else(|| Setup::default().setting(name).err().unwrap_or_default())
 }

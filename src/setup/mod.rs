@@ -2,15 +2,18 @@
 //! and from where. Each setting is declared once, in [`SETTINGS`]: options, widgets, files, axes of
 //! sweeps and lines in reports are made from that list.
 
+mod choices;
 mod command;
 mod edits;
+mod lookup;
 mod setting;
 mod settings;
 
 pub use command::measure_command;
-pub use edits::{Edits, any_setting};
+pub use edits::Edits;
+pub use lookup::{any_setting, setting};
 pub use setting::{Affects, Choice, Group, Kind, Range, Setting, Value};
-pub use settings::{SETTINGS, setting};
+pub use settings::SETTINGS;
 
 use crate::scene::{Cylinders, SceneRequest, SceneSource};
 use crate::structure::{BuildSettings, Method};

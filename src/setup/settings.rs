@@ -1,7 +1,7 @@
 //! The list of all settings.
 
-use super::Setup;
-use super::setting::{Affects, Choice, Group, Kind, Range, Setting, Value};
+use super::choices::{axes, kernels, methods, overlaps, precisions, samplings};
+use super::setting::{Affects, Group, Kind, Range, Setting, Value};
 use crate::geometry::{Axis, Vec3};
 use crate::scene::Sampling;
 use crate::structure::{Method, OverlapRule};
@@ -290,42 +290,6 @@ pub static SETTINGS: &[Setting] = &[
     },
 ];
 
-/// The setting of this name or alias, the constants of build methods left out.
-pub fn setting(name: &str) -> Option<&'static Setting> {
-    SETTINGS.iter().find(|setting| setting.is_called(name))
-}
-
-impl Setup {
-    /// All settings that apply: [`SETTINGS`] in their order, after those of the structure the
-    /// constants of the method.
-    pub fn settings(&self) -> impl Iterator<Item = Setting> + use<> {
-        let method = self.build.method;
-        let of_group = |group| move |s: &Setting| s.group == group;
-        let (scene, structure) = (of_group(Group::Scene), of_group(Group::Structure));
-        let all = || SETTINGS.iter().copied();
-        all()
-            .filter(scene)
-            .chain(all().filter(structure))
-            .chain(method.info().constants.iter().map(Setting::of_constant))
-            .chain(all().filter(|s| matches!(s.group, Group::Picture | Group::Camera)))
-    }
-
-    /// The setting of this name: a constant of the method, or one of [`SETTINGS`] by its name or
-    /// alias.
-    ///
-    /// # Errors
-    /// There is none, with the names that there are.
-    pub fn setting(&self, name: &str) -> Result<Setting, String> {
-        let by_name = || self.settings().find(|s| s.name == name);
-        by_name()
-            .or_else(|| self.settings().find(|s| s.is_called(name)))
-            .ok_or_else(|| {
-                let names: Vec<_> = self.settings().map(|s| s.name).collect();
-                format!("no setting '{name}'; there are {}", names.join(", "))
-            })
-    }
-}
-
 const fn whole(lowest: f64, highest: f64, unit: &'static str) -> Kind {
     Kind::Number(Range {
         lowest,
@@ -366,81 +330,9 @@ fn to_point(value: Value) -> Option<Vec3> {
     }
 }
 
-fn choice(name: &'static str, about: &'static str) -> Choice {
-    Choice {
-        name,
-        old_name: None,
-        about,
-    }
-}
-
-fn methods() -> Vec<Choice> {
-    Method::all()
-        .map(|m| choice(m.info().name, m.info().title))
-        .collect()
-}
-
-fn axes() -> Vec<Choice> {
-    Axis::ALL.map(|axis| choice(axis.name(), "")).to_vec()
-}
-
-fn overlaps() -> Vec<Choice> {
-    let about = |rule| match rule {
-        OverlapRule::Paper => {
-            "As in the paper: midpoint tests spheres exactly and all others by their bounds, sah-cut \
-             tests all by their bounds"
-        }
-        OverlapRule::Bounds => "When its bounding box touches the cell",
-        OverlapRule::Exact => "When it shares a point with the cell",
-    };
-    let all = OverlapRule::ALL;
-    all.map(|rule| choice(rule.name(), about(rule))).to_vec()
-}
-
-fn samplings() -> Vec<Choice> {
-    let about = |sampling| match sampling {
-        Sampling::Center => "At the pixel's center",
-        Sampling::Corner => "On a lattice whose first and last samples span the angle of view",
-    };
-    let all = Sampling::ALL;
-    all.map(|sampling| choice(sampling.name(), about(sampling)))
-        .to_vec()
-}
-
-fn precisions() -> Vec<Choice> {
-    let about = |precision| match precision {
-        PrecisionChoice::F32 => "Single precision",
-        PrecisionChoice::F64 => "Double precision",
-        PrecisionChoice::Auto => {
-            "f32 if it can represent the scene as the camera sees it, else f64"
-        }
-    };
-    let all = PrecisionChoice::ALL;
-    all.map(|precision| choice(precision.name(), about(precision)))
-        .to_vec()
-}
-
-fn kernels() -> Vec<Choice> {
-    let about = |kernel| match kernel {
-        KernelChoice::Scalar => {
-            "One ray after the other, as in the paper, through exactly the nodes that are counted"
-        }
-        KernelChoice::Stream => "SIMD streams of rays, each with its own traversal",
-        KernelChoice::Packets => "SIMD packets of rays that traverse together",
-        KernelChoice::Auto => {
-            "Packets where rays are coherent, else streams; scalar on processors without wide SIMD"
-        }
-    };
-    let choice = |kernel: KernelChoice| Choice {
-        name: kernel.name(),
-        old_name: kernel.old_name(),
-        about: about(kernel),
-    };
-    KernelChoice::ALL.map(choice).to_vec()
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::{Setup, setting};
     use super::*;
     use crate::structure::MaxDepth;
 

@@ -5,9 +5,9 @@ use bspscope::jobs::{Cache, End, Handle, News, RenderPicture, Scheduler, Stage, 
 use bspscope::measure::heat::{RayFilter, heatmap};
 use bspscope::measure::parameter;
 use bspscope::scene::SceneRequest;
-use bspscope::setup::Setup;
+use bspscope::setup::{Affects, Setup};
 use bspscope::structure::{BuildSettings, MaxDepth, Method};
-use bspscope::trace::RenderSettings;
+use bspscope::trace::{KernelChoice, Picture, RenderSettings};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
@@ -147,6 +147,101 @@ fn only_what_changed_is_done_again() {
 
     let (updates, _) = pictures.answer(base, 1);
     assert_eq!(stages(&updates)[0], Stage::Loading);
+}
+
+#[test]
+fn a_change_of_a_setting_redoes_exactly_what_the_setting_affects() {
+    let all = [
+        Stage::Loading,
+        Stage::Building,
+        Stage::Previewing,
+        Stage::Rendering,
+        Stage::Counting,
+    ];
+    let mut tried = Vec::new();
+    for (setting, plain, changed) in crate::settings::changed() {
+        let of_method = plain.build.method.constants.iter();
+        let is_constant = of_method.into_iter().any(|c| c.name == setting.name);
+        if !is_constant && plain.build.method.name != "midpoint" {
+            continue;
+        }
+        let mut before = plain;
+        (before.render.width, before.render.height) = (8, 8);
+        // Small enough for the memory limits among the examples.
+        before.build.d_max = MaxDepth::Fixed(5);
+        let mut after = before.clone();
+        setting.store(&mut after, setting.value(&changed));
+        let pictures = Pictures::new();
+        let (first, end) = pictures.answer(before, 0);
+        assert_eq!((stages(&first), end), (all.to_vec(), End::Done(())));
+        let (updates, end) = pictures.answer(after, 0);
+        assert_eq!(end, End::Done(()), "{}", setting.name);
+        let mut redone = stages(&updates);
+        redone.retain(|stage| !matches!(stage, Stage::Refining(..)));
+        let expected: &[Stage] = match setting.affects {
+            Affects::Scene => &all,
+            Affects::Structure => &all[1..],
+            Affects::Image => &all[2..],
+            Affects::Time => &[Stage::Rendering],
+        };
+        assert_eq!(redone, expected, "{}", setting.name);
+        tried.push(setting.affects);
+    }
+    for affects in [
+        Affects::Scene,
+        Affects::Structure,
+        Affects::Image,
+        Affects::Time,
+    ] {
+        assert!(tried.contains(&affects), "{affects:?}");
+    }
+}
+
+#[test]
+fn a_change_of_times_alone_keeps_the_finished_picture_and_its_counts() {
+    let pictures = Pictures::new();
+    let mut wanted = request("balls:1", "midpoint");
+    wanted.render.samples = 3;
+    let complete = |updates: &[Update]| match updates {
+        [.., Update::Measured { measurement, .. }] => measurement.clone(),
+        _ => panic!("no figures at the end"),
+    };
+    let (mut first, _) = pictures.answer(wanted.clone(), 0);
+    let mut picture = Picture::new(wanted.render.width, wanted.render.height);
+    let mut counts = None;
+    for update in &first {
+        match update {
+            Update::Tile {
+                tile,
+                sample,
+                colors,
+            } => picture.add_tile(tile, *sample, colors),
+            Update::PixelCounts(new) => counts = Some(Arc::clone(new)),
+            _ => {}
+        }
+    }
+    first.retain(|update| matches!(update, Update::Measured { complete: true, .. }));
+
+    wanted.render.kernel = KernelChoice::Stream;
+    let (second, end) = pictures.answer(wanted.clone(), 0);
+    assert_eq!(end, End::Done(()));
+    let [
+        Update::Shown(shown),
+        Update::PixelCounts(same),
+        Update::Stage(Stage::Rendering),
+        Update::Measured { complete: true, .. },
+    ] = &second[..]
+    else {
+        panic!("{second:?}")
+    };
+    assert_eq!(shown.setup, wanted);
+    assert_eq!((&*shown.picture, shown.sample), (&picture, 2));
+    assert!(Arc::ptr_eq(same, &counts.unwrap()));
+    let (before, after) = (complete(&first), complete(&second));
+    assert_eq!(after.counted, before.counted);
+    assert_eq!(shown.measurement.counted, before.counted);
+    assert_eq!(shown.measurement.rendering, None);
+    assert!(after.rendering.is_some() && after.render.kernel == KernelChoice::Stream);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use std::path::Path;
 
 /// Setups that differ from a plain one in one setting each, with that setting; constants of every
 /// method among them.
-fn changed() -> Vec<(Setting, Setup, Setup)> {
+pub fn changed() -> Vec<(Setting, Setup, Setup)> {
     let mut all = Vec::new();
     for method in Method::all() {
         let plain = Setup {
@@ -47,6 +47,8 @@ fn a_setting_changes_what_it_stands_for_and_nothing_else() {
             Affects::Image | Affects::Time => a.render != b.render,
         };
         assert!(differs, "{name}");
+        assert_eq!(setup.invalidates(&plain), Some(setting.affects), "{name}");
+        assert_eq!(plain.invalidates(&plain), None);
     }
 }
 
