@@ -16,12 +16,14 @@
 
 mod candidates;
 mod goal;
+mod phase;
 mod ranking;
 mod row;
 mod tuning;
 
 pub use candidates::{NAIVE_LIMIT, has_limits};
 pub use goal::Goal;
+pub use phase::Phase;
 pub use ranking::{MOST_SLOWDOWN, Rank, Score, Spread, best, rank};
 pub use row::Row;
-pub use tuning::{LeftOut, Phase, ROUNDS, Search, Tuned, Tuning, Turn, Upcoming};
+pub use tuning::{LeftOut, ROUNDS, Search, Tuned, Tuning, Turn, Upcoming};

@@ -4,6 +4,7 @@ use super::candidates::{
     MOST_REFINEMENTS, REFINED, all_methods, has_limits, is_tried, refinements,
 };
 use super::goal::Goal;
+use super::phase::Phase;
 use super::ranking::{Rank, best, rank};
 use super::row::Row;
 use crate::measure::{MeasureError, Measurement, Times};
@@ -34,15 +35,6 @@ pub struct Search {
     /// Time for the measurements. When it is spent, no further turn begins, except that every method
     /// is timed at least once.
     pub budget: Duration,
-}
-
-/// A part of the search.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Phase {
-    /// All methods with automatic depth.
-    Methods,
-    /// Depth and leaf size of the best two methods.
-    Refinement,
 }
 
 /// What was not measured, and why.

@@ -1,6 +1,6 @@
 //! The search as a table for people.
 
-use super::TuneReport;
+use super::content::TuneReport;
 use super::words::{command, conditions, left_out, limits, memory, recommendation, time};
 use crate::measure::tune::{Rank, Row};
 use crate::present::number::{Digits, NO_VALUE, grouped};
