@@ -5,7 +5,7 @@ use super::outcome::Outcome;
 use super::{bar, output, resolve};
 use crate::jobs::{FitTimeModel, Timed};
 use crate::measure::model::{Fit, InPlace, Observation, Term, fastest, parted, trees};
-use crate::present::number::grouped;
+use crate::present::number::{Digits, NO_VALUE, grouped};
 use crate::present::report::grid::Grid;
 use crate::scene::Scene;
 use crate::trace::RenderSettings;
@@ -106,9 +106,8 @@ fn terms(found: &Found) -> Vec<Term> {
 }
 
 fn grid(found: &Found) -> Grid {
-    let nanoseconds = |seconds: Option<f64>| match seconds {
-        Some(seconds) => format!("{:.1}", seconds * 1e9),
-        None => "–".to_owned(),
+    let time = |seconds: Option<f64>| {
+        seconds.map_or_else(|| NO_VALUE.to_owned(), |s| Digits::Three.seconds(s))
     };
     let node = found.in_place.node;
     let rows = terms(found).into_iter().map(|term| {
@@ -117,15 +116,17 @@ fn grid(found: &Found) -> Grid {
         let to_node = in_place.zip(node).filter(|_| term != Term::Node);
         vec![
             term.name(),
-            nanoseconds(coefficient.map(|c| c.seconds)),
-            nanoseconds(coefficient.and_then(|c| c.half_width)),
-            nanoseconds(in_place),
-            to_node.map_or(String::new(), |(time, node)| format!("{:.2}", time / node)),
+            time(coefficient.map(|c| c.seconds)),
+            time(coefficient.and_then(|c| c.half_width)),
+            time(in_place),
+            to_node.map_or(String::new(), |(time, node)| {
+                Digits::Three.number(time / node)
+            }),
         ]
     });
     Grid {
         title: format!(
-            "{}: equation (1) as {}, {} trees; times in ns",
+            "{}: equation (1) as {}, {} trees",
             found.scene,
             found.fit.equation.name(),
             found.trees
@@ -159,22 +160,22 @@ fn parts_grid(found: &Found) -> Grid {
         vec![
             term.name(),
             grouped(count),
-            format!("{:.3}", seconds * 1e3),
-            format!("{:.1} %", 100.0 * seconds / predicted),
+            Digits::Four.seconds(seconds),
+            Digits::Three.percent(seconds / predicted),
         ]
     });
     Grid {
         title: format!(
-            "Where the time goes with {}, D_MAX {}, N_OILF {}: {:.3} ms predicted, {:.3} ms measured \
-             (T_TR), {:+.1} %",
+            "Where the time goes with {}, D_MAX {}, N_OILF {}: {} predicted, {} measured (T_TR), \
+             {}",
             build.method.name,
             build.d_max,
             build.n_oilf,
-            predicted * 1e3,
-            measured * 1e3,
-            (predicted / measured - 1.0) * 100.0
+            Digits::Four.seconds(predicted),
+            Digits::Four.seconds(measured),
+            Digits::Three.signed_percent(predicted / measured - 1.0)
         ),
-        header: ["", "count", "ms", "share"].map(String::from).to_vec(),
+        header: ["", "count", "time", "share"].map(String::from).to_vec(),
         rows: rows.collect(),
         first_number: 1,
     }
@@ -189,11 +190,11 @@ fn worst(found: &Found) -> f64 {
 
 fn accuracy(found: &Found) -> String {
     format!(
-        "R² {:.4}; T_TR of {} trees left out of the fit is predicted within {:.1} %. The paper: T_I \
+        "R² {:.4}; T_TR of {} trees left out of the fit is predicted within {}. The paper: T_I \
          about T_T for spheres, three times T_T for triangles.",
         found.fit.r_squared,
         found.errors.len(),
-        worst(found) * 100.0
+        Digits::Three.percent(worst(found))
     )
 }
 

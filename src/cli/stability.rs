@@ -4,6 +4,7 @@ use super::args::{ListFormat, StabilityArgs};
 use super::outcome::Outcome;
 use super::{bar, output, resolve};
 use crate::measure::stability::{self, Cell};
+use crate::present::number::counted;
 use crate::present::report::plain_table;
 use crate::trace::thread_pool;
 use anyhow::Result;
@@ -58,7 +59,9 @@ fn text(cells: &[Cell], out: &mut dyn Write) -> io::Result<()> {
         let mut texts = vec![row[0].theme.to_owned(), row[0].case.to_owned()];
         texts.extend(row.iter().map(|cell| match &cell.outcome {
             stability::Outcome::Pass { rays: 0 } => "pass".to_owned(),
-            stability::Outcome::Pass { rays } => format!("pass, {rays} rays"),
+            stability::Outcome::Pass { rays } => {
+                format!("pass, {}", counted(*rays as usize, "ray"))
+            }
             stability::Outcome::Fail { .. } => "FAIL".to_owned(),
             stability::Outcome::NotRepresentable { .. } => "not representable".to_owned(),
         }));

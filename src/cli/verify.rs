@@ -5,6 +5,7 @@ use super::outcome::Outcome;
 use super::{bar, output, resolve};
 use crate::measure::judge::{Answer, Case, Verdict};
 use crate::measure::{Answers, RaySample, Verification, answer, compare, sample_rays, unsplit};
+use crate::present::number::counted;
 use crate::present::report::plain_table;
 use crate::primitive::Precision;
 use crate::scene::Scene;
@@ -132,7 +133,7 @@ fn replay(file: &Path) -> Result<Outcome> {
     let mut lines = vec![
         format!(
             "{}, {method}: the {} ray from {} along {}",
-            objects(case.scene.objects().len()),
+            counted(case.scene.objects().len(), "object"),
             case.kind.name(),
             ray.origin,
             ray.direction
@@ -159,13 +160,6 @@ fn replay(file: &Path) -> Result<Outcome> {
         lines.iter().try_for_each(|line| writeln!(out, "{line}"))
     })?;
     Ok(outcome)
-}
-
-fn objects(count: usize) -> String {
-    match count {
-        1 => "1 object".to_owned(),
-        n => format!("{n} objects"),
-    }
 }
 
 fn both(expected: Answer, found: Answer) -> String {

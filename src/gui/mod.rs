@@ -1,69 +1,23 @@
-//! The window: a progressive picture, the tree in 3D, and the figures, all of one setting.
+//! The window: a progressive picture, the tree in 3D, and the figures, all of one setup.
 //!
-//! [`app`] puts the parts together; [`state`] keeps what is wanted apart from what is shown;
-//! [`layout`] is where panes and bars lie, kept from run to run; [`shortcuts`] is the one table of
-//! actions, which keys, help and the command [`palette`] share. [`panels`] are one file and one line
-//! each; the panes are [`picture_pane`], [`view3d`] and [`tree_panes`], which share what [`inspect`]
-//! knows of the tree. [`comparing`] is what two trees side by side need; [`build_bar`] goes through
-//! the build of a tree. [`keep`] and [`workspaces`] save what is shown and bring it back;
-//! [`exporting`] writes it for other programs. Each long measurement is a [`study`] in the background: [`trading`] what accuracy
-//! costs, [`modelling`] what the terms of equation (1) take, [`sweeping`] a grid of settings.
-//! [`lessons`] guides through it all.
+//! Data flows one way. The [`document`] holds the setups, results and selection. [`panes`] read it and
+//! return [`edits`]; each pane is one folder and one line in the registry. The [`shell`] owns what is
+//! around the panes: tasks and their layouts, menus, palette, shortcuts, files.
 
-mod app;
-mod build_bar;
-mod build_view;
-mod compare_bar;
-mod comparing;
-mod exporting;
-mod files;
-mod first_hint;
-mod heat;
-mod help;
-mod inspect;
-mod judging;
-mod keep;
-mod kept;
-mod layout;
-mod lessons;
-mod modelling;
-mod notices;
-mod palette;
-mod panels;
-mod picture_job;
-mod picture_marks;
-mod picture_pane;
-mod picture_region;
-mod recent;
-mod rows;
-mod save_as;
-mod scale_bar;
-mod selection;
-mod setting_widget;
-mod shortcuts;
-mod state;
-mod status;
-mod step_text;
-mod study;
-mod sweeping;
-mod symbol;
-mod tasks;
-mod top_bar;
-mod trading;
-mod tree_panes;
-mod view3d;
-mod visits;
-mod walk;
-mod walk_bar;
-mod workspaces;
+mod action;
+mod document;
+mod edits;
+pub mod icons;
+mod pane;
+mod panes;
+mod shell;
+mod start;
+pub mod theme;
+mod widgets;
 
-pub use app::App;
-pub use shortcuts::{Action, SHORTCUTS, Scope, Shortcut};
+pub use shell::{App, shortcuts};
+pub use start::StartOptions;
 
-use crate::lesson::Lesson;
-use crate::setup::Setup;
-use crate::workspace::Workspace;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -77,36 +31,6 @@ fn rest_of(ui: &egui::Ui) -> egui::Vec2 {
 fn name_widget(ui: &egui::Ui, response: &egui::Response, name: &str) {
     let label = |node: &mut egui::accesskit::Node| node.set_label(name);
     ui.ctx().accesskit_node_builder(response.id, label);
-}
-
-/// What the window opens with.
-#[derive(Clone, Debug)]
-pub struct StartOptions {
-    pub setup: Setup,
-    /// The lesson that the window opens with.
-    pub lesson: Option<Lesson>,
-    /// Whether recent scenes and the window's layout are read from and kept in the settings folder.
-    pub remember: bool,
-    /// A workspace to open, with its path; it takes the place of `setup`.
-    pub workspace: Option<(PathBuf, Workspace)>,
-    /// Whether to go on where the last session ended, if that was kept.
-    pub last_session: bool,
-    /// The settings folder; `None` for the one that the system has for the user.
-    pub settings_folder: Option<PathBuf>,
-}
-
-impl Default for StartOptions {
-    /// The paper's `balls` with the paper's settings.
-    fn default() -> Self {
-        StartOptions {
-            setup: Setup::default(),
-            lesson: None,
-            remember: true,
-            workspace: None,
-            last_session: false,
-            settings_folder: None,
-        }
-    }
 }
 
 /// Why there is no window.
@@ -138,11 +62,11 @@ fn icon() -> egui::IconData {
 /// # Errors
 /// No screen, nothing to draw with, or a system library that is missing.
 pub fn run(start: StartOptions) -> Result<(), GuiError> {
-    let kept: Option<layout::Layout> = kept::KeptFile::new(&start, layout::FILE).read();
+    let kept: Option<shell::Layout> = shell::KeptFile::new(&start, shell::LAYOUT_FILE).read();
     let [width, height] = kept
         .and_then(|layout| layout.size)
         .unwrap_or([1400.0, 900.0]);
-    let [least_width, least_height] = layout::LEAST_SIZE;
+    let [least_width, least_height] = shell::LEAST_SIZE;
     let size = [width.max(least_width), height.max(least_height)];
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
@@ -150,7 +74,7 @@ pub fn run(start: StartOptions) -> Result<(), GuiError> {
             .with_app_id("bspscope")
             .with_icon(icon())
             .with_inner_size(size)
-            .with_min_inner_size(layout::LEAST_SIZE),
+            .with_min_inner_size(shell::LEAST_SIZE),
         ..Default::default()
     };
     let opened = Arc::new(AtomicBool::new(false));

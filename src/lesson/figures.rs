@@ -3,7 +3,7 @@
 use crate::measure::accuracy::pixel_errors;
 use crate::measure::heat::{Heatmap, RayFilter, Source, Whole, heatmaps};
 use crate::measure::{Class, Measurement, Parameter, differing_pixels, parameters};
-use crate::present::number::{grouped, significant};
+use crate::present::number::{Digits, grouped};
 use crate::trace::{Picture, PixelTallies, Tally};
 
 /// All figures of a step.
@@ -195,10 +195,10 @@ impl Name {
         match self {
             Name::Parameter(_, parameter) => parameter.format(Some(value)),
             Name::Pixel(_, heatmap, _) if matches!(heatmap.whole, Whole::RatioTo(_)) => {
-                significant(value)
+                Digits::Four.number(value)
             }
             Name::Total(..) | Name::Pixel(..) | Name::Differing => grouped(value),
-            Name::Rmse => significant(value),
+            Name::Rmse => Digits::Four.number(value),
         }
     }
 }

@@ -2,7 +2,7 @@
 //! a.N_LS`.
 
 use super::figures::{Figures, Name};
-use crate::present::number::{grouped, significant};
+use crate::present::number::{Digits, NO_VALUE, grouped};
 
 /// A number computed from figures.
 #[derive(Clone, Debug)]
@@ -87,11 +87,11 @@ impl Formula {
     /// Formats a value of this formula; `–` if there is none.
     pub fn write(&self, value: Option<f64>, style: Style) -> String {
         match (value, style, self) {
-            (None, ..) => "–".into(),
-            (Some(value), Style::Percent, _) => format!("{} %", significant(value * 100.0)),
-            (Some(value), Style::Whole, _) => grouped(value.round()),
+            (None, ..) => NO_VALUE.into(),
+            (Some(value), Style::Percent, _) => Digits::Four.percent(value),
+            (Some(value), Style::Whole, _) => grouped(value),
             (Some(value), Style::Plain, Formula::Figure(name)) => name.write(value),
-            (Some(value), Style::Plain, _) => significant(value),
+            (Some(value), Style::Plain, _) => Digits::Four.number(value),
         }
     }
 

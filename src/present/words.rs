@@ -3,6 +3,7 @@
 use crate::measure::paper::{Cell, Mark, decimals};
 use crate::measure::sweep::{Answer, Row};
 use crate::measure::{Measurement, Parameter, Table, Unequal, Unit, parameter};
+use crate::present::number::{NO_VALUE, counted};
 use crate::structure::MaxDepth;
 use std::fmt;
 
@@ -47,7 +48,9 @@ impl fmt::Display for Unequal {
             Unequal::Pixels { count, first } => {
                 let places: Vec<_> = first.iter().map(|[x, y]| format!("{x},{y}")).collect();
                 let more = if *count > first.len() { ", …" } else { "" };
-                write!(f, "{count} pixels differ: {}{more}", places.join(" "))
+                let pixels = counted(*count, "pixel");
+                let verb = if *count == 1 { "differs" } else { "differ" };
+                write!(f, "{pixels} {verb}: {}{more}", places.join(" "))
             }
         }
     }
@@ -82,7 +85,7 @@ impl Cell {
                 format!("{value}")
             }
             Some(value) => format!("{value:.*}", decimals(self.printed) + more),
-            None => "–".into(),
+            None => NO_VALUE.into(),
         }
     }
 }
@@ -123,10 +126,9 @@ impl Answer<'_> {
             None => text += ", which is not among the points",
             Some(row) => {
                 text += &format!(", where the least is at {}", of(row));
-                let both = row.value(shown).zip(self.best.value(shown));
-                let ratio = both.map(|(a, b)| a / b);
-                if let Some(ratio) = ratio.filter(|ratio| ratio.is_finite()) {
-                    text += &format!(" ({:+.1} %)", (ratio - 1.0) * 100.0);
+                let change = shown.change_text(self.best.value(shown), row.value(shown));
+                if let Some(change) = change {
+                    text += &format!(" ({})", change.text);
                 }
             }
         }

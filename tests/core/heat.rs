@@ -238,7 +238,7 @@ fn ticks_are_round_ascending_and_within_the_range() {
                     "{told}"
                 );
                 for tick in &ticks {
-                    let number = tick.text.replace('−', "-").replace(' ', "");
+                    let number = tick.text.replace('−', "-").replace('\u{a0}', "");
                     let number: f64 = number.parse().unwrap();
                     assert!(
                         (number - tick.value).abs() <= 1e-9 * tick.value.abs(),

@@ -87,7 +87,7 @@ fn figures_are_filled_in_from_what_was_measured() {
     let tests_of_a = bspscope::present::number::grouped(tests(a) as f64);
     assert_eq!(
         step.after.fill(Some(&figures)).trim(),
-        format!("1 {tests_of_a} {in_ray} 0 6 25.00 %")
+        format!("1 {tests_of_a} {in_ray} 0 6 25.00\u{a0}%")
     );
     // A prediction within 10 % is right, one beyond is not.
     let truth = tests(b) as f64 / tests(a) as f64;

@@ -109,5 +109,5 @@ pub fn grouped(number: impl TryInto<u64>) -> String {
     let digits = number.try_into().ok().expect("a count").to_string();
     let groups = digits.as_bytes().rchunks(3).rev();
     let groups: Vec<_> = groups.map(String::from_utf8_lossy).collect();
-    groups.join(" ")
+    groups.join("\u{a0}")
 }

@@ -208,7 +208,7 @@ fn the_most_expensive_pixels_are_picked_in_order() {
     let is_picked = |window: &Window<'_>, rank: usize| {
         let (x, y) = (order[rank] as u32 % SIZE, order[rank] as u32 / SIZE);
         has(window, &format!("Pixel {x}, {y} ("))
-            && has(window, &format!("rank {} of 2 304", rank + 1))
+            && has(window, &format!("rank {} of 2\u{a0}304", rank + 1))
             && has(
                 window,
                 &format!("Picked: {} tests", image.values[order[rank]]),
@@ -235,7 +235,7 @@ fn the_most_expensive_pixel_is_that_of_the_heatmap_chosen_last() {
     finish(&mut window);
     show(&mut window, "N_NODES");
     plain(&mut window, egui::Key::N);
-    wait_for(&mut window, "rank 1 of 2 304");
+    wait_for(&mut window, "rank 1 of 2\u{a0}304");
     // Both keys in one frame: the next heatmap's values are not there yet.
     window.key_press(egui::Key::H);
     window.key_press(egui::Key::N);
@@ -257,7 +257,10 @@ fn without_counts_the_picture_stays_and_a_note_says_why() {
     // The picture is not there at once, and if it were, it would be too large to be counted.
     choose(&mut window, "Show:", &title(&heatmaps()[0]));
     assert!(has(&window, "counting …") || has(&window, "Only pictures of up to"));
-    wait_for(&mut window, "Only pictures of up to 4 000 000 pixels");
+    wait_for(
+        &mut window,
+        "Only pictures of up to 4\u{a0}000\u{a0}000 pixels",
+    );
     assert!(!has(&window, "Legend from"));
     window.key_press(egui::Key::Escape);
     window.run_steps(3);
@@ -291,7 +294,7 @@ fn times_come_by_a_pass_of_their_own_and_belong_to_one_picture() {
     });
     finish(&mut window);
     plain(&mut window, egui::Key::N);
-    wait_for(&mut window, "rank 1 of 2 304");
+    wait_for(&mut window, "rank 1 of 2\u{a0}304");
 }
 
 #[test]

@@ -106,7 +106,7 @@ fn picking_shows_every_ray_and_what_they_sum_to() {
 fn grouped(node: u32) -> String {
     match (node / 1000, node % 1000) {
         (0, rest) => rest.to_string(),
-        (thousands, rest) => format!("{thousands} {rest:03}"),
+        (thousands, rest) => format!("{thousands}\u{a0}{rest:03}"),
     }
 }
 

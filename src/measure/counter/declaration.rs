@@ -19,6 +19,9 @@ pub struct Counter {
     /// Its formula in terms of other counters; empty if it is counted, measured or given.
     pub formula: &'static str,
     pub value: Value,
+    /// Whether a smaller value means less work. Only then can one tree be better in it than another:
+    /// nobody knows the best number of leaves.
+    pub less_is_better: bool,
     /// Whether it applies only if rays cross split planes, as in all structures but grids.
     pub(super) needs_planes: bool,
     pub(super) parameter: Option<(Table, Class)>,
@@ -113,6 +116,7 @@ impl Counter {
             meaning,
             formula: "",
             value,
+            less_is_better: false,
             needs_planes: false,
             parameter: None,
             heatmap: None,
@@ -128,6 +132,11 @@ impl Counter {
 
     pub(super) const fn formula(mut self, formula: &'static str) -> Self {
         self.formula = formula;
+        self
+    }
+
+    pub(super) const fn less_is_better(mut self) -> Self {
+        self.less_is_better = true;
         self
     }
 

@@ -104,35 +104,36 @@ counters! {
         parameter(Static, C),
         formula("(V_ROOT − V_EMPTY) / V_ROOT, with V_ROOT the volume of the root cell");
     "T_CB", "build time", Seconds, "CPU time of building the tree.",
-        Measured(|m| Some(m.building.cpu.as_secs_f64())), parameter(Static, T);
+        Measured(|m| Some(m.building.cpu.as_secs_f64())), parameter(Static, T), less_is_better();
     // Table 3
     "N_PR", "primary rays", Count, "Rays from the eye, one per pixel.",
         Rays(Primary, Count(|t| t.rays)), parameter(Dynamic, D), formula("N_X · N_Y");
     "N_PRIT", "tests of primary rays", Count, "Intersection tests of all primary rays.",
-        Rays(Primary, Count(|t| t.tests)), parameter(Dynamic, R);
+        Rays(Primary, Count(|t| t.tests)), parameter(Dynamic, R), less_is_better();
     "N_HPR", "primary hits", Count, "Primary rays that hit an object.",
         Rays(Primary, Count(|t| t.hits)), parameter(Dynamic, D), formula("N_PR · S_COV");
     "N_SR", "shadow rays", Count, "Rays from a surface to a light that it faces.",
         Rays(Shadow, Count(|t| t.rays)), parameter(Dynamic, D);
     "N_SRIT", "tests of shadow rays", Count, "Intersection tests of all shadow rays.",
-        Rays(Shadow, Count(|t| t.tests)), parameter(Dynamic, R);
+        Rays(Shadow, Count(|t| t.tests)), parameter(Dynamic, R), less_is_better();
     "N_HSR", "blocked shadow rays", Count, "Shadow rays that hit an object before the light.",
         Rays(Shadow, Count(|t| t.hits)), parameter(Dynamic, D);
     "N_SECR", "secondary rays", Count, "Reflected and refracted rays.",
         Rays(Secondary, Count(|t| t.rays)), parameter(Dynamic, D);
     "N_SECRIT", "tests of secondary rays", Count, "Intersection tests of all secondary rays.",
-        Rays(Secondary, Count(|t| t.tests)), parameter(Dynamic, R);
+        Rays(Secondary, Count(|t| t.tests)), parameter(Dynamic, R), less_is_better();
     "N_HSECR", "secondary hits", Count, "Secondary rays that hit an object.",
         Rays(Secondary, Count(|t| t.hits)), parameter(Dynamic, R);
     "N_RPRT", "tests per hit", Ratio,
         "Intersection tests per hit, at least 1; no value without hits.",
         Rays(All, Ratio(|t| t.tests, |t| t.hits)), parameter(Dynamic, R),
         formula("(N_PRIT + N_SRIT + N_SECRIT) / (N_HPR + N_HSR + N_HSECR)"),
-        heatmap(7, "tests per hit", 0.1), per_kind(3, "tests_per_hit", "tests per hit");
+        heatmap(7, "tests per hit", 0.1), per_kind(3, "tests_per_hit", "tests per hit"),
+        less_is_better();
     "N_VLS", "visited leaves", Count, "Leaves that rays visit, including empty ones.",
         Rays(All, Count(|t| t.leaves)), parameter(Dynamic, R),
         heatmap(3, "leaves per pixel", 1.0),
-        per_kind(6, "leaves", "leaves"), of_single_rays(|m| m.leaves);
+        per_kind(6, "leaves", "leaves"), of_single_rays(|m| m.leaves), less_is_better();
     "N_VELS", "visited empty leaves", Count, "Empty leaves that rays visit.",
         Rays(All, Count(|t| t.empty_leaves)), parameter(Dynamic, R),
         heatmap(4, "empty leaves per pixel", 1.0),
@@ -141,37 +142,43 @@ counters! {
         Rays(All, Count(|t| t.leaves - t.empty_leaves)), parameter(Dynamic, R),
         formula("N_VLS − N_VELS"),
         heatmap(5, "full leaves per pixel", 1.0),
-        per_kind(8, "full_leaves", "full leaves"), of_single_rays(|m| m.full_leaves);
+        per_kind(8, "full_leaves", "full leaves"), of_single_rays(|m| m.full_leaves),
+        less_is_better();
     "N_INODES", "traversed inner nodes", Count, "Inner nodes that rays traverse.",
         Rays(All, Count(|t| t.inner_nodes)), needs_planes(), parameter(Dynamic, R),
         heatmap(2, "inner nodes per pixel", 1.0),
-        per_kind(5, "inner_nodes", "inner nodes"), of_single_rays(|m| m.inner_nodes);
+        per_kind(5, "inner_nodes", "inner nodes"), of_single_rays(|m| m.inner_nodes),
+        less_is_better();
     "N_NODES", "traversed nodes", Count, "Inner nodes and leaves that rays traverse.",
         Rays(All, Count(|t| t.inner_nodes + t.leaves)), parameter(Dynamic, R),
         formula("N_INODES + N_VLS"),
         heatmap(1, "nodes per pixel", 1.0),
-        per_kind(4, "nodes", "nodes"), of_single_rays(|m| m.nodes), mean_is("N_AT");
+        per_kind(4, "nodes", "nodes"), of_single_rays(|m| m.nodes), mean_is("N_AT"),
+        less_is_better();
     "N_AT", "nodes per ray", Ratio, "Nodes that a ray traverses on average.",
         Rays(All, Ratio(|t| t.inner_nodes + t.leaves, |t| t.rays)), parameter(Dynamic, R),
-        formula("N_NODES / (N_PR + N_SR + N_SECR)");
+        formula("N_NODES / (N_PR + N_SR + N_SECR)"), less_is_better();
     "T_TR", "render time", Seconds,
         "CPU time of rendering the picture with one sample per pixel, summed over all threads.",
-        Measured(|m| m.rendering.map(|r| r.cpu.as_secs_f64())), parameter(Dynamic, T);
+        Measured(|m| m.rendering.map(|r| r.cpu.as_secs_f64())), parameter(Dynamic, T),
+        less_is_better();
     // Beside the tables
     "T_TT", "traversal time", Seconds,
         "CPU time of taking the same rays through the tree to their known ends, without tests and \
          shading.",
-        Measured(|m| m.counted.map(|c| c.traversal.as_secs_f64())), parameter(Ours, T);
+        Measured(|m| m.counted.map(|c| c.traversal.as_secs_f64())), parameter(Ours, T),
+        less_is_better();
     "T_TT/T_TR", "traversal share", Percent, "Share of the render time spent on traversal.",
         Measured(|m| {
             ratio(m.counted?.traversal.as_secs_f64(), m.rendering?.cpu.as_secs_f64())
         }),
         parameter(Ours, T), formula("T_TT / T_TR");
     "T_CB_WALL", "wall-clock build time", Seconds, "Wall-clock time of building the tree.",
-        Measured(|m| Some(m.building.wall.as_secs_f64())), parameter(Ours, T);
+        Measured(|m| Some(m.building.wall.as_secs_f64())), parameter(Ours, T), less_is_better();
     "T_TR_WALL", "wall-clock render time", Seconds,
         "Wall-clock time of rendering the picture with all threads.",
-        Measured(|m| m.rendering.map(|r| r.wall.as_secs_f64())), parameter(Ours, T);
+        Measured(|m| m.rendering.map(|r| r.wall.as_secs_f64())), parameter(Ours, T),
+        less_is_better();
     "N_BITS", "bits per number", Count, "Bits of the numbers that rays are traced with, 32 or 64.",
         Measured(|m| Some(f64::from(m.precision.precision.bits()))), parameter(Ours, S);
     "W_CUT", "minimum contribution", Ratio,
@@ -194,11 +201,11 @@ counters! {
         Rays(All, Count(|t| t.tests)),
         heatmap(6, "tests per pixel", 1.0),
         parts(&[(Primary, "N_PRIT"), (Shadow, "N_SRIT"), (Secondary, "N_SECRIT")]),
-        per_kind(3, "tests", "tests"), of_single_rays(|m| m.tests);
+        per_kind(3, "tests", "tests"), of_single_rays(|m| m.tests), less_is_better();
     // `T_TR` is measured over whole tiles, so no parameter is the sum of these.
     "T_PIXEL", "time", Seconds,
         "Time of tracing and shading a pixel on one thread; the minimum of several runs.",
-        PixelTime, heatmap(9, "µs per pixel", 0.1);
+        PixelTime, heatmap(9, "µs per pixel", 0.1), less_is_better();
 }
 
 #[cfg(test)]

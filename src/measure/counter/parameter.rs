@@ -29,6 +29,8 @@ pub struct Parameter {
     pub meaning: &'static str,
     /// Its formula in terms of other parameters; empty if it is counted, measured or given.
     pub formula: &'static str,
+    /// Whether a smaller value means less work.
+    pub less_is_better: bool,
     value: Value,
     needs_planes: bool,
 }
@@ -45,6 +47,7 @@ impl Parameter {
             unit: counter.unit,
             meaning: counter.meaning,
             formula: counter.formula,
+            less_is_better: counter.less_is_better,
             value: counter.value,
             needs_planes: counter.needs_planes,
         })

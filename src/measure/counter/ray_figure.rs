@@ -16,6 +16,8 @@ pub struct RayFigure {
     pub unit: Unit,
     /// What it means.
     pub meaning: String,
+    /// Whether a smaller value means less work.
+    pub less_is_better: bool,
     statistic: Statistic,
 }
 
@@ -73,7 +75,7 @@ fn figures(counter: &Counter) -> Vec<([u32; 2], RayFigure)> {
         "" => name,
         symbol => format!("{name} ({symbol})"),
     };
-    let meaning = counter.meaning;
+    let (meaning, less_is_better) = (counter.meaning, counter.less_is_better);
     let symbol = counter.parameter.map_or("", |_| counter.symbol);
     let is_ratio = matches!(quantity, Quantity::Ratio(..));
     let total = RayFigure {
@@ -81,6 +83,7 @@ fn figures(counter: &Counter) -> Vec<([u32; 2], RayFigure)> {
         name: named(noun.to_owned(), symbol),
         unit: counter.unit,
         meaning: meaning.to_owned(),
+        less_is_better,
         statistic: Statistic::Of(quantity),
     };
     let mut figures = vec![([place, u32::from(is_ratio)], total)];
@@ -90,6 +93,7 @@ fn figures(counter: &Counter) -> Vec<([u32; 2], RayFigure)> {
             name: named(format!("{noun} per ray, mean"), mean_symbol),
             unit: Unit::Ratio,
             meaning: format!("{meaning} Mean per ray."),
+            less_is_better,
             statistic: Statistic::Mean(count),
         };
         let most = RayFigure {
@@ -97,6 +101,7 @@ fn figures(counter: &Counter) -> Vec<([u32; 2], RayFigure)> {
             name: format!("{noun} per ray, maximum"),
             unit: Unit::Count,
             meaning: format!("{meaning} Maximum of any ray."),
+            less_is_better,
             statistic: Statistic::Maximum(maximum),
         };
         figures.extend([([place, 2], mean), ([place, 3], most)]);

@@ -3,7 +3,7 @@
 use super::png;
 use crate::measure::heat::{HeatImage, HeatStatistics, Heatmap, RayFilter, Whole};
 use crate::measure::parameter;
-use crate::present::number::{grouped, significant};
+use crate::present::number::Digits;
 use crate::present::overlay::{
     Captions, Colormap, HeatPicture, HeatScale, Range, Scale, blend, heat_colors, with_legend,
 };
@@ -95,7 +95,7 @@ impl HeatSheet<'_> {
             words += &format!(", {} rays", self.rays.name());
         }
         if let Some((_, opacity)) = self.below {
-            words += &format!("; {:.0} % over the picture", opacity * 100.0);
+            words += &format!("; {} over the picture", Digits::All.percent(opacity));
         }
         words
     }
@@ -148,9 +148,5 @@ impl HeatSheet<'_> {
 
 /// Formats an integer in full, and any other number to four digits.
 fn number(value: f64) -> String {
-    if value.fract() == 0.0 {
-        grouped(value)
-    } else {
-        significant(value)
-    }
+    Digits::Four.exact_or(value)
 }

@@ -1,5 +1,6 @@
 //! Colorings of leaves by their properties. A coloring is one entry of [`COLORINGS`].
 
+use crate::present::number::{Digits, grouped};
 use crate::structure::{CellOfNode, NodeKind, Tree};
 use crate::trace::Visits;
 
@@ -180,8 +181,8 @@ impl Coloring {
         let mark = |value: f64| Mark {
             place: self.place(value, range),
             text: match self.scale {
-                Scale::Powers => format!("{value:.1e}"),
-                _ => format!("{value:.0}"),
+                Scale::Powers => Digits::Three.number(value),
+                _ => grouped(value),
             },
         };
         match self.scale {

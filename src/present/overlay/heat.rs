@@ -2,7 +2,7 @@
 
 use super::Colormap;
 use crate::measure::heat::HeatImage;
-use crate::present::number::{grouped, significant};
+use crate::present::number::{Digits, grouped};
 
 /// How values map to places on the scale.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -115,7 +115,7 @@ impl HeatScale {
     /// values are the same, returns one tick.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if self.lo == self.hi {
-            return vec![self.tick(self.lo, significant(self.lo))];
+            return vec![self.tick(self.lo, Digits::Four.exact_or(self.lo))];
         }
         let linear = || -> Vec<Tick> {
             let (step, values) = self.round_values(most);

@@ -2,6 +2,7 @@
 //! picture. A histogram of leaves is one entry of [`HISTOGRAMS`].
 
 use super::Leaf;
+use crate::present::number::{Digits, grouped};
 use crate::structure::Tree;
 use crate::trace::Visits;
 
@@ -201,16 +202,9 @@ impl HistogramAxis {
     /// Formats a value of the axis for display.
     pub fn format(&self, value: f64) -> String {
         match self.spread {
-            Spread::Whole => format!("{value:.0}"),
-            Spread::Powers => {
-                let value = libm::exp10(value);
-                if (0.01..1e4).contains(&value) {
-                    format!("{value:.3}")
-                } else {
-                    format!("{value:.1e}")
-                }
-            }
-            Spread::Counts => format!("{:.0}", libm::exp10(value) - 1.0),
+            Spread::Whole => grouped(value),
+            Spread::Powers => Digits::Three.number(libm::exp10(value)),
+            Spread::Counts => grouped(libm::exp10(value) - 1.0),
         }
     }
 
@@ -322,7 +316,10 @@ mod tests {
         let edge = |number: f64| (number + 1.0).log10();
         assert_eq!(axis.format_range([edge(0.0), edge(0.4)]), "0");
         assert_eq!(axis.format_range([edge(0.4), edge(99.5)]), "1 to 99");
-        assert_eq!(axis.format_range([edge(7.0), edge(1000.0)]), "7 to 1000");
+        assert_eq!(
+            axis.format_range([edge(7.0), edge(1000.0)]),
+            "7 to 1\u{a0}000"
+        );
     }
 
     #[test]

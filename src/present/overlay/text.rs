@@ -96,3 +96,18 @@ impl Pen {
         along
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_characters_of_numbers_have_glyphs() {
+        let pen = Pen::new(16.0, [0; 3]);
+        let missing = pen.font.glyph_id('\u{10ffff}');
+        for c in ['\u{a0}', '−', '×', 'µ', '–', '³', '≤'] {
+            assert_ne!(pen.font.glyph_id(c), missing, "{c:?}");
+        }
+        assert_eq!(pen.width("1\u{a0}200"), pen.width("1 200"));
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::table::plain_table;
 use crate::measure::accuracy::{AccuracyStudy, Outcome};
-use crate::present::number::{counted, significant};
+use crate::present::number::{Digits, counted};
 use serde_json::{Value, json};
 use std::io::{Result, Write};
 
@@ -39,7 +39,7 @@ pub fn write_text(report: &AccuracyReport<'_>, out: &mut dyn Write) -> Result<()
         writeln!(
             out,
             "Scene {}. Reference: f64, exact shapes, D_AREC {}, {} per pixel, {} × {} pixels, {}: \
-             {} s of CPU time,\nthe median of {}. Times are ratios to it. Errors are on linear light \
+             {} of CPU time,\nthe median of {}. Times are ratios to it. Errors are on linear light \
              from 0 to 1.",
             report.scene,
             render.d_arec,
@@ -47,7 +47,7 @@ pub fn write_text(report: &AccuracyReport<'_>, out: &mut dyn Write) -> Result<()
             render.width,
             render.height,
             setup.build.method.name,
-            significant(first.median()),
+            Digits::Four.seconds(first.median()),
             counted(first.seconds.len(), "interleaved round")
         )?;
     }
@@ -73,16 +73,16 @@ fn cells(study: &AccuracyStudy, outcome: &Outcome, front: bool) -> [String; 12] 
     [
         outcome.choice.words(),
         if front { "front".into() } else { String::new() },
-        format!("{median:.3}"),
-        format!("{least:.3}"),
-        format!("{most:.3}"),
-        format!("{} %", significant(100.0 * outcome.wrong_hits)),
-        significant(error.rmse),
-        significant(error.max),
+        Digits::Four.number(median),
+        Digits::Four.number(least),
+        Digits::Four.number(most),
+        Digits::Four.percent(outcome.wrong_hits),
+        Digits::Four.number(error.rmse),
+        Digits::Four.number(error.max),
         error.psnr.map_or("∞".into(), |psnr| format!("{psnr:.1}")),
         format!("{:.5}", error.ssim),
-        significant(error.flip),
-        format!("{} KiB", outcome.object_bytes.div_ceil(1024)),
+        Digits::Four.number(error.flip),
+        Digits::Four.bytes(outcome.object_bytes as f64),
     ]
 }
 

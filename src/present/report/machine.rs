@@ -1,5 +1,6 @@
 //! The machine on which a report was made, and the time.
 
+use crate::present::number::Digits;
 use sysinfo::{CpuRefreshKind, MemoryRefreshKind, RefreshKind, System};
 use time::OffsetDateTime;
 use time::macros::format_description;
@@ -43,7 +44,7 @@ impl Machine {
             },
             memory: match memory {
                 0 => dash(),
-                bytes => format!("{:.1} GiB", bytes as f64 / f64::from(1 << 30)),
+                bytes => Digits::Three.bytes(bytes as f64),
             },
             system: System::long_os_version().unwrap_or_else(dash),
             version: format!(

@@ -3,8 +3,9 @@
 use super::content::Report;
 use super::exact::exact;
 use super::grid::Grid;
-use super::sections::{NO_VALUE, value_titles};
+use super::sections::value_titles;
 use crate::measure::{Change, RayFigure, change, ray_figures};
+use crate::present::number::NO_VALUE;
 use crate::trace::RayKind;
 use serde_json::{Map, Value, json};
 

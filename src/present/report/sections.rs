@@ -2,9 +2,7 @@
 
 use super::content::Report;
 use crate::measure::{Class, DELTA, LAMBDA, Parameter, Table, change, parameter, parameters};
-
-/// Shown in place of a missing value.
-pub const NO_VALUE: &str = "–";
+use crate::present::number::NO_VALUE;
 
 /// One table.
 pub struct Section {

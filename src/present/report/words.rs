@@ -3,9 +3,11 @@
 use super::content::Report;
 use crate::geometry::Vec3;
 use crate::measure::Measurement;
+use crate::present::number::{Digits, counted};
 use crate::setup::{Group, Kind, Setting, Setup, Value};
 use crate::structure::MaxDepth;
 use crate::structure::split::Structure;
+use std::time::Duration;
 
 /// Describes the scene and which features it does not need, one sentence per line.
 pub fn scene(report: &Report) -> Vec<String> {
@@ -119,18 +121,18 @@ pub fn times(report: &Report) -> Vec<String> {
         .iter()
         .map(|run| {
             let mut line = format!(
-                "{}: tree built in {:.1?} ({:.1?} CPU) on {}",
+                "{}: tree built in {} ({} CPU) on {}",
                 run.build.method.name,
-                run.building.wall,
-                run.building.cpu,
-                threads(run.building.threads)
+                time(run.building.wall),
+                time(run.building.cpu),
+                counted(run.building.threads, "thread")
             );
             if let Some(rendering) = run.rendering {
                 line += &format!(
-                    "; picture rendered in {:.1?} ({:.1?} CPU) on {}",
-                    rendering.wall,
-                    rendering.cpu,
-                    threads(rendering.threads)
+                    "; picture rendered in {} ({} CPU) on {}",
+                    time(rendering.wall),
+                    time(rendering.cpu),
+                    counted(rendering.threads, "thread")
                 );
             }
             line
@@ -164,11 +166,8 @@ fn tree(report: &Report, run: &Measurement) -> String {
     format!("method {}: {}", build.method.name, words.join(", "))
 }
 
-fn threads(count: usize) -> String {
-    match count {
-        1 => "1 thread".into(),
-        n => format!("{n} threads"),
-    }
+fn time(time: Duration) -> String {
+    Digits::Three.seconds(time.as_secs_f64())
 }
 
 /// Formats a point to about six digits relative to `size`, which hides the noise of rounding.

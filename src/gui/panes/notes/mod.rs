@@ -1,0 +1,55 @@
+//! What the user wrote down, and pixels to come back to; both are saved in a workspace.
+
+use crate::gui::action::tip;
+use crate::gui::document::{Current, Document};
+use crate::gui::pane::{Cx, Pane};
+
+#[derive(Default)]
+pub struct NotesPane;
+
+impl Pane for NotesPane {
+    const ID: &'static str = "notes";
+    const TITLE: &'static str = "Notes";
+    const ABOUT: &'static str = "Your notes and pinned pixels, saved with the workspace.";
+    const SHOWS_FIGURES: bool = false;
+
+    fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
+        show(ui, cx.doc);
+    }
+}
+
+fn show(ui: &mut egui::Ui, doc: &mut Document) {
+    let field = egui::TextEdit::multiline(&mut doc.notes)
+        .hint_text("Notes, saved with the workspace")
+        .desired_rows(4)
+        .desired_width(f32::INFINITY);
+    ui.add(field).accessible_name("Text of the notes");
+    let picked = doc.current.as_ref().and_then(Current::picked_pixel);
+    let is_pinned = picked.is_some_and(|pixel| doc.pinned.contains(&pixel));
+    let name = if is_pinned {
+        "Unpin the picked pixel"
+    } else {
+        "Pin the picked pixel"
+    };
+    if ui
+        .add_enabled(picked.is_some(), egui::Button::new(name))
+        .on_hover_text(tip(
+            "Mark the picked pixel in the picture and in this list, to come back to it.",
+            "picture.pin",
+        ))
+        .clicked()
+    {
+        doc.pin_or_unpin();
+    }
+    let mut chosen = None;
+    for (i, &[x, y]) in doc.pinned.iter().enumerate() {
+        let name = format!("{}: pixel {x}, {y}", i + 1);
+        let is_picked = picked == Some([x, y]);
+        if ui.selectable_label(is_picked, name).clicked() {
+            chosen = Some([x, y]);
+        }
+    }
+    if let (Some(pixel), Some(current)) = (chosen, &mut doc.current) {
+        current.pick(pixel);
+    }
+}

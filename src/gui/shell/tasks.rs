@@ -1,0 +1,113 @@
+//! The five tasks: what a person wants to do, and which panes that needs.
+
+use super::layout::{Column, Tiles};
+use egui_tiles::{Linear, LinearDir};
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// A task: a column of fixed width on either side, a row of fixed height below, tiles in between.
+pub struct Task {
+    pub id: &'static str,
+    pub title: &'static str,
+    pub about: &'static str,
+    /// The action that switches to it.
+    pub action: &'static str,
+    pub left: Option<Column>,
+    pub right: Option<Column>,
+    pub below: Option<Column>,
+    /// The tiles at first.
+    pub tiles: fn() -> Tiles,
+}
+
+/// The tasks, in the order of the bar and of the keys Ctrl+1 to Ctrl+5.
+pub static TASKS: [Task; 5] = [
+    Task {
+        id: "explore",
+        title: "Explore",
+        about: "The picture, the tree in 3D, and the figures.",
+        action: "window.explore",
+        left: None,
+        right: Some(Column::new(&["figures"], [280.0, 280.0])),
+        below: None,
+        tiles: || beside(&["picture", "view3d"]),
+    },
+    Task {
+        id: "ray",
+        title: "Ray",
+        about: "One pixel's rays, step by step.",
+        action: "window.ray",
+        left: Some(Column::new(&["picture", "rays"], [440.0, 368.0])),
+        right: None,
+        below: Some(Column::new(&["ray"], [300.0, 244.0])),
+        tiles: || beside(&["view3d"]),
+    },
+    Task {
+        id: "compare",
+        title: "Compare",
+        about: "Two trees of the same scene, side by side.",
+        action: "window.compare",
+        left: None,
+        right: Some(Column::new(&["comparison"], [416.0, 416.0])),
+        below: None,
+        tiles: || beside(&["picture"]),
+    },
+    Task {
+        id: "tune",
+        title: "Tune",
+        about: "The best tree for this scene.",
+        action: "window.tune",
+        left: None,
+        right: None,
+        below: None,
+        tiles: || beside(&["sweep", "time"]),
+    },
+    Task {
+        id: "lessons",
+        title: "Lessons",
+        about: "Guided tours that ask for a prediction, then measure.",
+        action: "window.lessons",
+        left: Some(Column::new(&["lesson"], [420.0, 420.0])),
+        right: None,
+        below: None,
+        tiles: || beside(&["picture", "view3d"]),
+    },
+];
+
+/// Returns the task with this id; the first one if there is none.
+pub fn task(id: &str) -> &'static Task {
+    let known = TASKS.iter().find(|task| task.id == id);
+    known.unwrap_or(&TASKS[0])
+}
+
+/// A task by its id; in a file, an unknown one is the first task.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct TaskId(pub &'static str);
+
+impl Default for TaskId {
+    fn default() -> Self {
+        TaskId(TASKS[0].id)
+    }
+}
+
+impl TaskId {
+    pub fn task(self) -> &'static Task {
+        task(self.0)
+    }
+}
+
+impl<'de> Deserialize<'de> for TaskId {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Ok(TaskId(task(&String::deserialize(from)?).id))
+    }
+}
+
+/// Panes of equal width beside each other.
+fn beside(panes: &[&'static str]) -> Tiles {
+    let mut tiles = egui_tiles::Tiles::default();
+    let children = panes.iter().map(|id| {
+        let pane = super::layout::pane(id).expect("tasks name known panes");
+        tiles.insert_pane(pane)
+    });
+    let children: Vec<_> = children.collect();
+    let root = tiles.insert_container(Linear::new(LinearDir::Horizontal, children));
+    super::layout::tree(root, tiles)
+}

@@ -1,0 +1,13 @@
+//! Widgets that several panes share.
+
+pub mod color_text;
+pub mod coloring_bar;
+pub mod common;
+pub mod log_axis;
+pub mod rounded;
+pub mod rows;
+pub mod scale_bar;
+pub mod setting_widget;
+pub mod step_text;
+pub mod symbol;
+pub mod tree_rows;
