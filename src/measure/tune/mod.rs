@@ -19,6 +19,7 @@ mod goal;
 mod phase;
 mod ranking;
 mod row;
+mod search;
 mod tuning;
 
 pub use candidates::{NAIVE_LIMIT, has_limits};
@@ -26,4 +27,5 @@ pub use goal::Goal;
 pub use phase::Phase;
 pub use ranking::{MOST_SLOWDOWN, Rank, Score, Spread, best, rank};
 pub use row::Row;
-pub use tuning::{LeftOut, ROUNDS, Search, Tuned, Tuning, Turn, Upcoming};
+pub use search::{LeftOut, Search, Tuned};
+pub use tuning::{ROUNDS, Tuning, Turn, Upcoming};
