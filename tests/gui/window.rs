@@ -1,8 +1,7 @@
 //! The window without a window: widgets found by their labels, pictures through a software adapter.
 
 use crate::harness::{
-    PATIENCE, Window, click, finish, has, is_finished, open, open_sized, open_with_graphics, press,
-    small, wait,
+    PATIENCE, Window, click, finish, has, is_finished, open, open_with_graphics, press, small, wait,
 };
 use egui_kittest::SnapshotOptions;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -32,7 +31,7 @@ fn figure(window: &Window<'_>, name: &str) -> String {
 
 /// Covers what depends on the machine.
 fn masked(window: &mut Window<'_>) -> SnapshotOptions {
-    for name in ["build time", "render time", "traversal share"] {
+    for name in ["build time", "render time", "time spent traversing"] {
         let rect = window.get_by_label(name).rect();
         let mut numbers = rect.expand(2.0);
         (numbers.min.x, numbers.max.x) = (rect.right() + 4.0, window.ctx.content_rect().right());
@@ -108,10 +107,7 @@ fn a_method_is_chosen_by_its_list() {
     };
     combo(&window);
     window.run_steps(3);
-    let title = bspscope::structure::Method::named("object-median")
-        .unwrap()
-        .title;
-    window.get_by_label(title).click();
+    window.get_by_label("object-median").click();
     wait(&mut window, "the method", |w| has(w, "· object-median ·"));
     finish(&mut window);
 }

@@ -9,6 +9,7 @@ use crate::gui::action::actions;
 use crate::gui::document::Document;
 use crate::gui::document::walk::Go;
 use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::widgets::common::rest_of;
 use egui::{Layout, Ui, vec2};
 
 /// In a pane of this width, in points, the details of a step stand beside the list.
@@ -52,7 +53,7 @@ impl Pane for RayPane {
             cx.edits.add(move |doc| steps::go_to(doc, step));
         }
         bar::sentence(ui, doc);
-        let room = crate::gui::rest_of(ui);
+        let room = rest_of(ui);
         if !is_wide {
             steps::show(ui, doc, cx.edits, room.y);
             return;

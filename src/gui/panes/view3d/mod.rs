@@ -24,6 +24,7 @@ use crate::gui::document::Document;
 use crate::gui::document::tasks::Latest;
 use crate::gui::edits::Request;
 use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::widgets::common::rest_of;
 use crate::jobs::PictureVisits;
 use crate::present::overlay::{self, Line};
 use crate::scene::Scene;
@@ -124,7 +125,7 @@ impl Pane for View3d {
         let doc: &Document = cx.doc;
         self.follow(doc);
         let marks = marks::Marks::of(doc, ui.ctx());
-        let size = crate::gui::rest_of(ui);
+        let size = rest_of(ui);
         let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::Canvas, true, "3D view of scene and tree")
