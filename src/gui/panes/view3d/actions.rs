@@ -1,11 +1,10 @@
 //! What the keys of the 3D view do.
 
-use super::View3d;
-use super::export;
 use super::settings::Cells;
-use crate::geometry::{Aabb, Axis, Vec3};
+use super::view::View3d;
+use super::{export, framing};
+use crate::geometry::{Axis, Vec3};
 use crate::gui::action::actions;
-use crate::gui::document::Current;
 use crate::gui::edits::Request;
 use crate::gui::pane::{Cx, PaneAction};
 use crate::present::overlay::Filter;
@@ -21,7 +20,7 @@ pub const ACTIONS: &[PaneAction<View3d>] = actions! {
         cx.edits.request(Request::Export(Box::new(export)));
     };
     "view3d.frame-selection" Here NONE [F] "Frame the selection" => |view, cx| {
-        if let Some(bounds) = cx.doc.current.as_ref().and_then(framed) {
+        if let Some(bounds) = cx.doc.current.as_ref().and_then(framing::selected) {
             view.camera.show(&bounds);
             view.keyed = true;
         }
@@ -84,24 +83,4 @@ fn look(view: &mut View3d, axis: Axis) {
     };
     view.camera.look(turned, up);
     view.keyed = true;
-}
-
-/// What F shows: the selected node's cell, or else what is picked.
-fn framed(current: &Current) -> Option<Aabb> {
-    match current.selection.node {
-        Some(node) => Some(current.shown.tree.cell_of(node).bounds),
-        None => selection(current),
-    }
-}
-
-/// The box of what is picked: the object hit, or else the leaves visited.
-pub fn selection(current: &Current) -> Option<Aabb> {
-    use crate::primitive::Shape;
-    let path = current.picked.as_ref()?.path();
-    if path.hit.is_hit() {
-        return Some(current.shown.scene.objects()[path.hit.object as usize].bounds());
-    }
-    path.leaves()
-        .map(|leaf| leaf.bounds)
-        .reduce(|a, b| a.union(&b))
 }

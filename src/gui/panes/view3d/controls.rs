@@ -1,7 +1,7 @@
 //! The widgets in the title row of the 3D view.
 
-use super::View3d;
 use super::settings::{Cells, FIRST_DEPTH, Settings};
+use super::view::View3d;
 use crate::gui::action::tip;
 use crate::gui::document::Document;
 use crate::gui::icons;

@@ -3,7 +3,8 @@
 use super::ray_lines;
 use super::renderer::{Frame3d, Globals};
 use super::settings::{Cells, Settings};
-use super::{GROUND, SceneKey, View3d, actions, legend, marks, scene_mesh};
+use super::view::{SceneKey, View3d};
+use super::{framing, legend, marks, scene_mesh};
 use crate::geometry::{Aabb, Vec3};
 use crate::gui::document::Current;
 use crate::jobs::PictureVisits;
@@ -12,6 +13,9 @@ use crate::trace::RayPath;
 use eframe::egui_wgpu;
 use egui::{Color32, Rect, vec2};
 use std::sync::Arc;
+
+/// Behind everything, in both themes: the color maps are made for a dark ground.
+pub const GROUND: [u8; 3] = [24, 27, 33];
 
 /// Boxes that a processor can draw fast enough to follow the mouse, and at rest.
 const BOXES_IN_SOFTWARE: [u32; 2] = [12_000, 250_000];
@@ -109,7 +113,7 @@ impl View3d {
         if let Some(path) = path {
             self.number_leaves(ui, rect, path);
         }
-        marks.name(self, ui, rect);
+        marks.name(&self.camera, ui, rect);
         let mut keys = marks.key();
         keys.extend(self.settings.cut.text(&tree.root_cell()));
         let legend = legend::Legend {
@@ -163,7 +167,7 @@ impl View3d {
         let mut lines = self.rays.get(current, others, center).to_vec();
         if let Some(picked) = &current.picked
             && picked.path().hit.is_hit()
-            && let Some(bounds) = actions::selection(current)
+            && let Some(bounds) = framing::picked(current)
         {
             lines.extend(overlay::box_lines(&bounds, center, WHITE, 1.0));
         }
@@ -206,4 +210,15 @@ impl View3d {
             painter.text(at, egui::Align2::CENTER_CENTER, text, font, color);
         }
     }
+}
+
+/// A line of text in the middle of the view.
+pub fn note(ui: &egui::Ui, rect: Rect, text: &str) {
+    ui.painter().text(
+        rect.center(),
+        egui::Align2::CENTER_CENTER,
+        text,
+        egui::FontId::proportional(14.0),
+        Color32::LIGHT_GRAY,
+    );
 }

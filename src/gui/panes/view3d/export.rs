@@ -1,6 +1,6 @@
 //! The 3D view as a picture of the screen, and its leaf boxes as a file.
 
-use super::View3d;
+use super::view::View3d;
 use crate::gui::document::Document;
 use crate::gui::edits::{Content, Export, MakeFile};
 use crate::present::export::{LEAF_WRITERS, LeafCells};

@@ -1,8 +1,8 @@
 //! What the 3D view shows, to and from a workspace.
 
-use super::View3d;
 use super::cut::Cut;
 use super::settings::{Cells, Settings};
+use super::view::View3d;
 use crate::present::overlay::{self, Filter};
 use crate::workspace::View3dSettings;
 

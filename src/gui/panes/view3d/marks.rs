@@ -1,7 +1,7 @@
 //! What is marked in the 3D view: the selected node's cell with its plane, and the leaves that refer
 //! to the selected object.
 
-use super::View3d;
+use super::camera::ViewCamera;
 use super::settings::{Cells, Settings};
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
 use crate::gui::document::Document;
@@ -79,13 +79,13 @@ impl Marks {
     }
 
     /// Writes the node's name at its cell and the plane's place at the plane.
-    pub fn name(&self, view: &View3d, ui: &egui::Ui, rect: Rect) {
+    pub fn name(&self, camera: &ViewCamera, ui: &egui::Ui, rect: Rect) {
         let Some(cell) = &self.cell else {
             return;
         };
         let painter = ui.painter().with_clip_rect(rect);
         let on_screen = |point: &Vec3| {
-            let [x, y] = view.camera.place(*point)?;
+            let [x, y] = camera.place(*point)?;
             let at = rect.center() + vec2(x as f32, -y as f32) * rect.height() * 0.5;
             rect.shrink(8.0).contains(at).then_some(at)
         };

@@ -1,11 +1,7 @@
-//! The view in the task *Ray*: it glides to the side of the selected ray, and returns to what it showed
-//! when the task ends.
+//! What the task *Ray* changes in the view for as long as it lasts.
 
-use super::View3d;
 use super::camera::ViewCamera;
-use super::settings::{Cells, Settings};
-use super::side_view::side_view;
-use crate::gui::document::Document;
+use super::settings::Settings;
 use crate::scene::Camera;
 use crate::trace::PixelRecord;
 use std::sync::Arc;
@@ -38,9 +34,53 @@ pub struct RayTask {
 }
 
 impl RayTask {
+    /// Begins the task; `before` is shown again when it ends.
+    pub fn begin(&mut self, before: Before) {
+        self.before = Some(before);
+    }
+
+    /// Ends the task; returns what the view showed before.
+    pub fn end(self) -> Option<Before> {
+        self.before
+    }
+
     /// Returns what the view showed before the task; `None` outside of it.
     pub fn before(&self) -> Option<&Before> {
         self.before.as_ref()
+    }
+
+    /// Returns whether the camera is beside this ray, or on the way there.
+    pub fn is_beside(&self, record: &Arc<PixelRecord>, ray: usize) -> bool {
+        self.beside
+            .as_ref()
+            .is_some_and(|(known, place)| Arc::ptr_eq(known, record) && *place == ray)
+    }
+
+    /// Begins to move the camera to a place beside this ray.
+    pub fn glide(&mut self, beside: (Arc<PixelRecord>, usize), cameras: [Camera; 2], now: f64) {
+        let [from, to] = cameras;
+        self.beside = Some(beside);
+        self.glide = Some(Glide {
+            from,
+            to,
+            start: now,
+        });
+    }
+
+    /// Returns where the camera is now; `None` while nothing moves it. Without animation it arrives at
+    /// once.
+    pub fn camera(&mut self, now: f64, is_animated: bool) -> Option<Camera> {
+        let glide = self.glide.as_ref()?;
+        let done = if is_animated {
+            ((now - glide.start) / GLIDE).clamp(0.0, 1.0)
+        } else {
+            1.0
+        };
+        let camera = between(&glide.from, &glide.to, done);
+        if done >= 1.0 {
+            self.glide = None;
+        }
+        Some(camera)
     }
 
     /// Ends a movement of the camera, which the mouse or a key moves now.
@@ -55,83 +95,6 @@ impl RayTask {
             before.own = false;
         }
         (self.beside, self.glide) = (None, None);
-    }
-}
-
-impl View3d {
-    /// Begins the task or ends it, as the window did.
-    pub(super) fn follow_task(&mut self, doc: &Document) {
-        if doc.task == "ray" {
-            if self.ray_task.before.is_none() {
-                self.ray_task.before = Some(Before {
-                    camera: self.camera,
-                    settings: self.settings,
-                    own: self.own,
-                });
-                self.settings.linked = false;
-                self.settings.cells = Cells::Visited;
-                self.settings.cut.on = false;
-                self.own = true;
-            }
-        } else {
-            self.end_ray_task();
-        }
-    }
-
-    /// Shows again what was shown before the task.
-    pub(super) fn end_ray_task(&mut self) {
-        if let Some(before) = std::mem::take(&mut self.ray_task).before {
-            let aspect = self.camera.aspect;
-            self.camera = ViewCamera {
-                aspect,
-                ..before.camera
-            };
-            self.settings = before.settings;
-            self.own = before.own;
-        }
-    }
-
-    /// Moves the camera to the side of the selected ray; returns whether it moved. It needs the size of
-    /// the pane.
-    pub(super) fn glide(&mut self, doc: &Document, ctx: &egui::Context) -> bool {
-        if self.ray_task.before.is_none() {
-            return false;
-        }
-        let now = ctx.input(|i| i.time);
-        if let Some(current) = &doc.current
-            && let Some(picked) = &current.picked
-        {
-            let is_beside = self.ray_task.beside.as_ref();
-            let is_beside = is_beside.is_some_and(|(record, ray)| {
-                Arc::ptr_eq(record, &picked.record) && *ray == picked.ray
-            });
-            if !is_beside {
-                let (scene, tree) = (&current.shown.scene, &current.shown.tree);
-                let to = side_view(&self.camera, scene, tree, picked.path());
-                self.ray_task.beside = Some((Arc::clone(&picked.record), picked.ray));
-                self.ray_task.glide = Some(Glide {
-                    from: self.camera.camera,
-                    to,
-                    start: now,
-                });
-            }
-        }
-        let Some(glide) = &self.ray_task.glide else {
-            return false;
-        };
-        // Without animations, such as with reduced motion, it is there at once.
-        let is_animated = ctx.global_style().animation_time > 0.0;
-        let done = if is_animated {
-            ((now - glide.start) / GLIDE).clamp(0.0, 1.0)
-        } else {
-            1.0
-        };
-        self.camera.camera = between(&glide.from, &glide.to, done);
-        if done == 1.0 {
-            self.ray_task.glide = None;
-        }
-        ctx.request_repaint();
-        true
     }
 }
 

@@ -1,6 +1,7 @@
 //! Where the view's camera is: it follows the picture's until the mouse or a key moves it.
 
-use super::{View3d, marks};
+use super::marks;
+use super::view::View3d;
 use crate::geometry::Vec3;
 use crate::gui::document::Document;
 use crate::gui::edits::Edits;
