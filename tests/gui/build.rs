@@ -171,7 +171,11 @@ fn a_cut_hides_one_side_of_the_view() {
     window.key_press(Key::Y);
     window.run_steps(3);
     assert!(has(&window, "cut at y = "));
+    click(&mut window, "More about the 3D view");
     assert!(window.query_by_label("Place of the cut").is_some());
+    click(&mut window, "More about the 3D view");
+    window.hover_at(view.right_top() + egui::vec2(-20.0, 20.0));
+    window.run_steps(2);
     let before = cut_text(&window);
     window.key_press(Key::CloseBracket);
     window.run_steps(3);

@@ -107,8 +107,7 @@ fn number(ui: &mut Ui, doc: &Document) {
     let width = if leaves_only { NUMBER_AND_LEAF } else { NUMBER };
     let label = Label::new(&text).truncate();
     ui.add_sized(vec2(width, ROW), label)
-        .on_hover_text("The current step, and how many the ray has.")
-        .accessible_name(format!("Step {text}"));
+        .on_hover_text("The current step, and how many the ray has.");
 }
 
 /// A list of the pixel's rays, with their kind and outcome.

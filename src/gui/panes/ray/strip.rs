@@ -1,7 +1,7 @@
 //! The steps of a ray along its parameter t: a block per step. Leaves lie on the ray one after the other;
 //! the inner nodes that lead to a leaf stand above it.
 
-use crate::gui::theme::{HINT, named, tokens};
+use crate::gui::theme::tokens;
 use crate::gui::widgets::step_text;
 use crate::present::overlay::order_color;
 use crate::trace::{RayPath, Step};
@@ -216,7 +216,7 @@ fn marks(ui: &Ui, rect: Rect, path: &RayPath, layout: &Layout) {
             painter.add(egui::Shape::convex_polygon(wedge, t.text, Stroke::NONE));
         }
     }
-    let font = egui::FontId::proportional(12.0_f32.min(named(HINT).resolve(ui.style()).size));
+    let font = egui::FontId::proportional(12.0);
     if let (Some((first, _)), Some((last, _))) = (layout.leaves.first(), layout.leaves.last()) {
         for (at, align, t_end) in [
             (rect.left(), Align2::LEFT_BOTTOM, first.start),

@@ -25,17 +25,12 @@ const COLUMNS: &[Column] = &[
     Column {
         title: "ray",
         about: "Indented below the ray from whose hit it starts",
-        width: 104.0,
-    },
-    Column {
-        title: "ends",
-        about: "What it hits, or where it goes",
-        width: 110.0,
+        width: 92.0,
     },
     Column {
         title: "nodes",
         about: "Inner nodes traversed",
-        width: 42.0,
+        width: 44.0,
     },
     Column {
         title: "leaves",
@@ -51,7 +46,13 @@ const COLUMNS: &[Column] = &[
         title: "weight",
         about: "Its share of the pixel's color; for a shadow ray what the light \
                 adds if it is reached: the largest of red, green and blue",
-        width: 40.0,
+        width: 50.0,
+    },
+    Column {
+        title: "ends at",
+        about: "What it hits, or where it goes. A shadow ray ends at the object that blocks the light, \
+                or at the light",
+        width: 80.0,
     },
 ];
 
@@ -214,11 +215,15 @@ fn row(scene: &Scene, i: usize, ray: &RecordedRay) -> Row {
         ),
         cells: vec![
             String::new(),
-            outcome,
             grouped(counts.inner_nodes as usize),
             grouped(counts.leaves as usize),
             grouped(counts.tests as usize),
             weight,
+            match (path.kind, path.hit.is_hit()) {
+                (_, true) => step_text::object(scene, path.hit.object),
+                (RayKind::Shadow, false) => "light".to_owned(),
+                (_, false) => "background".to_owned(),
+            },
         ],
     }
 }

@@ -37,7 +37,7 @@ pub const ACTIONS: &[PaneAction<View3d>] = actions! {
     "view3d.orthographic" Here NONE [Num5] "Switch between orthographic and perspective" => |view, _| view.camera.orthographic ^= true;
     "view3d.link" Here NONE [L] "Use the same camera as the picture, or not" => |view, cx| view.link(!view.settings.linked, cx.doc);
     "view3d.show-scene" Here NONE [M] "Show the scene's objects, or not" => |view, _| view.settings.scene ^= true;
-    "view3d.show-boxes" Here NONE [B] "Show cells, or none" => |view, _| view.settings.toggle_cells();
+    "view3d.show-boxes" Here NONE [B] "Show leaf boxes, or not" => |view, _| view.settings.toggle_cells();
     "view3d.show-rays" Here NONE [R] "Show all rays of the picked pixel, or only the selected one" => |view, _| view.settings.all_rays ^= true;
     "view3d.next-coloring" Here NONE [C] "Color leaves by the next property" => |view, _| view.settings.next_coloring();
     "view3d.show-full" Here NONE [O] "Show full leaves, or not" => |view, _| view.settings.filter.full ^= true;

@@ -85,7 +85,7 @@ impl View3d {
 
         let drawn_lines = ray_lines::bounds_of(&self.lines, center);
         let mut bounds = tree.root_cell().union(&drawn_lines);
-        if self.own {
+        if self.shows_picture_camera() {
             let eye = current.shown.measurement.camera.from;
             bounds = bounds.union(&Aabb::new(eye, eye));
         }
@@ -128,7 +128,7 @@ impl View3d {
             } else {
                 legend::Headline::None
             },
-            pyramid: self.own,
+            pyramid: self.shows_picture_camera(),
             boxes: boxes.as_deref(),
             waits_for: waits_for.as_deref(),
             drawn,
@@ -171,7 +171,7 @@ impl View3d {
         {
             lines.extend(overlay::box_lines(&bounds, center, WHITE, 1.0));
         }
-        if self.own {
+        if self.shows_picture_camera() {
             let render = &current.shown.setup.render;
             let aspect = f64::from(render.width) / f64::from(render.height);
             let camera = &current.shown.measurement.camera;

@@ -46,7 +46,9 @@ impl Marks {
                 marks.is_what_if = true;
             }
         }
-        if let Some(object) = current.selection.object
+        // Beside a ray, only its own leaves are drawn.
+        let object = current.selection.object.filter(|_| doc.task != "ray");
+        if let Some(object) = object
             && let Some(index) = doc.inspect.index(current, ctx)
         {
             let leaves = index.leaves_of(object);

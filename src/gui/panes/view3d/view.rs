@@ -114,6 +114,11 @@ impl View3d {
         }
     }
 
+    /// Whether the picture's camera is drawn: where the view has one of its own, unless it is beside a ray.
+    pub fn shows_picture_camera(&self) -> bool {
+        self.own && self.ray_task.before().is_none()
+    }
+
     pub fn is_legend_open(&self) -> bool {
         self.legend_open.unwrap_or(self.roomy)
     }
