@@ -4,6 +4,7 @@ mod harness;
 #[path = "../support/mod.rs"]
 mod support;
 
+mod acceptance;
 mod accuracy;
 mod build;
 mod compare;
