@@ -19,5 +19,6 @@ mod process;
 mod rays;
 mod settings;
 mod sweep;
+mod theme;
 mod tree;
 mod window;
