@@ -85,6 +85,7 @@ fn icon_buttons_are_square_and_go_by_their_name() {
     let clicks = std::cell::Cell::new(0);
     let mut window = Harness::new_ui(|ui| {
         install(ui.ctx());
+        ui.reset_style();
         let button = IconButton::new(icons::PLAY, "Play").tip("Play the steps of the ray.");
         if ui.add(button).clicked() {
             clicks.set(clicks.get() + 1);
@@ -102,6 +103,7 @@ fn icon_buttons_are_square_and_go_by_their_name() {
 fn a_chip_on_a_card_is_lower_than_a_row() {
     let mut window = Harness::new_ui(|ui| {
         install(ui.ctx());
+        ui.reset_style();
         let color = tokens(ui).better;
         card(ui).show(ui, |ui| chip(ui, "4.3× fewer", color));
     });
