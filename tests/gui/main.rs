@@ -20,5 +20,6 @@ mod process;
 mod rays;
 mod settings;
 mod sweep;
+mod theme;
 mod tree;
 mod window;
