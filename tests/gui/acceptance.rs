@@ -35,7 +35,10 @@ fn collect(shape: &Shape, clip: Rect, into: &mut Vec<Drawn>) {
         Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, clip, into)),
         Shape::Text(text) if !text.galley.text().trim().is_empty() => {
             let job = &text.galley.job;
-            let sizes = job.sections.iter().map(|section| section.format.font_id.size);
+            let sizes = job
+                .sections
+                .iter()
+                .map(|section| section.format.font_id.size);
             into.push(Drawn {
                 text: text.galley.text().to_owned(),
                 size: sizes.fold(f32::INFINITY, f32::min),
@@ -92,15 +95,22 @@ fn texts_are_large_enough_whole_and_unbroken() {
             let Drawn { text: words, .. } = &text;
             assert!(text.size >= 12.0, "{place}: '{words}' is {} pt", text.size);
             let is_file_name = words.contains('/') || words.contains(".nff");
-            assert!(!text.is_elided || is_file_name, "{place}: '{words}' is elided");
+            assert!(
+                !text.is_elided || is_file_name,
+                "{place}: '{words}' is elided"
+            );
             let cut = text.rect.left() < text.clip.left() - 1.5
                 || text.rect.right() > text.clip.right() + 1.5;
-            assert!(!cut, "{place}: '{words}' is cut: {} in {}", text.rect, text.clip);
+            assert!(
+                !cut,
+                "{place}: '{words}' is cut: {} in {}",
+                text.rect, text.clip
+            );
             for pair in text.rows.windows(2) {
                 let (end, start) = (pair[0].chars().last(), pair[1].chars().next());
                 let in_number = |c: char| c.is_ascii_digit() || c == '.' || c == '\u{a0}';
-                let broken = end.is_some_and(in_number)
-                    && start.is_some_and(|c| in_number(c) || c == '%');
+                let broken =
+                    end.is_some_and(in_number) && start.is_some_and(|c| in_number(c) || c == '%');
                 assert!(!broken, "{place}: a number of '{words}' is broken");
             }
         }
@@ -114,7 +124,10 @@ fn area(window: &Window<'_>, rect: Rect) -> f32 {
 
 #[test]
 fn the_picture_has_its_share_of_the_window() {
-    for (size, [pane, square, maximized]) in SIZES.into_iter().zip([[0.38, 0.26, 0.49], [0.34, 0.26, 0.40]]) {
+    for (size, [pane, square, maximized]) in SIZES
+        .into_iter()
+        .zip([[0.38, 0.26, 0.49], [0.34, 0.26, 0.40]])
+    {
         let mut window = at(size, false, Key::Num1);
         let rect = window.get_by_label("Traced picture").rect();
         let side = rect.width().min(rect.height());
@@ -123,7 +136,10 @@ fn the_picture_has_its_share_of_the_window() {
         let of_pane = rect.width() * (rect.height() + 36.0) / whole;
         assert!(of_pane >= pane - 0.01, "{size:?}: the pane has {of_pane}");
         let of_square = side * side / whole;
-        assert!(of_square >= square - 0.01, "{size:?}: the square has {of_square}");
+        assert!(
+            of_square >= square - 0.01,
+            "{size:?}: the square has {of_square}"
+        );
         window.hover_at(rect.center());
         window.run_steps(2);
         press(&mut window, Modifiers::NONE, Key::Z);
@@ -157,13 +173,23 @@ fn the_first_screen_has_few_widgets() {
             names.extend(nodes.map(|node| node.accesskit_node().label().unwrap_or_default()));
         }
         assert!(names.len() > 5);
-        assert!(names.len() <= 26, "{size:?}: {} widgets: {names:?}", names.len());
+        assert!(
+            names.len() <= 26,
+            "{size:?}: {} widgets: {names:?}",
+            names.len()
+        );
     }
 }
 
 /// The rectangles of everything that has a name.
 fn places(window: &Window<'_>) -> Vec<(String, Rect)> {
-    let roles = [Role::Button, Role::ComboBox, Role::Slider, Role::Image, Role::Canvas];
+    let roles = [
+        Role::Button,
+        Role::ComboBox,
+        Role::Slider,
+        Role::Image,
+        Role::Canvas,
+    ];
     let mut all = Vec::new();
     for role in roles {
         for node in window.query_all_by_role(role) {
