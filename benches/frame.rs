@@ -34,7 +34,7 @@ fn main() {
             text.starts_with("counting") || text.starts_with("visits:")
         })
     };
-    while window.query_by_label("finished").is_none() || is_counting(&window) {
+    while !window.state().is_finished() || is_counting(&window) {
         window.run_steps(2);
         std::thread::sleep(Duration::from_millis(5));
     }
