@@ -48,12 +48,11 @@ const REJECTED: &[&str] = &[
     "may be compared",
     "may not be compared",
     "make conditions equal",
-    "on its way",
+    "b is on its way",
     "costliest:",
     "interval's begin",
     "nothing new hit",
     "no nearer hit",
-    "at most n_oilf objects",
     "no split pays",
     "pick no pixel",
     "what was there stays",
@@ -67,13 +66,22 @@ const REJECTED: &[&str] = &[
     "leave the lesson",
     "stands in a leaf",
     "another color",
-    "does b take",
+    "does b take now",
     "another when you ask again",
 ];
 
 /// Texts that must not stand alone as a label.
 const REJECTED_LABELS: &[&str] = &[
-    "ready", "complete", "finished", "linked", "judge", "trade", "left out", "d_max", "n_oilf",
+    "at most n_oilf objects",
+    "ready",
+    "complete",
+    "finished",
+    "linked",
+    "judge",
+    "trade",
+    "left out",
+    "d_max",
+    "n_oilf",
     "d_arec",
 ];
 
