@@ -32,6 +32,7 @@ mod settings;
 mod simd;
 mod stability;
 mod tolerant;
+mod tune;
 mod visits;
 mod wording;
 mod workspace;

@@ -70,7 +70,7 @@ impl Pane for CostPane {
             doc.inspect.what_if = None;
             return;
         }
-        let size = crate::gui::rest_of(ui);
+        let size = crate::gui::widgets::common::rest_of(ui);
         let width = ((size.x - 16.0) / 3.0).max(60.0);
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 8.0;
@@ -233,7 +233,7 @@ impl Drawn {
                 } else {
                     egui::Align2::LEFT_BOTTOM
                 };
-                let text = egui::RichText::new(text).size(11.0);
+                let text = egui::RichText::new(text).size(12.0);
                 let text = Text::new("label", PlotPoint::new(x, y), text);
                 plot.text(text.color(color).anchor(anchor));
             };

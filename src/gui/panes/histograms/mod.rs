@@ -6,6 +6,7 @@ use crate::gui::document::inspect::{LeavesKey, TreeKey};
 use crate::gui::pane::{Cx, Pane, PaneAction};
 use crate::gui::widgets::common::waiting;
 use crate::gui::widgets::symbol::grouped;
+use crate::gui::widgets::visits_note::visits_note;
 use crate::present::overlay::{
     Bars, HISTOGRAMS, HistogramAxis, Leaf, NODES_PER_RAY, Spread, ray_bars,
 };
@@ -85,7 +86,9 @@ impl Pane for Histograms {
                 "Bars as high as the logarithm of their leaves, so that few are seen beside many; \
                  the full share of a bar stays true.",
             );
-            doc.inspect.visits.show(ui, current);
+            if visits_note(ui, &doc.inspect.visits, current) {
+                cx.edits.add(|doc| doc.inspect.visits.cancel_or_restart());
+            }
             let key = "filled: full leaves, rays · hollow: empty leaves · drag to select";
             ui.add(egui::Label::new(key).truncate());
         });
@@ -114,7 +117,7 @@ impl Pane for Histograms {
             .collect();
         let ranges = doc.inspect.ranges.iter_mut();
         let mut ranges: Vec<_> = ranges.chain([&mut doc.inspect.nodes_a_ray]).collect();
-        let size = crate::gui::rest_of(ui);
+        let size = crate::gui::widgets::common::rest_of(ui);
         let gap = 8.0;
         let columns = ((size.x / LEAST_WIDTH) as usize).clamp(1, plots.len());
         let rows = plots.len().div_ceil(columns);
@@ -259,7 +262,7 @@ impl Plot<'_> {
     fn paint(&self, ui: &egui::Ui, outer: Rect, area: Rect, range: Option<[f64; 2]>) {
         let painter = ui.painter().with_clip_rect(outer);
         let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
-        let (font, small) = (FontId::proportional(12.5), FontId::proportional(10.5));
+        let (font, small) = (FontId::proportional(12.5), FontId::proportional(12.0));
         let n = self.bars.counts.len();
         let highest = self.bars.highest().max(1);
         let x_of = |value: f64| {

@@ -8,6 +8,7 @@ use crate::gui::pane::{Cx, Pane};
 use crate::gui::widgets::coloring_bar::color_bar;
 use crate::gui::widgets::common::{short, waiting};
 use crate::gui::widgets::symbol::grouped;
+use crate::gui::widgets::visits_note::visits_note;
 use crate::jobs::PictureVisits;
 use crate::present::overlay::{COLORINGS, Coloring, Leaf};
 use crate::structure::{Moment, NodeKind, Tree, TreeIndex};
@@ -116,12 +117,17 @@ impl Pane for Icicle {
         let range = self.range(&values, &facts);
         self.toolbar(ui, current.selection.node, &index);
         if waits {
-            ui.horizontal(|ui| doc.inspect.visits.show(ui, current));
+            let note = ui.horizontal(|ui| visits_note(ui, &doc.inspect.visits, current));
+            if note.inner {
+                cx.edits.add(|doc| doc.inspect.visits.cancel_or_restart());
+            }
         } else {
             self.legend(ui, range, &index);
         }
-        let (outer, response) =
-            ui.allocate_exact_size(crate::gui::rest_of(ui), Sense::click_and_drag());
+        let (outer, response) = ui.allocate_exact_size(
+            crate::gui::widgets::common::rest_of(ui),
+            Sense::click_and_drag(),
+        );
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Icicle of the tree")
         });
@@ -325,20 +331,20 @@ impl Icicle {
         color: Color32,
         area: Rect,
     ) {
-        let font = FontId::proportional(10.5);
+        let font = FontId::proportional(12.0);
         let Some((first, _)) = pieces.rects.first() else {
             return;
         };
         let height = first.height();
         let top = index.of(self.top).depth;
-        let every = (12.0 / height).ceil().max(1.0) as u32;
+        let every = (15.0 / height).ceil().max(1.0) as u32;
         let rows = (area.height() / height).round() as u32;
         for row in (0..rows).step_by(every as usize) {
             let at = pos2(area.left() - 4.0, area.top() + height * (row as f32 + 0.5));
             let text = (top + row).to_string();
             painter.text(at, Align2::RIGHT_CENTER, text, font.clone(), color);
         }
-        if height < 11.0 {
+        if height < 15.0 {
             return;
         }
         for (rect, node) in pieces.rects.iter().filter(|(rect, _)| rect.width() > 46.0) {

@@ -179,7 +179,7 @@ impl PicturePane {
 
     /// Shows the picture and picks pixels.
     fn picture(&mut self, ui: &mut egui::Ui, doc: &mut Document) {
-        let mut size = crate::gui::rest_of(ui);
+        let mut size = crate::gui::widgets::common::rest_of(ui);
         let legend = self.heat.legend_height();
         if legend > 0.0 {
             size.y = (size.y - legend - ui.spacing().item_spacing.y).max(16.0);
@@ -604,7 +604,7 @@ fn pins(painter: &egui::Painter, rect: Rect, picture: [u32; 2], pinned: &[[u32; 
             (1.0, Color32::WHITE),
         );
         let (font, middle) = (
-            egui::FontId::proportional(11.0),
+            egui::FontId::proportional(12.0),
             egui::Align2::CENTER_CENTER,
         );
         painter.text(at, middle, i + 1, font, Color32::WHITE);
