@@ -5,10 +5,10 @@ use super::words::{
     command, conditions, kibibytes, left_out, limits, milliseconds, recommendation,
 };
 use crate::measure::tune::{Rank, Row};
+use crate::present::number::NO_VALUE;
 use crate::present::number::{grouped, significant};
 use crate::present::report::escape;
 use crate::present::report::grid::Grid;
-use crate::present::report::sections::NO_VALUE;
 use std::io::{Result, Write};
 
 const TITLES: [&str; 10] = [

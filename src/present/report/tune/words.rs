@@ -3,8 +3,8 @@
 use crate::measure::tune::{
     Goal, LeftOut, MOST_SLOWDOWN, NAIVE_LIMIT, Phase, ROUNDS, Row, Tuned, has_limits,
 };
+use crate::present::number::NO_VALUE;
 use crate::present::number::{counted, grouped, significant};
-use crate::present::report::sections::NO_VALUE;
 use crate::setup::measure_command;
 
 /// Returns a time in milliseconds, without the unit.
