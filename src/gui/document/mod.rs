@@ -283,7 +283,7 @@ impl Document {
     }
 
     /// Whether A and B may be compared; `None` until both are finished.
-    pub fn verdict(&mut self, ctx: &egui::Context) -> Option<Arc<Verdict>> {
+    pub fn verdict(&self, ctx: &egui::Context) -> Option<Arc<Verdict>> {
         let front = self.current.as_ref();
         let behind = self.other.as_ref().and_then(|other| other.current.as_ref());
         self.comparing
@@ -552,6 +552,13 @@ fn same_but_camera(a: &Setup, b: &Setup) -> bool {
 }
 
 impl Document {
+    /// Selects a node of the tree on view.
+    pub fn select_node(&mut self, node: Option<u32>) {
+        if let Some(current) = &mut self.current {
+            current.selection.node = node;
+        }
+    }
+
     /// Clears the picked pixel.
     pub fn unpick(&mut self) {
         if let Some(current) = &mut self.current {

@@ -4,12 +4,14 @@
 mod plot;
 
 use crate::gui::action::{Gesture, actions, tip};
+use crate::gui::document::Document;
 use crate::gui::document::inspect::{Inspect, LeavesKey, TreeKey};
 use crate::gui::edits::Edits;
 use crate::gui::pane::{Cx, Pane, PaneAction};
 use crate::gui::theme::strong;
 use crate::gui::widgets::common::{no_picture, waiting};
 use crate::gui::widgets::symbol::grouped;
+use crate::gui::widgets::visits_note::visits_note;
 use crate::present::overlay::{Bars, HISTOGRAMS, Leaf, NODES_PER_RAY, Ranges, ray_bars};
 use egui::vec2;
 use plot::Plot;
@@ -45,7 +47,7 @@ impl Pane for Histograms {
     }];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc = &mut *cx.doc;
+        let doc: &Document = cx.doc;
         let Some(current) = &doc.current else {
             no_picture(ui, doc);
             return;
@@ -66,7 +68,9 @@ impl Pane for Histograms {
         let selected = doc.inspect.selected_leaves(&leaves);
         ui.horizontal_wrapped(|ui| {
             self.toolbar(ui, &doc.inspect, selected, cx.edits);
-            doc.inspect.visits.show(ui, current);
+            if visits_note(ui, &doc.inspect.visits, current) {
+                cx.edits.add(|doc| doc.inspect.visits.cancel_or_restart());
+            }
         });
         let node = current.selection.node;
         let marked = node.and_then(|node| {

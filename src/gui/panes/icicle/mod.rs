@@ -3,11 +3,13 @@
 //! Pieces narrower than a pixel and a half are not drawn, nor is anything below them, so that a tree of
 //! millions of nodes draws as fast as a small one.
 
+use crate::gui::document::Document;
 use crate::gui::document::inspect::TreeKey;
 use crate::gui::pane::{Cx, Pane};
 use crate::gui::widgets::coloring_bar::color_bar;
 use crate::gui::widgets::common::{no_picture, short, waiting};
 use crate::gui::widgets::symbol::grouped;
+use crate::gui::widgets::visits_note::visits_note;
 use crate::jobs::PictureVisits;
 use crate::present::number::{Digits, counted};
 use crate::present::overlay::{COLORINGS, Coloring, Leaf};
@@ -84,7 +86,7 @@ impl Pane for Icicle {
     const ABOUT: &'static str = "The tree as nested bars, one row per depth.";
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc = &mut *cx.doc;
+        let doc: &Document = cx.doc;
         let Some(current) = &doc.current else {
             no_picture(ui, doc);
             return;
@@ -118,7 +120,10 @@ impl Pane for Icicle {
         let range = self.range(&values, &facts);
         self.toolbar(ui, current.selection.node, &index);
         if waits {
-            ui.horizontal(|ui| doc.inspect.visits.show(ui, current));
+            let note = ui.horizontal(|ui| visits_note(ui, &doc.inspect.visits, current));
+            if note.inner {
+                cx.edits.add(|doc| doc.inspect.visits.cancel_or_restart());
+            }
         } else {
             self.legend(ui, range, &index);
         }
@@ -232,7 +237,7 @@ impl Icicle {
 
     /// What the colors mean, and how much of the tree is drawn.
     fn legend(&self, ui: &mut egui::Ui, range: [f64; 2], index: &TreeIndex) {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let what = match self.coloring.unit {
                 "" => self.coloring.title.to_owned(),
                 unit => format!("{} ({unit})", self.coloring.title),
@@ -240,13 +245,11 @@ impl Icicle {
             ui.label(what);
             color_bar(self.coloring, range, ui);
             if let Some((_, pieces)) = &self.made {
-                let text = format!(
+                ui.label(format!(
                     "{} of {} nodes drawn",
                     grouped(pieces.rects.len()),
                     grouped((index.of(self.top).end - self.top) as usize)
-                );
-                ui.add(egui::Label::new(&text).truncate())
-                    .on_hover_text(&text);
+                ));
             }
         });
     }
