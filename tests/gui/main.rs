@@ -14,6 +14,7 @@ mod judge;
 mod keep;
 mod lesson;
 mod model;
+mod painted;
 mod paper;
 mod process;
 mod rays;

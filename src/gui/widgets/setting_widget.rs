@@ -1,9 +1,20 @@
-//! One row for each setting: its label with a tooltip, and a widget for its kind of value.
+//! Widgets of settings, made from their entries: a row with a label, and a control for the kind of value.
+//! A control returns the new value; nothing is changed before the pane has been drawn.
 
 use crate::geometry::Vec3;
+use crate::gui::action::tip;
+use crate::gui::edits::Edits;
+use crate::gui::theme::{ROW, hint};
 use crate::scene::{Camera, Cylinders};
 use crate::setup::{Choice, Kind, Range, Setting, Setup, Value};
 use crate::structure::MaxDepth;
+use egui::vec2;
+
+/// The width of the labels in points.
+const LABEL: f32 = 152.0;
+
+/// The depth that is shown before there is a tree.
+const USUAL_DEPTH: u32 = 20;
 
 /// What widgets know beside the setup.
 pub struct Around<'a> {
@@ -11,46 +22,70 @@ pub struct Around<'a> {
     pub largest: u32,
     /// The camera that is used now; `None` before the first picture.
     pub camera: Option<&'a Camera>,
+    /// The depth limit of the tree on view; `None` before the first.
+    pub depth_limit: Option<u32>,
+    /// The width of the slider for the depth, in points; `None` for a number alone.
+    pub slider: Option<f32>,
     /// A few words to stand beside a setting's widget, with a tooltip.
     pub note: &'a dyn Fn(&Setting, &Setup) -> Option<[String; 2]>,
 }
 
-/// A grid with a row for each of these settings.
+/// Shows a row for each of these settings. A change is an edit of the tree in front.
 pub fn rows(
     ui: &mut egui::Ui,
-    id: &str,
     settings: impl Iterator<Item = Setting>,
-    setup: &mut Setup,
+    setup: &Setup,
     around: &Around<'_>,
+    edits: &mut Edits,
 ) {
-    egui::Grid::new(id).num_columns(2).show(ui, |ui| {
-        for setting in settings {
-            let about = about(&setting, setup);
-            let before = setting.value(setup);
-            row(ui, setting.label, &about, |ui| {
-                let value = widget(ui, &setting, before, &about, around);
-                if let Some(value) = value.filter(|value| *value != before) {
-                    setting.store(setup, value);
-                }
-                if let Some([note, about]) = (around.note)(&setting, setup) {
-                    ui.weak(note).on_hover_text(about);
-                }
-            });
-        }
-    });
+    for setting in settings {
+        ui.horizontal_wrapped(|ui| {
+            label(ui, &setting, setup);
+            show(ui, &setting, setup, around, edits);
+            if let Some([note, about]) = (around.note)(&setting, setup) {
+                ui.weak(note).on_hover_text(about);
+            }
+        });
+    }
 }
 
-/// A row of a two-column grid: a name and a widget that goes by it.
-fn row<R>(
+/// Shows the control of a setting alone. A change is an edit of the tree in front.
+pub fn show(
     ui: &mut egui::Ui,
-    name: &str,
-    about: &str,
-    widget: impl FnOnce(&mut egui::Ui) -> R,
-) -> R {
-    ui.label(name).on_hover_text(about);
-    let result = ui.horizontal(|ui| ui.name_inputs(name, widget)).inner;
-    ui.end_row();
-    result
+    setting: &Setting,
+    setup: &Setup,
+    around: &Around<'_>,
+    edits: &mut Edits,
+) {
+    let before = setting.value(setup);
+    let about = about(setting, setup);
+    let value = ui.name_inputs(name(setting), |ui| {
+        control(ui, setting, before, &about, around)
+    });
+    if let Some(value) = value.filter(|value| *value != before) {
+        let setting = *setting;
+        edits.add(move |doc| setting.store(&mut doc.wanted, value));
+    }
+}
+
+/// What a setting is called. Settings of a single method are named as in commands.
+pub fn name(setting: &Setting) -> String {
+    let words = setting.label.replace('-', " ");
+    let mut letters = words.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
+
+/// The name of a setting, with the paper's symbol as a hint.
+fn label(ui: &mut egui::Ui, setting: &Setting, setup: &Setup) {
+    let left = egui::Layout::left_to_right(egui::Align::Center);
+    ui.allocate_ui_with_layout(vec2(LABEL, ROW), left, |ui| {
+        ui.set_min_size(vec2(LABEL, ROW));
+        ui.label(name(setting)).on_hover_text(about(setting, setup));
+        if let Some(symbol) = setting.symbol {
+            ui.label(hint(symbol));
+        }
+    });
 }
 
 /// What a setting does, which values it takes, and what it is on the command line.
@@ -65,8 +100,8 @@ pub fn about(setting: &Setting, setup: &Setup) -> String {
     text + &format!("\nOn the command line: {}.", setting.name)
 }
 
-/// The widget for a value; returns the value that it is given.
-fn widget(
+/// The control for a value; returns the value that it is given.
+fn control(
     ui: &mut egui::Ui,
     setting: &Setting,
     value: Value,
@@ -84,7 +119,7 @@ fn widget(
             is_changed.then_some(Value::Switch(on))
         }
         (Kind::Size, Value::Size(size)) => sides(ui, size, around.largest).map(Value::Size),
-        (Kind::Depth, Value::Depth(depth)) => self::depth(ui, depth).map(Value::Depth),
+        (Kind::Depth, Value::Depth(now)) => depth(ui, now, around, about).map(Value::Depth),
         (Kind::Cylinders, Value::Cylinders(now)) => cylinders(ui, now).map(Value::Cylinders),
         (Kind::Point, value) => {
             let own = around
@@ -177,6 +212,7 @@ fn choice(
     let list = egui::ComboBox::from_id_salt(id)
         .selected_text(now)
         .width(90.0)
+        .height(f32::INFINITY)
         .show_ui(ui, |ui| {
             for choice in choices {
                 let item = ui.selectable_value(&mut chosen, choice.name, choice.name);
@@ -200,25 +236,39 @@ fn sides(ui: &mut egui::Ui, size: [u32; 2], largest: u32) -> Option<[u32; 2]> {
         let edit = egui::DragValue::new(&mut sides[i])
             .range(1..=largest)
             .update_while_editing(false);
-        ui.add(edit).accessible_name(name);
+        ui.add(edit)
+            .accessible_name(name)
+            .on_hover_text(format!("{name} in pixels"));
     }
-    ui.weak("pixels");
     (sides != size).then_some(sides)
 }
 
-fn depth(ui: &mut egui::Ui, now: MaxDepth) -> Option<MaxDepth> {
-    let mut depth = now;
-    let mut automatic = now == MaxDepth::Automatic;
-    if let MaxDepth::Fixed(depth) = &mut depth {
-        ui.add(egui::DragValue::new(depth).range(0..=MaxDepth::LIMIT));
+fn depth(ui: &mut egui::Ui, now: MaxDepth, around: &Around<'_>, about: &str) -> Option<MaxDepth> {
+    let automatic = now == MaxDepth::Automatic;
+    // While automatic, the number is what that came to in the tree on view.
+    let mut depth = match now {
+        MaxDepth::Fixed(depth) => depth,
+        MaxDepth::Automatic => around.depth_limit.unwrap_or(USUAL_DEPTH),
+    };
+    let range = 0..=MaxDepth::LIMIT;
+    let is_changed = if let Some(width) = around.slider {
+        ui.spacing_mut().slider_width = width;
+        ui.add_enabled(!automatic, egui::Slider::new(&mut depth, range))
+    } else {
+        ui.add_enabled(!automatic, egui::DragValue::new(&mut depth).range(range))
     }
-    if ui.checkbox(&mut automatic, "auto").changed() {
-        depth = match automatic {
-            true => MaxDepth::Automatic,
-            false => MaxDepth::Fixed(20),
-        };
+    .on_hover_text(about)
+    .changed();
+    let mut auto = automatic;
+    ui.checkbox(&mut auto, "Auto").on_hover_text(tip(
+        "D_MAX = 1.2 log2 N_O + 2, rounded.",
+        "window.auto-depth",
+    ));
+    if auto && !automatic {
+        Some(MaxDepth::Automatic)
+    } else {
+        (is_changed || auto != automatic).then_some(MaxDepth::Fixed(depth))
     }
-    (depth != now).then_some(depth)
 }
 
 fn cylinders(ui: &mut egui::Ui, now: Cylinders) -> Option<Cylinders> {

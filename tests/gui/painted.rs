@@ -1,0 +1,73 @@
+//! The texts that the window painted in its last frame, as a person sees them.
+
+use crate::harness::Window;
+use egui::epaint::{Shape, TextShape};
+use egui::{Rect, pos2};
+
+/// A text on the screen.
+#[derive(Clone, Debug)]
+pub struct Text {
+    /// Its rows, as they are broken.
+    pub rows: Vec<String>,
+    pub rect: Rect,
+    /// Whether its end is replaced by an ellipsis.
+    pub is_cut: bool,
+}
+
+impl Text {
+    /// Whether a row ends inside a number, or between a number and its unit.
+    pub fn breaks_a_number(&self) -> bool {
+        self.rows.windows(2).any(|pair| {
+            let (end, start) = (pair[0].chars().last(), pair[1].chars().next());
+            let is_of_number = |c: Option<char>| {
+                c.is_some_and(|c| c.is_ascii_digit() || matches!(c, '.' | '%' | '\u{a0}'))
+            };
+            is_of_number(end) && is_of_number(start)
+        })
+    }
+}
+
+/// Returns all texts whose middle lies in this part of the window and that are not clipped away.
+pub fn texts_in(window: &Window<'_>, part: Rect) -> Vec<Text> {
+    let mut found = Vec::new();
+    for clipped in &window.output().shapes {
+        collect(
+            &clipped.shape,
+            clipped.clip_rect.intersect(part),
+            &mut found,
+        );
+    }
+    found
+}
+
+fn collect(shape: &Shape, part: Rect, found: &mut Vec<Text>) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, part, found)),
+        Shape::Text(TextShape { pos, galley, .. }) => {
+            let rect = galley.rect.translate(pos.to_vec2());
+            if part.contains(rect.center()) {
+                found.push(Text {
+                    rows: galley.rows.iter().map(|row| row.text()).collect(),
+                    rect,
+                    is_cut: galley.elided,
+                });
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Asserts that in this part of the window no text is cut and no number is broken, and that there are
+/// texts.
+pub fn assert_whole(window: &Window<'_>, part: Rect) {
+    let texts = texts_in(window, part);
+    assert!(texts.len() > 5, "{texts:?}");
+    for text in texts {
+        assert!(!text.is_cut && !text.breaks_a_number(), "{text:?}");
+    }
+}
+
+/// The whole window.
+pub fn everywhere() -> Rect {
+    Rect::from_min_max(pos2(0.0, 0.0), pos2(1e5, 1e5))
+}
