@@ -21,4 +21,5 @@ mod rays;
 mod settings;
 mod sweep;
 mod tree;
+mod tune;
 mod window;

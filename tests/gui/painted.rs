@@ -1,15 +1,14 @@
 //! The texts that the window painted in its last frame, as a person sees them.
 
 use crate::harness::Window;
+use egui::Rect;
 use egui::epaint::{Shape, TextShape};
-use egui::{Rect, pos2};
 
 /// A text on the screen.
 #[derive(Clone, Debug)]
 pub struct Text {
     /// Its rows, as they are broken.
     pub rows: Vec<String>,
-    pub rect: Rect,
     /// Whether its end is replaced by an ellipsis.
     pub is_cut: bool,
 }
@@ -48,7 +47,6 @@ fn collect(shape: &Shape, part: Rect, found: &mut Vec<Text>) {
             if part.contains(rect.center()) {
                 found.push(Text {
                     rows: galley.rows.iter().map(|row| row.text()).collect(),
-                    rect,
                     is_cut: galley.elided,
                 });
             }
@@ -65,9 +63,4 @@ pub fn assert_whole(window: &Window<'_>, part: Rect) {
     for text in texts {
         assert!(!text.is_cut && !text.breaks_a_number(), "{text:?}");
     }
-}
-
-/// The whole window.
-pub fn everywhere() -> Rect {
-    Rect::from_min_max(pos2(0.0, 0.0), pos2(1e5, 1e5))
 }

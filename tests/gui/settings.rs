@@ -86,7 +86,6 @@ fn method_and_depth_in_the_top_bar_are_settings_like_those_of_the_drawer() {
         w.state().setup().build.method.name == "octree"
     });
     let resolved = MaxDepth::Automatic.resolve(4);
-    window.state_mut();
     click(&mut window, "Auto");
     assert_eq!(window.state().setup().build.d_max, MaxDepth::Automatic);
     finish(&mut window);

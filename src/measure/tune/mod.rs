@@ -20,7 +20,7 @@ mod ranking;
 mod row;
 mod tuning;
 
-pub use candidates::{NAIVE_LIMIT, has_limits};
+pub use candidates::{NAIVE_LIMIT, has_limits, is_tried};
 pub use goal::Goal;
 pub use ranking::{MOST_SLOWDOWN, Rank, Score, Spread, best, rank};
 pub use row::Row;

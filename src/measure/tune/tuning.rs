@@ -31,6 +31,8 @@ pub struct Search {
     /// The scene, the picture and the camera; of its structure, what applies to every method.
     pub setup: Setup,
     pub goal: Goal,
+    /// The methods that are measured, as far as the scene is not too large for them.
+    pub methods: Vec<Method>,
     /// Time for the measurements. When it is spent, no further turn begins, except that every method
     /// is timed at least once.
     pub budget: Duration,
@@ -174,11 +176,13 @@ impl<'a> Tuning<'a> {
         let objects = scene.objects().len();
         let render = small(&search.setup.render);
         search.setup.render.view(scene)?;
-        let candidates = all_methods(&search.setup, objects);
+        let candidates = all_methods(&search.setup, &search.methods, objects);
         for candidate in &candidates {
             candidate.build.check().map_err(BuildError::from)?;
         }
-        let untried = Method::all().filter(|method| !is_tried(*method, objects));
+        let untried = search.methods.iter().copied();
+        let untried = untried.filter(|method| !is_tried(*method, objects));
+        let untried: Vec<_> = untried.collect();
         Ok(Tuning {
             scene,
             pool: thread_pool(render.threads)?,
@@ -190,6 +194,7 @@ impl<'a> Tuning<'a> {
             candidates: candidates.into_iter().map(Candidate::new).collect(),
             rows: Vec::new(),
             left_out: untried
+                .into_iter()
                 .map(|method| LeftOut::Method { method, objects })
                 .collect(),
             turns_done: 0,
