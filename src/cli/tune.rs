@@ -13,7 +13,7 @@ use std::sync::Arc;
 pub fn run(args: &TuneArgs) -> Result<Outcome> {
     output::check_place(args.report.output.as_deref())?;
     let setup = args.settings.setup(&args.scene)?;
-    let scene = Arc::new(resolve::scene(&setup.scene)?);
+    let scene = Arc::new(resolve::scene_in_view(&setup)?);
     let name = scene.name().to_owned();
     let search = Search {
         setup,

@@ -33,12 +33,8 @@ impl Job for FindBestTree {
     type Partial = Tried;
     type Output = Tuned;
 
-    fn slot(&self) -> Slot {
-        FindBestTree::SLOT
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Study
+    fn place(&self) -> (Slot, Priority) {
+        (FindBestTree::SLOT, Priority::Study)
     }
 
     fn run(self, context: &Context<Tried>) -> Result<Tuned, JobError> {

@@ -74,7 +74,7 @@ fn what_a_budget_leaves_out_is_stated() {
         assert_eq!(candidate["seconds"].as_array().map(Vec::len), Some(1));
     }
     let large = program.done("tune balls:4 --resolution 8x8 --budget 0");
-    let left_out = "Method none was left out: the scene has 7 382 objects";
+    let left_out = "Method none was left out: the scene has 7\u{a0}382 objects";
     assert!(large.contains(left_out), "{large}");
 }
 

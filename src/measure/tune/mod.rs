@@ -16,12 +16,16 @@
 
 mod candidates;
 mod goal;
+mod phase;
 mod ranking;
 mod row;
+mod search;
 mod tuning;
 
 pub use candidates::{NAIVE_LIMIT, has_limits, is_tried};
 pub use goal::Goal;
+pub use phase::Phase;
 pub use ranking::{MOST_SLOWDOWN, Rank, Score, Spread, best, rank};
 pub use row::Row;
-pub use tuning::{LeftOut, Phase, ROUNDS, Search, Tuned, Tuning, Turn, Upcoming};
+pub use search::{LeftOut, Search, Tuned};
+pub use tuning::{ROUNDS, Tuning, Turn, Upcoming};

@@ -1,7 +1,7 @@
 //! What is measured of one candidate.
 
+use super::phase::Phase;
 use super::ranking::{Score, Spread};
-use super::tuning::Phase;
 use crate::measure::Measurement;
 use crate::setup::Setup;
 use crate::structure::split::Structure;

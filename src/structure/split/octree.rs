@@ -4,14 +4,13 @@
 //! Its inner nodes are the planes that separate the children, seven per octree node: x, then y,
 //! then z.
 
-use super::rule::{Cell, Decision, SplitRule};
-use crate::geometry::Axis;
+use super::midpoint::Midpoint;
 use crate::structure::method::Structure;
 use crate::structure::settings::MethodInfo;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "octree",
-    title: "Octree",
+    summary: "eight equal parts per node",
     about: "Splits every node into eight, in the middle along all three axes. It is stored and traversed \
             as planes, seven per octree node: D_MAX, D_REACH and the inner nodes count planes, where \
             three levels of planes are one level of the octree.",
@@ -21,17 +20,5 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper_spheres_exactly: true,
     structure: Structure::Octree,
     constants: &[],
-    rule: |settings| Box::new(Octree(settings.first_axis)),
+    rule: |settings| Box::new(Midpoint(settings.first_axis)),
 };
-
-struct Octree(Axis);
-
-impl SplitRule for Octree {
-    fn decide(&self, cell: &Cell<'_>) -> Decision {
-        let axis = Axis::from_index(self.0.index() + cell.depth as usize);
-        Decision::Split {
-            axis,
-            plane: cell.midpoint(axis),
-        }
-    }
-}

@@ -73,7 +73,7 @@ impl Pane for CostPane {
             ui.weak("The cell is empty: there is nothing to split.");
             tried = None;
         } else {
-            let size = crate::gui::rest_of(ui);
+            let size = crate::gui::widgets::common::rest_of(ui);
             let size = vec2(((size.x - 16.0) / 3.0).max(60.0), size.y - 4.0);
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 8.0;

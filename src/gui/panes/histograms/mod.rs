@@ -144,7 +144,7 @@ impl Histograms {
             .chain([(&NODES_PER_RAY, None)])
             .collect();
         let mut ranges: Vec<_> = ranges.iter_mut().chain([nodes_a_ray]).collect();
-        let size = crate::gui::rest_of(ui);
+        let size = crate::gui::widgets::common::rest_of(ui);
         let gap = 8.0;
         let columns = ((size.x / LEAST_WIDTH) as usize).clamp(1, plots.len());
         let rows = plots.len().div_ceil(columns);

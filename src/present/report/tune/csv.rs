@@ -1,6 +1,6 @@
 //! The search as CSV: one line per candidate, in the order of the ranking.
 
-use super::TuneReport;
+use super::content::TuneReport;
 use crate::measure::tune::has_limits;
 use std::io::{Result, Write};
 

@@ -1,6 +1,6 @@
 //! The search as JSON: the paper's symbols as keys, times in seconds.
 
-use super::TuneReport;
+use super::content::TuneReport;
 use super::words::{command, left_out, recommendation};
 use crate::measure::parameter;
 use crate::measure::tune::{Phase, Rank, Row, has_limits};

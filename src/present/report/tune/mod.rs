@@ -1,64 +1,12 @@
 //! Reports of the search for the best tree, in every format of [`super::WRITERS`].
 
+mod content;
 mod csv;
 mod json;
+mod registry;
 mod table;
 mod words;
 
+pub use content::TuneReport;
+pub use registry::TUNE_WRITERS;
 pub use words::{left_out, recommendation};
-
-use super::writer::Writer;
-use crate::measure::tune::Tuned;
-
-/// A search for the best tree with the name of its scene.
-pub struct TuneReport {
-    pub scene: String,
-    pub tuned: Tuned,
-}
-
-/// All writers of searches, under the names of [`super::WRITERS`].
-pub static TUNE_WRITERS: &[Writer<TuneReport>] = &[
-    Writer {
-        name: "text",
-        about: "a table for reading on a terminal",
-        extension: "txt",
-        write: table::write_text,
-    },
-    Writer {
-        name: "json",
-        about: "for programs; also what was left out",
-        extension: "json",
-        write: json::write,
-    },
-    Writer {
-        name: "csv",
-        about: "one line for every candidate, the best first",
-        extension: "csv",
-        write: csv::write,
-    },
-    Writer {
-        name: "markdown",
-        about: "a table for issues and notes",
-        extension: "md",
-        write: table::write_markdown,
-    },
-    Writer {
-        name: "latex",
-        about: "a tabular environment for papers",
-        extension: "tex",
-        write: table::write_latex,
-    },
-];
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::present::report::WRITERS;
-
-    #[test]
-    fn searches_are_written_in_every_form_of_a_report() {
-        let names: Vec<_> = WRITERS.iter().map(|w| (w.name, w.extension)).collect();
-        let of_searches: Vec<_> = TUNE_WRITERS.iter().map(|w| (w.name, w.extension)).collect();
-        assert_eq!(of_searches, names);
-    }
-}

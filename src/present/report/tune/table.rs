@@ -1,12 +1,9 @@
 //! The search as a table for people.
 
-use super::TuneReport;
-use super::words::{
-    command, conditions, kibibytes, left_out, limits, milliseconds, recommendation,
-};
+use super::content::TuneReport;
+use super::words::{command, conditions, left_out, limits, memory, recommendation, time};
 use crate::measure::tune::{Rank, Row};
-use crate::present::number::NO_VALUE;
-use crate::present::number::{grouped, significant};
+use crate::present::number::{Digits, NO_VALUE, grouped};
 use crate::present::report::escape;
 use crate::present::report::grid::Grid;
 use std::io::{Result, Write};
@@ -16,11 +13,11 @@ const TITLES: [&str; 10] = [
     "method",
     "D_MAX",
     "N_OILF",
-    "time ms",
+    "time",
     "least to most",
     "tests per ray",
     "nodes",
-    "build ms",
+    "build time",
     "memory",
 ];
 
@@ -43,11 +40,7 @@ fn cells(rank: &Rank, row: &Row) -> Vec<String> {
     let spread = row.spread();
     let range = match row.rounds() {
         1 => NO_VALUE.into(),
-        _ => format!(
-            "{} to {}",
-            milliseconds(spread.least),
-            milliseconds(spread.most)
-        ),
+        _ => format!("{} to {}", time(spread.least), time(spread.most)),
     };
     let tie = if rank.is_tied { "=" } else { "" };
     vec![
@@ -55,12 +48,13 @@ fn cells(rank: &Rank, row: &Row) -> Vec<String> {
         row.setup.build.method.name.into(),
         depth,
         leaf_size,
-        milliseconds(spread.median),
+        time(spread.median),
         range,
-        row.tests_per_ray().map_or(NO_VALUE.into(), significant),
+        row.tests_per_ray()
+            .map_or(NO_VALUE.into(), |tests| Digits::Four.number(tests)),
         grouped(row.nodes() as f64),
-        milliseconds(row.measurement.building.cpu.as_secs_f64()),
-        kibibytes(row.bytes()),
+        time(row.measurement.building.cpu.as_secs_f64()),
+        memory(row),
     ]
 }
 

@@ -3,18 +3,17 @@
 use crate::measure::tune::{
     Goal, LeftOut, MOST_SLOWDOWN, NAIVE_LIMIT, Phase, ROUNDS, Row, Tuned, has_limits,
 };
-use crate::present::number::NO_VALUE;
-use crate::present::number::{counted, grouped, significant};
+use crate::present::number::{Digits, NO_VALUE, counted, grouped};
 use crate::setup::measure_command;
 
-/// Returns a time in milliseconds, without the unit.
-pub fn milliseconds(seconds: f64) -> String {
-    significant(seconds * 1e3)
+/// Formats a time with its unit.
+pub fn time(seconds: f64) -> String {
+    Digits::Four.seconds(seconds)
 }
 
-/// Returns memory in KiB, rounded up.
-pub fn kibibytes(bytes: u64) -> String {
-    format!("{} KiB", grouped(bytes.div_ceil(1024) as f64))
+/// Formats the memory of a tree with its unit.
+pub fn memory(row: &Row) -> String {
+    Digits::Four.bytes(row.bytes() as f64)
 }
 
 /// Returns `D_MAX` and `N_OILF` of a row; a dash where they do not apply.
@@ -59,20 +58,20 @@ pub fn recommendation(tuned: &Tuned) -> String {
     let (place, row) = tuned.recommended();
     let spread = row.spread();
     let mut text = format!(
-        "Best for {}: {}. The picture takes {} ms",
+        "Best for {}: {}. The picture takes {}",
         tuned.search.goal.name(),
         candidate(row),
-        milliseconds(spread.median)
+        time(spread.median)
     );
     if row.rounds() > 1 {
         text += &format!(
             " ({} to {} in {} rounds)",
-            milliseconds(spread.least),
-            milliseconds(spread.most),
+            time(spread.least),
+            time(spread.most),
             row.rounds()
         );
     }
-    text += &format!(" and the tree {}.", kibibytes(row.bytes()));
+    text += &format!(" and the tree {}.", memory(row));
     if tuned.search.goal == Goal::Memory {
         text += &format!(
             " It is the smallest tree whose picture takes at most {MOST_SLOWDOWN} times as long as \
