@@ -1,7 +1,9 @@
 //! Speed and error in the window: measured in the background, plotted, listed, loaded and shown pixel by
 //! pixel.
 
-use crate::harness::{Window, click, finish, has, open, press, small, text_with, wait};
+use crate::harness::{
+    Window, click, finish, has, open, open_pane, open_sized, press, small, text_with, wait,
+};
 use bspscope::measure::accuracy::{choices, reference};
 use bspscope::progress::Progress;
 use bspscope::scene::load;
@@ -17,9 +19,10 @@ fn on_study<'a>(scene: &str, size: u32) -> Window<'a> {
     let mut start = small(scene);
     start.setup.render.width = size;
     start.setup.render.height = size;
-    let mut window = open(start);
+    // There is room for the table or for the error map.
+    let mut window = open_sized(start, [960.0, 1200.0], false);
     finish(&mut window);
-    click(&mut window, "Speed and error");
+    open_pane(&mut window, "Speed and error");
     window
 }
 

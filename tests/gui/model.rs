@@ -1,7 +1,9 @@
 //! The time of the picture by term of equation (1), in the window: measured in the background, for the
 //! whole picture, a region and a pixel.
 
-use crate::harness::{SIZE, Window, click, finish, has, open, press, small, text_with, wait};
+use crate::harness::{
+    SIZE, Window, click, finish, has, open, open_pane, press, small, text_with, wait,
+};
 use bspscope::measure::model::{PictureTerms, Region, Term};
 use bspscope::present::number::grouped;
 use bspscope::primitive::PrimitiveKind;
@@ -17,7 +19,7 @@ const SCENE: &str = "balls:1";
 fn on_time<'a>() -> Window<'a> {
     let mut window = open(small(SCENE));
     finish(&mut window);
-    click(&mut window, "Time by term");
+    open_pane(&mut window, "Time by term");
     window
 }
 
@@ -139,7 +141,7 @@ fn timing_is_cancelled_and_what_was_found_stays() {
     start.setup.render.height = 256;
     let mut window = open(start);
     finish(&mut window);
-    click(&mut window, "Time by term");
+    open_pane(&mut window, "Time by term");
     click(&mut window, "Measure times");
     wait(&mut window, "some trees", |w| {
         has(w, " of 24 trees are timed") && !has(w, "0 of 24 trees")

@@ -58,13 +58,29 @@ pub fn show(
     edits: &mut Edits,
 ) {
     let before = setting.value(setup);
-    let about = about(setting, setup);
-    let value = ui.name_inputs(name(setting), |ui| {
-        control(ui, setting, before, &about, around)
-    });
+    let said = Said {
+        name: &name(setting),
+        about: &about(setting, setup),
+    };
+    let value = ui.name_inputs(said.name, |ui| control(ui, setting, before, said, around));
     if let Some(value) = value.filter(|value| *value != before) {
         let setting = *setting;
         edits.add(move |doc| setting.store(&mut doc.wanted, value));
+    }
+}
+
+/// What is said of a setting.
+#[derive(Clone, Copy)]
+struct Said<'a> {
+    name: &'a str,
+    about: &'a str,
+}
+
+impl Said<'_> {
+    /// Gives a widget its tooltip and its name, in this order: a tooltip would be the name otherwise.
+    fn of(self, response: egui::Response) -> egui::Response {
+        let response = response.on_hover_text(self.about);
+        response.accessible_name(self.name)
     }
 }
 
@@ -105,22 +121,22 @@ fn control(
     ui: &mut egui::Ui,
     setting: &Setting,
     value: Value,
-    about: &str,
+    said: Said<'_>,
     around: &Around<'_>,
 ) -> Option<Value> {
     match (setting.kind, value) {
-        (Kind::Number(range), Value::Number(now)) => number(ui, range, now, about),
+        (Kind::Number(range), Value::Number(now)) => number(ui, range, now, said),
         (Kind::Choice(choices), Value::Choice(now)) => {
-            choice(ui, setting.name, &choices(), now).map(Value::Choice)
+            choice(ui, said, &choices(), now).map(Value::Choice)
         }
         (Kind::Switch, Value::Switch(mut on)) => {
             let text = if on { "on (1)" } else { "off (0)" };
-            let is_changed = ui.checkbox(&mut on, text).on_hover_text(about).changed();
+            let is_changed = said.of(ui.checkbox(&mut on, text)).changed();
             is_changed.then_some(Value::Switch(on))
         }
         (Kind::Size, Value::Size(size)) => sides(ui, size, around.largest).map(Value::Size),
-        (Kind::Depth, Value::Depth(now)) => depth(ui, now, around, about).map(Value::Depth),
-        (Kind::Cylinders, Value::Cylinders(now)) => cylinders(ui, now).map(Value::Cylinders),
+        (Kind::Depth, Value::Depth(now)) => depth(ui, now, around, said).map(Value::Depth),
+        (Kind::Cylinders, Value::Cylinders(now)) => cylinders(ui, now, said).map(Value::Cylinders),
         (Kind::Point, value) => {
             let own = around
                 .camera
@@ -133,7 +149,7 @@ fn control(
                 Value::Point(point) => Some(point),
                 _ => None,
             };
-            overridden(ui, point, own, |ui, point| {
+            overridden(ui, point, own, said, |ui, point| {
                 let mut changed = false;
                 for coordinate in [&mut point.x, &mut point.y, &mut point.z] {
                     let speed = (coordinate.abs() * 0.01).max(0.01);
@@ -152,7 +168,7 @@ fn control(
                 Value::Number(angle) => Some(angle),
                 _ => None,
             };
-            overridden(ui, angle, own, |ui, angle| {
+            overridden(ui, angle, own, said, |ui, angle| {
                 let edit = egui::DragValue::new(angle)
                     .range(range.lowest..=range.highest)
                     .max_decimals(3)
@@ -165,7 +181,7 @@ fn control(
     }
 }
 
-fn number(ui: &mut egui::Ui, range: Range, now: f64, about: &str) -> Option<Value> {
+fn number(ui: &mut egui::Ui, range: Range, now: f64, said: Said<'_>) -> Option<Value> {
     let Range {
         lowest,
         highest,
@@ -193,7 +209,7 @@ fn number(ui: &mut egui::Ui, range: Range, now: f64, about: &str) -> Option<Valu
             }
         });
     }
-    let is_changed = ui.add(edit).on_hover_text(about).changed();
+    let is_changed = said.of(ui.add(edit)).changed();
     if !unit.is_empty() {
         ui.weak(unit);
     }
@@ -202,16 +218,17 @@ fn number(ui: &mut egui::Ui, range: Range, now: f64, about: &str) -> Option<Valu
 
 fn choice(
     ui: &mut egui::Ui,
-    id: &str,
+    said: Said<'_>,
     choices: &[Choice],
     now: &'static str,
 ) -> Option<&'static str> {
     let mut chosen = now;
-    let about = choices.iter().find(|choice| choice.name == now);
-    let about = about.map_or("", |choice| choice.about);
-    let list = egui::ComboBox::from_id_salt(id)
+    let of_chosen = choices.iter().find(|choice| choice.name == now);
+    let of_chosen = of_chosen.map_or("", |choice| choice.about);
+    let list = egui::ComboBox::from_id_salt(said.name)
         .selected_text(now)
         .width(90.0)
+        // Without scrolling: a list that hides its last item hides that there is one.
         .height(f32::INFINITY)
         .show_ui(ui, |ui| {
             for choice in choices {
@@ -221,9 +238,9 @@ fn choice(
                 }
             }
         });
-    if !about.is_empty() {
-        list.response.on_hover_text(about);
-    }
+    let about = format!("{}\n{of_chosen}", said.about);
+    let about = about.trim_end();
+    Said { about, ..said }.of(list.response);
     (chosen != now).then_some(chosen)
 }
 
@@ -243,7 +260,12 @@ fn sides(ui: &mut egui::Ui, size: [u32; 2], largest: u32) -> Option<[u32; 2]> {
     (sides != size).then_some(sides)
 }
 
-fn depth(ui: &mut egui::Ui, now: MaxDepth, around: &Around<'_>, about: &str) -> Option<MaxDepth> {
+fn depth(
+    ui: &mut egui::Ui,
+    now: MaxDepth,
+    around: &Around<'_>,
+    said: Said<'_>,
+) -> Option<MaxDepth> {
     let automatic = now == MaxDepth::Automatic;
     // While automatic, the number is what that came to in the tree on view.
     let mut depth = match now {
@@ -251,14 +273,13 @@ fn depth(ui: &mut egui::Ui, now: MaxDepth, around: &Around<'_>, about: &str) -> 
         MaxDepth::Automatic => around.depth_limit.unwrap_or(USUAL_DEPTH),
     };
     let range = 0..=MaxDepth::LIMIT;
-    let is_changed = if let Some(width) = around.slider {
+    let edit = if let Some(width) = around.slider {
         ui.spacing_mut().slider_width = width;
         ui.add_enabled(!automatic, egui::Slider::new(&mut depth, range))
     } else {
         ui.add_enabled(!automatic, egui::DragValue::new(&mut depth).range(range))
-    }
-    .on_hover_text(about)
-    .changed();
+    };
+    let is_changed = said.of(edit).changed();
     let mut auto = automatic;
     ui.checkbox(&mut auto, "Auto").on_hover_text(tip(
         "D_MAX = 1.2 log2 N_O + 2, rounded.",
@@ -271,10 +292,10 @@ fn depth(ui: &mut egui::Ui, now: MaxDepth, around: &Around<'_>, about: &str) -> 
     }
 }
 
-fn cylinders(ui: &mut egui::Ui, now: Cylinders) -> Option<Cylinders> {
+fn cylinders(ui: &mut egui::Ui, now: Cylinders, said: Said<'_>) -> Option<Cylinders> {
     let mut cylinders = now;
     let mut polygons = matches!(now, Cylinders::Polygons(_));
-    ui.checkbox(&mut polygons, "as polygons");
+    said.of(ui.checkbox(&mut polygons, "as polygons"));
     match (polygons, &mut cylinders) {
         (true, Cylinders::Polygons(sides)) => {
             let edit = egui::DragValue::new(sides)
@@ -294,10 +315,11 @@ fn overridden<T: Copy>(
     ui: &mut egui::Ui,
     now: Option<T>,
     own: T,
+    said: Said<'_>,
     edit: impl FnOnce(&mut egui::Ui, &mut T) -> bool,
 ) -> Option<Option<T>> {
     let mut is_set = now.is_some();
-    if ui.checkbox(&mut is_set, "set").changed() {
+    if said.of(ui.checkbox(&mut is_set, "set")).changed() {
         return Some(is_set.then_some(own));
     }
     let Some(mut value) = now else {

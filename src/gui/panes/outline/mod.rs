@@ -53,35 +53,35 @@ const COLUMNS: [(&str, [f32; 2], &str); 9] = [
         [86.0, 164.0],
         "Index of the node in the tree's array; 0 is the root",
     ),
-    ("depth", [38.0, 42.0], "Levels below the root"),
+    ("depth", [42.0, 48.0], "Levels below the root"),
     (
         "plane, or why a leaf",
-        [76.0, 164.0],
+        [76.0, 240.0],
         "Axis and place of the split plane, in units of length; or why the cell was not split",
     ),
     (
         "objects",
-        [46.0, 54.0],
+        [54.0, 62.0],
         "Objects in the cell, each counted once",
     ),
     ("refs", [50.0, 66.0], "References of all leaves below"),
     (
         "area",
-        [56.0, 58.0],
+        [56.0, 64.0],
         "Surface area of the cell, in percent of the root's",
     ),
     (
         "tests",
-        [42.0, 54.0],
+        [42.0, 58.0],
         "Expected cost: intersection tests of a ray through the cell that nothing stops (MacDonald \
          and Booth 1990)",
     ),
     (
         "exp. nodes",
-        [64.0, 66.0],
+        [74.0, 80.0],
         "Expected nodes: those that such a ray is expected to visit, this one included",
     ),
-    ("visits", [104.0, 120.0], visits::ABOUT),
+    ("visits", [104.0, 150.0], visits::ABOUT),
 ];
 
 /// The widths of the columns in a table of this width: as usual, or down to the least where there is

@@ -11,9 +11,6 @@ use crate::present::number::{Digits, NO_VALUE, grouped};
 use egui::{Align, Layout, Rect, Sense, Stroke, pos2, vec2};
 use egui_extras::{Column, TableBuilder};
 
-/// Height of a row in points, where there is room.
-const TALL: f32 = 36.0;
-
 /// The least width of the bars in points.
 const BAR: f32 = 90.0;
 
@@ -59,12 +56,7 @@ pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits)
     let ranking = found.ranking();
     let most = found.rows.iter().map(|row| row.spread().most);
     let most = most.fold(0.0, f64::max);
-    let height = if ui.available_height() > 300.0 {
-        TALL
-    } else {
-        ROW
-    };
-    let gap = 6.0;
+    let gap = 10.0;
     let fixed: f32 = COLUMNS.iter().map(|(_, width, _)| width + gap).sum();
     // The scroll bar needs its room, too.
     let rest = (ui.available_width() - 14.0 - fixed).max(0.0);
@@ -84,14 +76,16 @@ pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits)
                 builder = builder.column(Column::exact(width + more));
             }
             let header = builder.header(ROW, |mut header| {
-                for (title, _, about) in COLUMNS {
+                for (place, (title, _, about)) in COLUMNS.into_iter().enumerate() {
                     header.col(|ui| {
-                        ui.label(strong(title)).on_hover_text(about);
+                        ui.with_layout(alignment(place), |ui| {
+                            ui.label(strong(title)).on_hover_text(about);
+                        });
                     });
                 }
             });
             header.body(|body| {
-                body.rows(height, ranking.len(), |mut table_row| {
+                body.rows(ROW, ranking.len(), |mut table_row| {
                     let rank = &ranking[table_row.index()];
                     let row = &found.rows[rank.place];
                     table_row.set_selected(doc.uses(&row.setup));
@@ -100,7 +94,9 @@ pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits)
                             if place == PLACE_OF_BAR {
                                 bar(ui, row, most);
                             } else {
-                                ui.add(egui::Label::new(text).selectable(false));
+                                ui.with_layout(alignment(place), |ui| {
+                                    ui.add(egui::Label::new(text).selectable(false));
+                                });
                             }
                         });
                     }
@@ -108,6 +104,16 @@ pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits)
                 });
             });
         });
+}
+
+/// How a column is aligned: numbers, so that digits of the same place stand below each other.
+fn alignment(place: usize) -> Layout {
+    let is_number = (2..PLACE_OF_BAR).contains(&place) || (PLACE_OF_BAR + 1..10).contains(&place);
+    if is_number {
+        Layout::right_to_left(Align::Center)
+    } else {
+        Layout::left_to_right(Align::Center)
+    }
 }
 
 /// The texts of a row; none in the place of the bar.

@@ -133,11 +133,12 @@ fn start(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
     let text = strong("Find the best tree").color(t.on_accent);
     let button = egui::Button::new(text)
         .fill(t.accent)
-        .min_size(vec2(ui.available_width(), 36.0));
+        .min_size(vec2(0.0, 36.0));
     let about = "Measure the chosen methods on a small version of your picture, then depths and leaf \
                  sizes of the best two.";
     if ui
-        .add_enabled(doc.may_tune(), button)
+        .vertical_centered_justified(|ui| ui.add_enabled(doc.may_tune(), button))
+        .inner
         .on_hover_text(tip(about, "tune.find"))
         .on_disabled_hover_text("Needs a finished picture of a scene with objects, and a method.")
         .clicked()
