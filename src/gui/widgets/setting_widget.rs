@@ -319,11 +319,10 @@ fn overridden<T: Copy>(
     edit: impl FnOnce(&mut egui::Ui, &mut T) -> bool,
 ) -> Option<Option<T>> {
     let mut is_set = now.is_some();
-    if said.of(ui.checkbox(&mut is_set, "set")).changed() {
+    if said.of(ui.checkbox(&mut is_set, "override")).changed() {
         return Some(is_set.then_some(own));
     }
     let Some(mut value) = now else {
-        ui.weak("the scene's own");
         return None;
     };
     edit(ui, &mut value).then_some(Some(value))

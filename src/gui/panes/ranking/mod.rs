@@ -7,10 +7,11 @@ use crate::gui::document::Document;
 use crate::gui::document::tuning::Found;
 use crate::gui::edits::{Edits, Request};
 use crate::gui::pane::{Cx, Pane};
-use crate::gui::theme::{heading, hint};
+use crate::gui::theme::{hint, strong};
 use crate::gui::widgets::common::{busy, no_picture};
 use crate::measure::tune::Row;
 use crate::setup::measure_command;
+use egui::{Align, Layout, vec2};
 
 #[derive(Default)]
 pub struct RankingPane;
@@ -46,21 +47,17 @@ fn recommended(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edi
     let Some(best) = found.best() else {
         return;
     };
-    ui.horizontal_wrapped(|ui| {
+    // Two lines for the sentence, so that nothing moves while it changes.
+    let size = vec2(ui.available_width(), 44.0);
+    let to_the_left = Layout::right_to_left(Align::Center);
+    ui.allocate_ui_with_layout(size, to_the_left, |ui| {
+        ui.set_min_size(size);
         let so_far = if doc.tuning.study.is_running() {
             "Best so far: "
         } else {
             ""
         };
         let text = format!("{so_far}{}", sentence::recommendation(found, best));
-        ui.label(heading(text));
-        if ui
-            .button("Use the best tree")
-            .on_hover_text("Build the tree on view with these settings.")
-            .clicked()
-        {
-            use_this(best, edits);
-        }
         if ui
             .button("Copy command")
             .on_hover_text("Copy the command that measures these settings.")
@@ -68,6 +65,17 @@ fn recommended(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edi
         {
             copy(best, edits);
         }
+        if ui
+            .button("Use the best tree")
+            .on_hover_text("Build the tree on view with these settings.")
+            .clicked()
+        {
+            use_this(best, edits);
+        }
+        let size = ui.available_size();
+        ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+            ui.add(egui::Label::new(strong(text)).wrap());
+        });
     });
     ui.label(hint(sentence::conditions(found)));
 }

@@ -1,7 +1,7 @@
 //! What a search recommends, in words.
 
 use crate::gui::document::tuning::Found;
-use crate::measure::tune::{Goal, Row, has_limits};
+use crate::measure::tune::{Goal, Phase, Row, has_limits};
 use crate::present::number::{Digits, counted};
 
 /// Returns the settings of a candidate, such as "sah, depth 18, leaf size 4".
@@ -40,10 +40,20 @@ fn other<'a>(found: &'a Found, best: &Row) -> Option<&'a Row> {
     })
 }
 
+/// The method alone where that tells the candidate from the other one.
+fn short_name(row: &Row, other: &Row) -> String {
+    let method = row.setup.build.method;
+    if row.phase == Phase::Methods && method != other.setup.build.method {
+        method.name.to_owned()
+    } else {
+        name(row)
+    }
+}
+
 /// Times as a ratio, with its range over all rounds.
 fn faster(best: &Row, other: &Row) -> String {
     let (a, b) = (best.spread(), other.spread());
-    let than = name(other);
+    let than = short_name(other, best);
     if b.least <= a.most {
         return format!("as fast as {than} within the spread");
     }
@@ -57,7 +67,7 @@ fn faster(best: &Row, other: &Row) -> String {
 }
 
 fn smaller(best: &Row, other: &Row) -> String {
-    let than = name(other);
+    let than = short_name(other, best);
     let ratio = other.bytes() as f64 / best.bytes().max(1) as f64;
     if best.bytes() == other.bytes() {
         format!("as small as {than}")

@@ -14,6 +14,9 @@ use egui_extras::{Column, TableBuilder};
 /// The least width of the bars in points.
 const BAR: f32 = 90.0;
 
+/// The bars reach up to this multiple of the least time.
+const MOST_TIMES: f64 = 4.0;
+
 /// Titles, widths in points and meanings of the columns; the bar takes what is left.
 const COLUMNS: [(&str, f32, &str); 11] = [
     (
@@ -54,9 +57,8 @@ const PLACE_OF_BAR: usize = 5;
 
 pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits) {
     let ranking = found.ranking();
-    let most = found.rows.iter().map(|row| row.spread().most);
-    let most = most.fold(0.0, f64::max);
-    let gap = 10.0;
+    let most = scale(found);
+    let gap = 6.0;
     let fixed: f32 = COLUMNS.iter().map(|(_, width, _)| width + gap).sum();
     // The scroll bar needs its room, too.
     let rest = (ui.available_width() - 14.0 - fixed).max(0.0);
@@ -106,6 +108,17 @@ pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits)
         });
 }
 
+/// The time that fills the width of the bars. The slowest candidates can be much slower than all that
+/// matter: their bars are cut.
+fn scale(found: &Found) -> f64 {
+    let times = || found.rows.iter().map(Row::spread);
+    let greatest = times().map(|time| time.most).fold(0.0, f64::max);
+    let best = times()
+        .map(|time| time.median)
+        .fold(f64::INFINITY, f64::min);
+    greatest.min(MOST_TIMES * best)
+}
+
 /// How a column is aligned: numbers, so that digits of the same place stand below each other.
 fn alignment(place: usize) -> Layout {
     let is_number = (2..PLACE_OF_BAR).contains(&place) || (PLACE_OF_BAR + 1..10).contains(&place);
@@ -151,19 +164,24 @@ fn bar(ui: &mut egui::Ui, row: &Row, most: f64) {
     let t = tokens(ui);
     let x =
         |seconds: f64| rect.left() + (seconds / most.max(f64::MIN_POSITIVE)) as f32 * rect.width();
+    let painter = ui.painter().with_clip_rect(rect);
     let spread = row.spread();
     let bar = Rect::from_min_max(rect.min, pos2(x(spread.median), rect.bottom()));
-    ui.painter().rect_filled(
+    painter.rect_filled(
         bar.shrink2(vec2(0.0, 4.0)),
         2.0,
         t.accent.gamma_multiply(0.6),
     );
     let y = rect.center().y;
     let line = Stroke::new(1.5, t.text);
-    ui.painter()
-        .hline(x(spread.least)..=x(spread.most), y, line);
+    painter.hline(x(spread.least)..=x(spread.most), y, line);
     for end in [spread.least, spread.most] {
-        ui.painter().vline(x(end), y - 4.0..=y + 4.0, line);
+        painter.vline(x(end), y - 4.0..=y + 4.0, line);
+    }
+    if spread.median > most {
+        let end = egui::Align2::RIGHT_CENTER;
+        let font = egui::TextStyle::Small.resolve(ui.style());
+        painter.text(rect.right_center(), end, "longer → ", font, t.text);
     }
     response.on_hover_text(range);
 }
