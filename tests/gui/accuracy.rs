@@ -157,6 +157,7 @@ fn the_precision_that_auto_takes_is_told_with_the_reason() {
     let mut window = open(start);
     finish(&mut window);
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::I);
+    window.run_steps(5);
     window.get_by_label("used f32").hover();
     wait(&mut window, "the reason", |w| {
         has(w, "Used: f32, every object and every pixel is wide enough")

@@ -9,7 +9,7 @@ use egui::epaint::{Shape, TextShape};
 pub struct Text {
     /// Its rows, as they are broken.
     pub rows: Vec<String>,
-    /// Whether its end is replaced by an ellipsis.
+    /// Whether its end is replaced by an ellipsis, or a side of it is not painted.
     pub is_cut: bool,
 }
 
@@ -30,24 +30,26 @@ impl Text {
 pub fn texts_in(window: &Window<'_>, part: Rect) -> Vec<Text> {
     let mut found = Vec::new();
     for clipped in &window.output().shapes {
-        collect(
-            &clipped.shape,
-            clipped.clip_rect.intersect(part),
-            &mut found,
-        );
+        collect(&clipped.shape, clipped.clip_rect, part, &mut found);
     }
     found
 }
 
-fn collect(shape: &Shape, part: Rect, found: &mut Vec<Text>) {
+fn collect(shape: &Shape, clip: Rect, part: Rect, found: &mut Vec<Text>) {
     match shape {
-        Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, part, found)),
+        Shape::Vec(shapes) => {
+            for shape in shapes {
+                collect(shape, clip, part, found);
+            }
+        }
         Shape::Text(TextShape { pos, galley, .. }) => {
             let rect = galley.rect.translate(pos.to_vec2());
-            if part.contains(rect.center()) {
+            if clip.intersect(part).contains(rect.center()) {
+                let room = clip.expand(1.0).x_range();
+                let is_inside = room.contains(rect.left()) && room.contains(rect.right());
                 found.push(Text {
                     rows: galley.rows.iter().map(|row| row.text()).collect(),
-                    is_cut: galley.elided,
+                    is_cut: galley.elided || !is_inside,
                 });
             }
         }

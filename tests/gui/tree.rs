@@ -376,6 +376,17 @@ fn a_quick_drag_ends_where_the_button_is_released() {
 }
 
 #[test]
+fn the_texts_of_the_histograms_are_whole() {
+    for size in [[1600.0, 1000.0], [1280.0, 720.0]] {
+        let mut window = open_sized(small("balls:2"), size, false);
+        click(&mut window, "Histograms");
+        finish(&mut window);
+        let top = window.get_by_label("Histogram: Leaf depth").rect().top();
+        assert_whole(&window, Rect::everything_below(top));
+    }
+}
+
+#[test]
 fn the_axes_of_the_split_cost_have_numbers() {
     for size in [[1600.0, 1000.0], [1280.0, 720.0]] {
         let mut window = open_sized(small("balls:1"), size, false);

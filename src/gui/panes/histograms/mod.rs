@@ -31,7 +31,7 @@ pub struct Histograms {
 const MOST_BARS: usize = 36;
 
 /// The least width of a histogram beside others, in points.
-const LEAST_WIDTH: f32 = 185.0;
+const LEAST_WIDTH: f32 = 224.0;
 
 impl Pane for Histograms {
     const ID: &'static str = "histograms";

@@ -7,6 +7,9 @@ use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, pos2, vec2};
 const FULL: Color32 = Color32::from_rgb(76, 145, 205);
 const BRUSH: Color32 = Color32::from_rgba_premultiplied(60, 46, 0, 70);
 
+/// Room for the numbers at the left, in points.
+const LEFT: f32 = 46.0;
+
 /// One histogram in one frame.
 pub struct Plot<'a> {
     pub axis: &'static HistogramAxis,
@@ -35,7 +38,7 @@ impl Plot<'_> {
                 format!("Histogram: {}", self.axis.title),
             )
         });
-        let area = Rect::from_min_max(outer.min + vec2(34.0, 18.0), outer.max - vec2(8.0, 32.0));
+        let area = Rect::from_min_max(outer.min + vec2(LEFT, 18.0), outer.max - vec2(8.0, 32.0));
         if !area.is_positive() {
             return;
         }
@@ -43,7 +46,7 @@ impl Plot<'_> {
             let text = format!("{}: not counted yet", self.axis.title);
             let color = ui.visuals().weak_text_color();
             let painter = ui.painter().with_clip_rect(outer);
-            let at = outer.left_top() + vec2(34.0, 0.0);
+            let at = outer.left_top() + vec2(LEFT, 0.0);
             painter.text(
                 at,
                 Align2::LEFT_TOP,
@@ -212,6 +215,7 @@ impl Plot<'_> {
         let room = (area.width() / 48.0).max(1.0) as usize;
         let every = n.div_ceil(room).max(1);
         let step = area.width() / n as f32;
+        let mut free_from = f32::NEG_INFINITY;
         for i in (0..n).step_by(every) {
             let [lo, hi] = self.values_of([i, i]);
             let (x, value) = match self.axis.spread {
@@ -220,8 +224,12 @@ impl Plot<'_> {
             };
             let at = pos2(area.left() + x, area.bottom() + 2.0);
             painter.vline(at.x, area.bottom()..=at.y, Stroke::new(1.0, color));
-            let text = self.axis.format(value);
-            painter.text(at, Align2::CENTER_TOP, text, font.clone(), color);
+            let text = painter.layout_no_wrap(self.axis.format(value), font.clone(), color);
+            let place = Align2::CENTER_TOP.anchor_size(at, text.size());
+            if place.left() >= free_from {
+                free_from = place.right() + 6.0;
+                painter.galley(place.min, text, color);
+            }
         }
     }
 }
