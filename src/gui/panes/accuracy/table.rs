@@ -1,7 +1,7 @@
 //! The outcomes as rows.
 
 use crate::measure::accuracy::{AccuracyStudy, Outcome};
-use crate::present::number::significant;
+use crate::present::number::{Digits, significant};
 use egui::{Align, Sense};
 use egui_extras::{Column, TableBuilder};
 
@@ -9,23 +9,23 @@ const COLUMNS: [(&str, f32, &str); 11] = [
     (
         "choice",
         170.0,
-        "What is turned; all else is as at the reference",
+        "What differs from the reference; everything else is the same",
     ),
     (
         "front",
         38.0,
-        "Whether nothing else is both faster and closer to the reference; choices that move only the \
-         time are not part of that",
+        "Whether no other choice is both faster and closer to the reference; choices that change only \
+         the time are not part of the front",
     ),
     (
         "time",
         44.0,
-        "Median of the rounds, as a ratio to the reference's",
+        "Median of the rounds, divided by that of the reference",
     ),
     (
         "wrong hits",
         70.0,
-        "Share of the pixels whose primary ray meets another object than it should",
+        "Share of the pixels whose primary ray hits a different object than that of the reference",
     ),
     (
         "RMSE",
@@ -35,7 +35,7 @@ const COLUMNS: [(&str, f32, &str); 11] = [
     (
         "max",
         54.0,
-        "Largest difference of any pixel and colour on linear light, 0 to 1",
+        "Largest difference of any pixel and color channel on linear light, 0 to 1",
     ),
     (
         "PSNR",
@@ -55,16 +55,16 @@ const COLUMNS: [(&str, f32, &str); 11] = [
     (
         "spread",
         98.0,
-        "Least and largest time of the rounds, as ratios to the reference's median",
+        "Least and greatest time of the rounds, divided by the reference's median",
     ),
     (
         "objects",
         70.0,
-        "Memory of the objects as intersection tests take them",
+        "Memory of the objects in the form that intersection tests read",
     ),
 ];
 
-/// Shows the table, scrolled to a row if asked; gives the outcome that is clicked.
+/// Shows the table, scrolled to a row if asked; returns the outcome that is clicked.
 pub fn show(
     ui: &mut egui::Ui,
     trade: &AccuracyStudy,
@@ -146,7 +146,7 @@ fn cells(trade: &AccuracyStudy, outcome: &Outcome, front: bool) -> [String; 11] 
         outcome.choice.words(),
         if front { "front" } else { "" }.to_owned(),
         format!("{median:.3}"),
-        format!("{} %", significant(100.0 * outcome.wrong_hits)),
+        Digits::Three.percent(outcome.wrong_hits),
         significant(error.rmse),
         significant(error.max),
         error
@@ -155,6 +155,6 @@ fn cells(trade: &AccuracyStudy, outcome: &Outcome, front: bool) -> [String; 11] 
         format!("{:.5}", error.ssim),
         significant(error.flip),
         format!("{least:.3}–{most:.3}"),
-        format!("{} KiB", outcome.object_bytes.div_ceil(1024)),
+        Digits::Four.bytes(outcome.object_bytes as f64),
     ]
 }

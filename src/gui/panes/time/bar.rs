@@ -2,10 +2,10 @@
 
 use super::duration;
 use crate::measure::model::Part;
-use crate::present::number::grouped;
+use crate::present::number::{Digits, grouped};
 use egui::{Color32, FontId, Rect, Sense, Stroke, StrokeKind, pos2, vec2};
 
-/// Colours that colour-blind people can tell apart (M. Okabe and K. Ito, 2008); numbers tell the same.
+/// Colors that color-blind people can tell apart (M. Okabe and K. Ito, 2008); numbers tell the same.
 const COLORS: [Color32; 8] = [
     Color32::from_rgb(0, 114, 178),
     Color32::from_rgb(230, 159, 0),
@@ -92,18 +92,18 @@ fn single(ui: &mut egui::Ui, seconds: f64, most: f64) {
     let (font, left) = (FontId::proportional(12.0), egui::Align2::LEFT_CENTER);
     painter.text(rect.left_center() + vec2(6.0, 0.0), left, &text, font, ink);
     response.on_hover_text(
-        "CPU time of all threads that the picture took, to the scale of the bar above. While other \
-         work keeps the machine busy, it takes longer than the times say.",
+        "CPU time of the picture, summed over all threads, on the scale of the bar above. It is longer \
+         than predicted while other work keeps the machine busy.",
     );
 }
 
 /// A term's part in a line.
 fn words(part: &Part, sum: f64) -> String {
-    let share = 100.0 * share(part, sum);
     format!(
-        "{}: {}, {share:.1} %",
+        "{}: {}, {}",
         part.term.name(),
-        duration(part.seconds())
+        duration(part.seconds()),
+        Digits::Three.percent(share(part, sum))
     )
 }
 
@@ -114,15 +114,15 @@ fn table(ui: &mut egui::Ui, parts: &[Part], sum: f64) {
         .spacing(vec2(14.0, 3.0))
         .show(ui, |ui| {
             for (title, about) in [
-                ("", "The number and the colour in the bar"),
+                ("", "The number and the color in the bar"),
                 ("term", "The paper's symbol, and the kind of primitive"),
-                ("each", "What one takes"),
+                ("each", "Time of one"),
                 (
                     "count",
                     "How often: nodes traversed, tests, or rays (const)",
                 ),
-                ("time", "Count times each, CPU time"),
-                ("share", "Of what is predicted"),
+                ("time", "Count times the time of one: CPU time"),
+                ("share", "Share of the predicted time"),
             ] {
                 ui.strong(title).on_hover_text(about);
             }
@@ -135,7 +135,7 @@ fn table(ui: &mut egui::Ui, parts: &[Part], sum: f64) {
                     duration(part.each),
                     grouped(part.count as f64),
                     duration(part.seconds()),
-                    format!("{:.1} %", 100.0 * share(part, sum)),
+                    Digits::Three.percent(share(part, sum)),
                 ] {
                     ui.label(egui::RichText::new(text).monospace());
                 }
@@ -149,7 +149,7 @@ fn table(ui: &mut egui::Ui, parts: &[Part], sum: f64) {
         });
 }
 
-/// A term's number on its colour.
+/// A term's number on its color.
 fn swatch(ui: &mut egui::Ui, place: usize) {
     let (rect, _) = ui.allocate_exact_size(vec2(18.0, 16.0), Sense::hover());
     let painter = ui.painter();
