@@ -6,6 +6,7 @@
 mod build_view;
 mod building;
 pub mod comparing;
+mod history;
 pub mod inspect;
 mod keep;
 pub mod notices;
@@ -14,9 +15,11 @@ pub mod picture_job;
 mod restoring;
 pub mod result;
 mod selection;
+mod second;
 mod stepping;
 pub mod study;
 pub mod tasks;
+mod tiles;
 pub mod visits;
 pub mod walk;
 
@@ -36,7 +39,8 @@ use egui::util::undoer::Undoer;
 use inspect::Inspect;
 use notices::Notices;
 use restoring::Restoring;
-pub use result::{Current, Fresh};
+pub use history::{History, Measured};
+pub use result::Current;
 use std::sync::Arc;
 use walk::Walking;
 
@@ -62,6 +66,10 @@ pub struct Document {
     pub which: Which,
     /// The other tree of a comparison, if there is one.
     pub other: Option<Other>,
+    /// The other tree of the last comparison.
+    last_other: Option<Setup>,
+    /// The last results of A and of B.
+    histories: [History; 2],
     /// How two trees are compared.
     pub comparing: Comparing,
     /// The picture that is being rendered.
@@ -157,6 +165,8 @@ impl Document {
             current: None,
             which: Which::A,
             other: None,
+            last_other: None,
+            histories: Default::default(),
             comparing: Comparing::default(),
             work: None,
             stopped: false,
@@ -228,14 +238,14 @@ impl Document {
         }
     }
 
-    /// Compares with a second tree, B, that begins with the settings of the first; or ends the
-    /// comparison with the tree in front.
+    /// Compares with a second tree, B; or ends the comparison with the tree in front.
     pub fn compare_or_not(&mut self) {
-        if self.other.take().is_some() {
-            // The one in front is A from now on, and its picture goes to A's place on the screen.
+        if let Some(other) = self.other.take() {
+            self.last_other = Some(other.wanted);
+            // The one in front is A from now on.
             let front = std::mem::replace(&mut self.which, Which::A);
-            if let Some(current) = &mut self.current {
-                current.fresh = Fresh::All;
+            if front == Which::B {
+                self.histories.reverse();
             }
             // Dropping what was being rendered for the other one cancels it.
             self.work = self.work.take().filter(|work| work.which == front);
@@ -244,7 +254,7 @@ impl Document {
             }
         } else {
             self.other = Some(Other {
-                wanted: self.wanted.clone(),
+                wanted: self.second_setup(),
                 sent: None,
                 current: None,
             });
@@ -288,6 +298,11 @@ impl Document {
         let behind = self.other.as_ref().and_then(|other| other.current.as_ref());
         self.comparing
             .verdict(in_order(self.which, front, behind), ctx)
+    }
+
+    /// Returns the last results of the tree in front.
+    pub fn results(&self) -> &History {
+        &self.histories[self.which as usize]
     }
 
     /// As [`Document::both`], to be changed.
@@ -411,7 +426,11 @@ impl Document {
                     if let Some(current) = place
                         && current.number == number
                     {
+                        let was_complete = current.complete;
                         current.take(update);
+                        if current.complete && !was_complete {
+                            self.histories[which as usize].add(current);
+                        }
                     }
                 }
             }
@@ -552,6 +571,13 @@ fn same_but_camera(a: &Setup, b: &Setup) -> bool {
 }
 
 impl Document {
+    /// Picks a pixel of the picture in front.
+    pub fn pick(&mut self, pixel: [u32; 2]) {
+        if let Some(current) = &mut self.current {
+            current.pick(pixel);
+        }
+    }
+
     /// Clears the picked pixel.
     pub fn unpick(&mut self) {
         if let Some(current) = &mut self.current {
