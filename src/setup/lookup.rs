@@ -81,8 +81,7 @@ impl Setup {
     pub fn alters_picture(&self, other: &Setup) -> bool {
         let decides = |s: &&Setting| matches!(s.affects, Affects::Scene | Affects::Image);
         let mut deciding = SETTINGS.iter().filter(decides);
-        self.scene.source != other.scene.source
-            || deciding.any(|s| s.value(self) != s.value(other))
+        self.scene.source != other.scene.source || deciding.any(|s| s.value(self) != s.value(other))
     }
 }
 

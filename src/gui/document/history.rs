@@ -15,6 +15,15 @@ pub struct Measured {
     pub measurement: Measurement,
 }
 
+/// The figures on view: the newest final ones, until newer ones are final.
+pub struct Figures<'a> {
+    pub now: &'a Measured,
+    /// The result before them.
+    pub before: Option<&'a Measured>,
+    /// Whether they answer what is wanted.
+    pub are_current: bool,
+}
+
 /// The last results of a series, the oldest first. Results of another scene or picture size begin a new
 /// series.
 #[derive(Default)]
@@ -35,7 +44,10 @@ impl History {
             let render = &of.setup.render;
             (of.setup.scene.clone(), render.width, render.height)
         };
-        if self.last().is_some_and(|last| series(last) != series(&result)) {
+        if self
+            .last()
+            .is_some_and(|last| series(last) != series(&result))
+        {
             self.0.clear();
         }
         if self.0.len() == MOST {
@@ -95,7 +107,11 @@ mod tests {
     }
 
     fn numbers(history: &History) -> Vec<u64> {
-        history.results().iter().map(|result| result.number).collect()
+        history
+            .results()
+            .iter()
+            .map(|result| result.number)
+            .collect()
     }
 
     #[test]

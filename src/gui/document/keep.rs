@@ -22,7 +22,9 @@ impl Document {
         view.split = rounded(self.comparing.split);
         view.pinned.clone_from(&self.pinned);
         view.region = self.region;
-        view.heatmap.show = self.heatmap.map(|place| heatmaps()[place].symbol.to_owned());
+        view.heatmap.show = self
+            .heatmap
+            .map(|place| heatmaps()[place].symbol.to_owned());
         if let Some(restoring) = &self.restoring {
             view.selected = restoring.selected;
             view.build = restoring.build;

@@ -14,8 +14,8 @@ pub mod picked;
 pub mod picture_job;
 mod restoring;
 pub mod result;
-mod selection;
 mod second;
+mod selection;
 mod stepping;
 pub mod study;
 pub mod tasks;
@@ -36,10 +36,10 @@ use crate::structure::{MaxDepth, Method};
 pub use build_view::RATES;
 use comparing::{Comparing, Verdict, Which};
 use egui::util::undoer::Undoer;
+pub use history::{Figures, History, Measured};
 use inspect::Inspect;
 use notices::Notices;
 use restoring::Restoring;
-pub use history::{History, Measured};
 pub use result::Current;
 use std::sync::Arc;
 use walk::Walking;
@@ -262,6 +262,14 @@ impl Document {
         }
     }
 
+    /// Uses the settings of scene and picture of the tree in front for both trees.
+    pub fn use_same_conditions(&mut self) {
+        if let Some(other) = &mut self.other {
+            other.wanted.scene = self.wanted.scene.clone();
+            other.wanted.render = self.wanted.render;
+        }
+    }
+
     /// Brings one of two compared trees to the front; the picked pixel comes along.
     pub fn show(&mut self, which: Which) {
         let Some(other) = &mut self.other else {
@@ -300,9 +308,28 @@ impl Document {
             .verdict(in_order(self.which, front, behind), ctx)
     }
 
-    /// Returns the last results of the tree in front.
-    pub fn results(&self) -> &History {
-        &self.histories[self.which as usize]
+    /// Returns the last results of a tree.
+    pub fn results(&self, which: Which) -> &History {
+        &self.histories[which as usize]
+    }
+
+    /// Returns the figures on view of a tree; `None` before the first.
+    pub fn figures(&self, which: Which) -> Option<Figures<'_>> {
+        let history = self.results(which);
+        let now = history.last()?;
+        let wanted = match &self.other {
+            Some(other) if which != self.which => &other.wanted,
+            _ => &self.wanted,
+        };
+        let current = self.both()[which as usize];
+        let answers = |current: &Current| {
+            current.complete && current.number == now.number && current.shown.reload == self.reload
+        };
+        Some(Figures {
+            now,
+            before: history.previous(),
+            are_current: current.is_some_and(answers) && now.setup == *wanted,
+        })
     }
 
     /// As [`Document::both`], to be changed.
@@ -391,11 +418,14 @@ impl Document {
             .is_some_and(|c| c.shown.setup != self.wanted || c.shown.reload != self.reload)
     }
 
-    /// Whether what is shown differs from what is wanted in the camera alone.
-    pub fn only_camera_differs(&self) -> bool {
-        self.current
-            .as_ref()
-            .is_some_and(|current| same_but_camera(&current.shown.setup, &self.wanted))
+    /// Whether the picture of a tree is about to differ from the one on view.
+    pub fn picture_will_differ(&self, which: Which) -> bool {
+        let (wanted, current) = match &self.other {
+            Some(other) if which != self.which => (&other.wanted, &other.current),
+            _ => (&self.wanted, &self.current),
+        };
+        let current = current.as_ref();
+        current.is_some_and(|current| current.will_differ(wanted, self.reload))
     }
 
     /// Receives what the jobs have sent. Returns the scenes that came into view.

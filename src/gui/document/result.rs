@@ -5,6 +5,7 @@ use super::selection::Selection;
 use super::tiles::Tiles;
 use crate::jobs::{Shown, Update};
 use crate::measure::heat::PixelCounts;
+use crate::setup::Setup;
 use crate::trace::{Picture, Step};
 use std::sync::Arc;
 
@@ -81,6 +82,21 @@ impl Current {
             picture: Arc::clone(&self.shown.picture),
         };
         self.held.clone().filter(|_| !self.done).unwrap_or_else(own)
+    }
+
+    /// Whether a picture of this setup, with its file read so often, will look different. Moves of the
+    /// camera do not count: they follow the mouse, and new pictures come at once.
+    pub(super) fn will_differ(&self, wanted: &Setup, reload: u64) -> bool {
+        let shown = &self.shown;
+        if shown.reload != reload {
+            return true;
+        }
+        if shown.setup == *wanted {
+            return false;
+        }
+        let mut wanted = wanted.clone();
+        wanted.render.camera = shown.setup.render.camera;
+        wanted.alters_picture(&shown.setup)
     }
 
     /// Whether an earlier picture is on view, which this one will equal.

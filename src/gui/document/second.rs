@@ -20,7 +20,9 @@ impl Document {
         });
         // A comparison of a tree with itself shows nothing.
         last.filter(|last| last != a).unwrap_or_else(|| {
-            let name = METHODS.into_iter().find(|name| *name != a.build.method.name);
+            let name = METHODS
+                .into_iter()
+                .find(|name| *name != a.build.method.name);
             let method = Method::named(name.unwrap_or(METHODS[0]));
             let mut setup = a.clone();
             setup.build.set_method(method.expect("both are registered"));

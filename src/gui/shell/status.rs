@@ -21,7 +21,7 @@ impl StatusLine {
             let current = doc.current.as_ref();
             let pixel = match (hovered, current) {
                 (Some(([x, y], value)), Some(current)) => {
-                    let color = || color_text(current.shown.picture.get(x, y));
+                    let color = || color_text(current.on_view().picture.get(x, y));
                     format!("Pixel {x}, {y}: {}", value.unwrap_or_else(color))
                 }
                 _ => "Pixel –".to_owned(),
