@@ -5,6 +5,7 @@ use super::result::Current;
 use super::tasks::Latest;
 use crate::measure::{Unequal, differing_pixels, unequal};
 pub use crate::workspace::{Arrangement as View, Which};
+use std::cell::RefCell;
 use std::sync::Arc;
 
 /// How two trees are compared.
@@ -12,7 +13,8 @@ pub struct Comparing {
     pub view: View,
     /// Where the wipe's line lies, 0 at the pictures' left edge to 1 at the right one.
     pub split: f32,
-    verdict: Latest<[u64; 2], Verdict>,
+    /// Made when it is asked for.
+    verdict: RefCell<Latest<[u64; 2], Verdict>>,
 }
 
 impl Default for Comparing {
@@ -20,7 +22,7 @@ impl Default for Comparing {
         Comparing {
             view: View::Beside,
             split: 0.5,
-            verdict: Latest::default(),
+            verdict: RefCell::default(),
         }
     }
 }
@@ -36,7 +38,7 @@ pub struct Verdict {
 impl Comparing {
     /// The verdict on two finished pictures; `None` until it is there.
     pub fn verdict(
-        &mut self,
+        &self,
         both: [Option<&Current>; 2],
         ctx: &egui::Context,
     ) -> Option<Arc<Verdict>> {
@@ -47,7 +49,8 @@ impl Comparing {
             return None;
         }
         let key = [a.number, b.number];
-        if let Some(verdict) = self.verdict.ready(&key) {
+        let mut latest = self.verdict.borrow_mut();
+        if let Some(verdict) = latest.ready(&key) {
             return Some(verdict);
         }
         let [a, b] = [a, b].map(|side| {
@@ -56,7 +59,7 @@ impl Comparing {
                 Arc::clone(&side.shown.picture),
             )
         });
-        self.verdict.get(&key, ctx, move || Verdict {
+        latest.get(&key, ctx, move || Verdict {
             reasons: unequal((&a.0, &a.1), (&b.0, &b.1)),
             pixels: differing_pixels(&a.1, &b.1),
         })

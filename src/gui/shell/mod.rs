@@ -3,6 +3,7 @@
 
 mod actions;
 mod app;
+mod clipboard;
 mod exporting;
 mod files;
 mod first_hint;
@@ -11,16 +12,21 @@ mod kept;
 mod keys;
 mod layout;
 mod palette;
+mod progress;
 mod recent;
 mod save_as;
 mod status;
+mod strip;
 mod tasks;
+mod tiles;
+mod title;
 mod top_bar;
 mod workspaces;
 
 pub use app::App;
 pub use kept::KeptFile;
 pub use layout::{LAYOUT_FILE, LEAST_SIZE, Layout};
+pub use title::PROGRAM;
 
 use help::Section;
 

@@ -14,3 +14,4 @@ pub mod step_text;
 pub mod symbol;
 pub mod tree_rows;
 pub mod value_row;
+pub mod visits_note;

@@ -29,7 +29,8 @@ impl Pane for ComparisonPane {
     const ABOUT: &'static str = "The figures of A and B, and whether the comparison is fair.";
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        if cx.doc.other.is_none() {
+        let doc: &Document = cx.doc;
+        if doc.other.is_none() {
             let about = "A second tree of the same scene, seen by the same camera, with settings of \
                          its own.";
             if ui
@@ -41,8 +42,7 @@ impl Pane for ComparisonPane {
             }
             return;
         }
-        let verdict = cx.doc.verdict(cx.ctx);
-        let doc: &Document = cx.doc;
+        let verdict = doc.verdict(cx.ctx);
         sides::show(ui, doc, cx.edits);
         ui.separator();
         gate::show(ui, doc, verdict.as_deref(), cx.edits);

@@ -120,11 +120,8 @@ impl Pane for PicturePane {
     ];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let verdict = match &cx.doc.other {
-            Some(_) => cx.doc.verdict(cx.ctx),
-            None => None,
-        };
         let doc: &Document = cx.doc;
+        let verdict = doc.other.as_ref().and_then(|_| doc.verdict(cx.ctx));
         let edits = &mut *cx.edits;
         row::show(ui, self, doc, verdict.as_deref(), edits);
         self.heat.update(ui.ctx(), doc);
