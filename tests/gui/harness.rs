@@ -76,15 +76,21 @@ pub fn over_picture(window: &mut Window<'_>) {
     window.run_steps(2);
 }
 
+/// Whether a label contains this, or the description of the picture, which names its settings.
 pub fn has(window: &Window<'_>, text: &str) -> bool {
-    window.query_all_by_label_contains(text).next().is_some()
+    window.query_all_by_label_contains(text).next().is_some() || described(window).contains(text)
+}
+
+/// Returns the settings of the picture on view; empty without one.
+pub fn described(window: &Window<'_>) -> String {
+    let picture = window.query_by_label("Traced picture");
+    let description = picture.and_then(|node| node.accesskit_node().description());
+    description.unwrap_or_default()
 }
 
 /// Whether what is asked for is on view, with final figures.
 pub fn is_finished(window: &Window<'_>) -> bool {
-    window.query_by_label("finished").is_some()
-        && window.query_all_by_label("complete").count() == 2
-        && !has(window, "previous settings")
+    window.state().is_finished()
         && !has(window, "visits: counted when")
         && !has(window, "counting visits")
 }

@@ -47,6 +47,15 @@ impl Pane for ComparisonPane {
         ui.separator();
         gate::show(ui, doc, verdict.as_deref(), cx.edits);
         ui.separator();
+        ui.horizontal(|ui| {
+            ui.checkbox(&mut self.all_figures, "All figures")
+                .on_hover_text("All of the paper's Tables 1 to 3, or Δ and Λ alone.");
+            ui.checkbox(&mut self.per_kind, "Per kind of ray")
+                .on_hover_text(
+                    "What primary, shadow, reflected and refracted rays did: all together, per ray, \
+                     and the ray with the most.",
+                );
+        });
         let sides = Sides {
             both: Which::BOTH.map(|which| doc.figures(which)),
             // Until the verdict is there, the changes are those of before.
@@ -63,13 +72,5 @@ impl Pane for ComparisonPane {
                 sides.rays(ui, kind);
             }
         }
-        ui.add_space(8.0);
-        ui.checkbox(&mut self.all_figures, "All figures")
-            .on_hover_text("All of the paper's Tables 1 to 3, or Δ and Λ alone.");
-        ui.checkbox(&mut self.per_kind, "Per kind of ray")
-            .on_hover_text(
-                "What primary, shadow, reflected and refracted rays did: all together, per ray, and \
-                 the ray with the most.",
-            );
     }
 }
