@@ -3,6 +3,7 @@
 //! Two trees can be compared, A and B. One of them is in front: widgets and panels are about it. The
 //! other waits in [`Document::other`]; the picture of the one in front is rendered first.
 
+mod asked;
 mod build_view;
 mod building;
 pub mod comparing;
@@ -30,6 +31,7 @@ use crate::measure::model::Region;
 use crate::scene::{CameraOverride, SceneRequest, SceneSource};
 use crate::setup::Setup;
 use crate::structure::{MaxDepth, Method};
+pub use asked::Fact;
 pub use build_view::RATES;
 use comparing::{Comparing, Verdict, Which};
 use egui::util::undoer::Undoer;
@@ -86,8 +88,8 @@ pub struct Document {
     pub next_lesson: Option<Lesson>,
     /// Whether a lesson is being taken.
     pub in_lesson: bool,
-    /// Whether a lesson waits for a prediction, so that figures are hidden.
-    pub hides_figures: bool,
+    /// What a lesson asks for, until the prediction is checked.
+    pub asked: Vec<Fact>,
     /// What the user wrote down.
     pub notes: String,
     /// Pixels marked to come back to.
@@ -169,7 +171,7 @@ impl Document {
             task: "explore",
             next_lesson: start.lesson.clone(),
             in_lesson: false,
-            hides_figures: false,
+            asked: Vec::new(),
             notes: String::new(),
             pinned: Vec::new(),
             restoring: None,

@@ -5,7 +5,7 @@ use crate::gui::document::Document;
 use crate::gui::document::RATES;
 use crate::gui::edits::Request;
 use crate::gui::name_widget;
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::symbol::grouped;
 use crate::structure::{Moment, NodeKind};
 
@@ -17,6 +17,7 @@ impl Pane for BuildPane {
     const ID: &'static str = "build";
     const TITLE: &'static str = "Build steps";
     const ABOUT: &'static str = "The tree as it stood at any moment of its build.";
+    const REVEALS: &'static [Fact] = &[Fact::Tree];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "build.show" Everywhere COMMAND [G] "Show the build of the tree step by step, or the finished tree" => |_, cx| {
             cx.doc.toggle_build();

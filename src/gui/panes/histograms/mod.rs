@@ -3,7 +3,7 @@
 
 use crate::gui::action::{Gesture, actions, tip};
 use crate::gui::document::inspect::{LeavesKey, TreeKey};
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::waiting;
 use crate::gui::widgets::symbol::grouped;
 use crate::present::overlay::{
@@ -36,6 +36,7 @@ impl Pane for Histograms {
     const TITLE: &'static str = "Histograms";
     const ALIASES: &'static [&'static str] = &["Leaf histograms"];
     const ABOUT: &'static str = "How leaves and rays are distributed; drag to select.";
+    const REVEALS: &'static [Fact] = &[Fact::Tree, Fact::Rays, Fact::Pixel];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "histograms.clear-ranges" Here NONE [Delete] "Select all leaves again" => |_, cx| cx.doc.inspect.clear_ranges();
     };

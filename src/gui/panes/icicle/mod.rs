@@ -4,7 +4,7 @@
 //! millions of nodes draws as fast as a small one.
 
 use crate::gui::document::inspect::TreeKey;
-use crate::gui::pane::{Cx, Pane};
+use crate::gui::pane::{Cx, Fact, Pane};
 use crate::gui::widgets::coloring_bar::color_bar;
 use crate::gui::widgets::common::{short, waiting};
 use crate::gui::widgets::symbol::grouped;
@@ -81,6 +81,7 @@ impl Pane for Icicle {
     const ID: &'static str = "icicle";
     const TITLE: &'static str = "Icicle";
     const ABOUT: &'static str = "The tree as nested bars, one row per depth.";
+    const REVEALS: &'static [Fact] = &[Fact::Tree, Fact::Rays, Fact::Pixel];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         let doc = &mut *cx.doc;

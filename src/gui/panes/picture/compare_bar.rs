@@ -1,8 +1,9 @@
 //! The row above two compared pictures: how they are shown, and what their keys do.
 
 use crate::gui::action::tip;
-use crate::gui::document::Document;
+use crate::gui::document::{Document, Fact};
 use crate::gui::document::comparing::View;
+use crate::gui::widgets::hidden::HIDDEN;
 use crate::gui::widgets::symbol::grouped;
 
 /// How far a key moves the wipe's line, of the picture's width.
@@ -18,7 +19,10 @@ pub fn show(ui: &mut egui::Ui, doc: &mut Document, picture: bool) {
         }
         match doc.comparing.view {
             View::Difference if picture => {
-                let text = match doc.verdict(ui.ctx()) {
+                let told = !doc.hides(&[Fact::Difference]);
+                let verdict = told.then(|| doc.verdict(ui.ctx()));
+                let text = match verdict.flatten() {
+                    None if !told => HIDDEN.to_owned(),
                     None => "waits for both pictures".to_owned(),
                     Some(verdict) if verdict.pixels.is_empty() => "equal in every pixel".to_owned(),
                     Some(verdict) => {

@@ -11,7 +11,7 @@ use crate::gui::action::{Gesture, actions};
 use crate::gui::document::comparing::{View, Which};
 use crate::gui::document::{Current, Document, Fresh};
 use crate::gui::edits::Request;
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::rounded::rounded;
 use crate::jobs::Stage;
 use crate::measure::heat::heatmaps;
@@ -59,6 +59,7 @@ impl Pane for PicturePane {
     const ID: &'static str = "picture";
     const TITLE: &'static str = "Picture";
     const ABOUT: &'static str = "The ray-traced picture, or a heatmap of what each pixel cost.";
+    const REVEALS: &'static [Fact] = &[];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "picture.export" Everywhere ALT [Num1] "Export the picture: PNG or EXR" => |_, cx| {
             let export = export::picture(cx.doc);
@@ -134,7 +135,8 @@ impl Pane for PicturePane {
         self.heat.update(ui.ctx(), doc);
         self.picture(ui, doc);
         self.heat.legend(ui, doc, self.hovered);
-        let value = self.hovered.and_then(|pixel| self.heat.value_text(pixel));
+        let told = self.hovered.filter(|_| !doc.hides(heat::REVEALS));
+        let value = told.and_then(|pixel| self.heat.value_text(pixel));
         doc.hovered = self.hovered.map(|pixel| (pixel, value));
     }
 

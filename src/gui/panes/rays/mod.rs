@@ -4,7 +4,7 @@ mod pixel;
 
 use crate::gui::action::shortcut;
 use crate::gui::document::Document;
-use crate::gui::pane::{Cx, Pane};
+use crate::gui::pane::{Cx, Fact, Pane};
 use crate::gui::widgets::rows::{Column, List, Row, chip};
 use crate::gui::widgets::step_text;
 use crate::gui::widgets::symbol::grouped;
@@ -98,6 +98,7 @@ impl Pane for RaysPane {
     const TITLE: &'static str = "Rays of the pixel";
     const ALIASES: &'static [&'static str] = &["Picked pixel"];
     const ABOUT: &'static str = "The picked pixel, its rays and what they did.";
+    const REVEALS: &'static [Fact] = &[Fact::Pixel];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         pixel::show(ui, cx.doc);

@@ -3,7 +3,7 @@
 mod build;
 mod picture;
 
-use crate::gui::pane::{Cx, Pane};
+use crate::gui::pane::{Cx, Fact, Pane};
 
 /// The settings of the tree in front.
 #[derive(Default)]
@@ -14,7 +14,7 @@ impl Pane for SettingsPane {
     const TITLE: &'static str = "Settings";
     const ALIASES: &'static [&'static str] = &["Tree"];
     const ABOUT: &'static str = "How the tree is built and how the picture is rendered.";
-    const SHOWS_FIGURES: bool = false;
+    const REVEALS: &'static [Fact] = &[];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         ui.strong("Tree");

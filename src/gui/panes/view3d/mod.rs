@@ -18,7 +18,7 @@ use crate::gui::action::Gesture;
 use crate::gui::document::tasks::Latest;
 use crate::gui::document::{Current, Document};
 use crate::gui::edits::Request;
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::jobs::PictureVisits;
 use crate::present::overlay::{self, Line};
 use crate::primitive::Precision;
@@ -90,6 +90,7 @@ impl Pane for View3d {
     const ALIASES: &'static [&'static str] = &["3D view"];
     const ABOUT: &'static str =
         "The scene, the leaves of its tree, and the rays of the picked pixel.";
+    const REVEALS: &'static [Fact] = &[];
     const ACTIONS: &'static [PaneAction<Self>] = controls::ACTIONS;
     const GESTURES: &'static [Gesture] = &[
         Gesture {
@@ -159,7 +160,10 @@ impl Pane for View3d {
                 );
             }
             (Some(_), None) => note(ui, rect, "No scene yet"),
-            (Some(_), Some(current)) => self.draw(ui, rect, current, visits, &marks),
+            (Some(_), Some(current)) => {
+                let tells = !doc.hides(&[Fact::Tree, Fact::Pixel]);
+                self.draw(ui, rect, current, visits, &marks, tells);
+            }
         }
     }
 
@@ -354,6 +358,7 @@ impl View3d {
         self.camera.on_target_plane(&ray)
     }
 
+    /// Draws the scene and the tree; numbers only where it `tells` them.
     fn draw(
         &mut self,
         ui: &mut egui::Ui,
@@ -361,6 +366,7 @@ impl View3d {
         current: &Current,
         visits: Option<Result<Arc<PictureVisits>, String>>,
         marks: &marks::Marks,
+        tells: bool,
     ) {
         let (scene, tree) = (&current.shown.scene, &current.shown.tree);
         let center = scene_mesh::center_of(scene);
@@ -431,10 +437,13 @@ impl View3d {
         };
         ui.painter()
             .add(egui_wgpu::Callback::new_paint_callback(rect, frame));
-        if let Some(path) = path {
+        if let Some(path) = path.filter(|_| tells) {
             self.number_leaves(ui, rect, path);
         }
         marks.name(self, ui, rect);
+        if !tells {
+            return;
+        }
         let mut keys = marks.key();
         keys.extend(self.settings.cut.text(&tree.root_cell()));
         let legend = legend::Legend {

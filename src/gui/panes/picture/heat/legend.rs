@@ -2,8 +2,9 @@
 //! pointer's and the picked pixel's values lie.
 
 use super::look::Look;
-use super::{HeatView, Progress};
+use super::{HeatView, Progress, REVEALS};
 use crate::gui::document::Document;
+use crate::gui::widgets::hidden::HIDDEN;
 use crate::gui::widgets::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::gui::widgets::symbol::grouped;
 use egui::{Color32, Painter, Rect, Shape, Stroke, pos2, vec2};
@@ -42,6 +43,11 @@ impl HeatView {
         let shown = ui.vertical(|ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
             ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
+            if doc.hides(REVEALS) {
+                ui.set_min_height(self.legend_height());
+                ui.weak(HIDDEN);
+                return;
+            }
             match self.look().cloned() {
                 Some(look) => self.contents(ui, &look, doc, hovered),
                 None => {
