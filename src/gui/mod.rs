@@ -7,10 +7,12 @@
 mod action;
 mod document;
 mod edits;
+pub mod icons;
 mod pane;
 mod panes;
 mod shell;
 mod start;
+pub mod theme;
 mod widgets;
 
 pub use shell::{App, shortcuts};

@@ -126,12 +126,12 @@ fn a_cut_hides_one_side_of_the_view() {
     let mut window = open();
     let view = window.get_by_label("3D view of scene and tree").rect();
     // A place without widgets over the view.
-    window.hover_at(view.right_top() + egui::vec2(-20.0, 20.0));
+    window.hover_at(view.right_top() + egui::vec2(-20.0, 80.0));
     window.run_steps(2);
     let picture = |window: &mut Window<'_>| {
         let image = window.render().unwrap();
-        let (left, top) = (view.left() as u32 + 2, view.top() as u32 + 2);
-        // Above the legend, and to the left of the pointer.
+        // Below the controls of the cut, above the legend, and to the left of the pointer.
+        let (left, top) = (view.left() as u32 + 2, view.top() as u32 + 70);
         let (width, height) = (view.width() as u32 - 60, view.height() as u32 / 3);
         image::imageops::crop_imm(&image, left, top, width, height).to_image()
     };

@@ -1,6 +1,6 @@
 //! The judge in the window: it looks at the rays of a finished picture, and can be stopped.
 
-use crate::harness::{click, finish, has, open, small, wait};
+use crate::harness::{click, finish, has, open, open_sized, small, wait};
 
 #[test]
 fn sampled_rays_of_a_finished_picture_are_checked_in_the_background() {
@@ -13,7 +13,8 @@ fn sampled_rays_of_a_finished_picture_are_checked_in_the_background() {
 
 #[test]
 fn the_judge_stops_when_told_and_begins_again() {
-    let mut window = open(small("teaching"));
+    // High enough for the box to be in view.
+    let mut window = open_sized(small("teaching"), [1500.0, 1400.0], false);
     // Once the scene's facts stand above it, the box stays where it is.
     wait(&mut window, "a window", |w| {
         has(w, "lights: ") && has(w, "check sampled rays")

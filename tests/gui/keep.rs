@@ -2,7 +2,7 @@
 //! back; what cannot be opened leaves everything as it was.
 
 use crate::harness::{
-    SIZE, Window, click, finish, has, open, open_with_graphics, press, small, wait,
+    SIZE, Window, click, finish, has, open, open_sized, open_with_graphics, press, small, wait,
 };
 use bspscope::gui::StartOptions;
 use bspscope::measure::model::Region;
@@ -60,7 +60,8 @@ const BALL: &str = "v\nfrom 0 -4 0\nat 0 0 0\nup 0 0 1\nangle 45\nhither 1\nreso
 fn saved_changed_and_restored_it_is_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("first.bspscope");
-    let mut window = open(small("balls:1"));
+    // High enough for the panel of notes to be in view.
+    let mut window = open_sized(small("balls:1"), [1500.0, 1600.0], false);
     finish(&mut window);
     // Two trees, settings of their own, a moment of the build, a zoom, a heatmap, a picked and pinned
     // pixel, a step of its walk.

@@ -1,7 +1,7 @@
 //! The sweep in the window: the rows of `bspscope sweep`, as curves and as a map, broken off and gone
 //! on with, loaded and saved.
 
-use crate::harness::{Window, click, finish, has, open, press, small, wait};
+use crate::harness::{Window, click, finish, has, open_sized, press, small, wait};
 use bspscope::measure::sweep::{Axis, Form, Plan, answers, read_rows, rule_depth};
 use bspscope::measure::{Class, parameter, parameters};
 use bspscope::progress::Progress;
@@ -17,7 +17,7 @@ fn on_sweep<'a>(scene: &str, size: u32) -> Window<'a> {
     let mut start = small(scene);
     start.setup.render.width = size;
     start.setup.render.height = size;
-    let mut window = open(start);
+    let mut window = open_sized(start, [1500.0, 1200.0], false);
     finish(&mut window);
     click(&mut window, "Sweep");
     window

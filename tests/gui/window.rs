@@ -321,7 +321,8 @@ fn in_a_small_view_the_legend_is_folded_until_it_is_asked_for() {
     let view = window.get_by_label("3D view of scene and tree").rect();
     let top = window.get_by_label("Fold the legend").rect();
     assert!(view.contains_rect(top), "{top} in {view}");
-    window.hover_at(view.right_top() + egui::vec2(-20.0, 20.0));
+    // Beside the legend.
+    window.hover_at(view.right_top() + egui::vec2(-4.0, 4.0));
     window.run_steps(2);
     press(&mut window, egui::Modifiers::NONE, egui::Key::I);
     assert!(!unfolded(&window) && has(&window, "Depth (levels"));

@@ -19,6 +19,7 @@ use crate::gui::document::{Document, tasks};
 use crate::gui::edits::{Edits, Request};
 use crate::gui::pane::{AnyPane, Cx};
 use crate::gui::panes::PANES;
+use crate::gui::theme;
 use crate::scene::SceneSource;
 use crate::scene::format::names;
 use crate::setup::measure_command;
@@ -54,6 +55,7 @@ impl App {
     /// Makes the window's contents and asks for the first scene.
     pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Self {
         let ctx = &cc.egui_ctx;
+        theme::install(ctx);
         let of_panes = PANES.iter().flat_map(|entry| entry.actions());
         action::register(shell_actions().chain(of_panes));
         let recent = Recent::kept(KeptFile::new(&start, "recent.json"));

@@ -9,11 +9,11 @@ const BAR: f32 = 210.0;
 /// The colours from the lowest to the highest value, with numbers.
 pub fn color_bar(coloring: &Coloring, range: [f64; 2], ui: &mut egui::Ui) {
     let bar = BAR.min(ui.available_width() - 24.0);
-    let (rect, _) = ui.allocate_exact_size(vec2(bar + 24.0, 28.0), egui::Sense::hover());
+    let (rect, _) = ui.allocate_exact_size(vec2(bar + 24.0, 32.0), egui::Sense::hover());
     let painter = ui.painter();
     let left = rect.left() + 6.0;
     let text = ui.visuals().text_color();
-    let font = egui::FontId::proportional(11.0);
+    let font = egui::FontId::proportional(12.0);
     let color = |place: f64| {
         let [r, g, b] = coloring.color_at(place);
         Color32::from_rgb(r, g, b)

@@ -1,5 +1,6 @@
 //! A list of rows with columns, of which only those in view are made; a row is one widget.
 
+use crate::gui::theme;
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align2, Color32, FontId, Painter, Rect, Sense, TextStyle, pos2, vec2};
 
@@ -156,7 +157,7 @@ fn text(ui: &egui::Ui, rect: Rect, text: String, color: Color32) {
     if text.is_empty() {
         return;
     }
-    let font = TextStyle::Body.resolve(ui.style());
+    let font = theme::named(theme::HINT).resolve(ui.style());
     let mut job = LayoutJob::simple_singleline(text, font, color);
     job.wrap = TextWrapping::truncate_at_width(rect.width());
     let galley = ui.painter().layout_job(job);

@@ -6,7 +6,7 @@ use egui::{Color32, FontId, Painter, Rect, Stroke, pos2};
 /// Length of a tick in points.
 pub const TICK: f32 = 4.0;
 /// Height of the numbers in points.
-pub const NUMBERS: f32 = 14.0;
+pub const NUMBERS: f32 = 16.0;
 /// What a tick's number takes at most.
 const TICK_ROOM: f32 = 36.0;
 
@@ -52,7 +52,7 @@ pub fn numbers(
             place if place >= 1.0 && above > 0 => format!("≥ {}", tick.text),
             _ => tick.text,
         };
-        let laid_out = painter.layout_no_wrap(text, FontId::proportional(11.0), ink);
+        let laid_out = painter.layout_no_wrap(text, FontId::proportional(12.0), ink);
         let width = laid_out.rect.width();
         let left = (x - width / 2.0).min(rect.right() - width).max(rect.left());
         if left >= free_from {

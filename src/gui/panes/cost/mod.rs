@@ -234,7 +234,7 @@ impl Drawn {
                 } else {
                     egui::Align2::LEFT_BOTTOM
                 };
-                let text = egui::RichText::new(text).size(11.0);
+                let text = egui::RichText::new(text).size(12.0);
                 let text = Text::new("label", PlotPoint::new(x, y), text);
                 plot.text(text.color(color).anchor(anchor));
             };

@@ -260,7 +260,7 @@ impl Plot<'_> {
     fn paint(&self, ui: &egui::Ui, outer: Rect, area: Rect, range: Option<[f64; 2]>) {
         let painter = ui.painter().with_clip_rect(outer);
         let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
-        let (font, small) = (FontId::proportional(12.5), FontId::proportional(10.5));
+        let (font, small) = (FontId::proportional(12.5), FontId::proportional(12.0));
         let n = self.bars.counts.len();
         let highest = self.bars.highest().max(1);
         let x_of = |value: f64| {

@@ -326,20 +326,20 @@ impl Icicle {
         color: Color32,
         area: Rect,
     ) {
-        let font = FontId::proportional(10.5);
+        let font = FontId::proportional(12.0);
         let Some((first, _)) = pieces.rects.first() else {
             return;
         };
         let height = first.height();
         let top = index.of(self.top).depth;
-        let every = (12.0 / height).ceil().max(1.0) as u32;
+        let every = (15.0 / height).ceil().max(1.0) as u32;
         let rows = (area.height() / height).round() as u32;
         for row in (0..rows).step_by(every as usize) {
             let at = pos2(area.left() - 4.0, area.top() + height * (row as f32 + 0.5));
             let text = (top + row).to_string();
             painter.text(at, Align2::RIGHT_CENTER, text, font.clone(), color);
         }
-        if height < 11.0 {
+        if height < 15.0 {
             return;
         }
         for (rect, node) in pieces.rects.iter().filter(|(rect, _)| rect.width() > 46.0) {

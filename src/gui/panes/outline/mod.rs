@@ -9,6 +9,7 @@ use crate::gui::document::Current;
 use crate::gui::document::inspect::TreeKey;
 use crate::gui::document::visits;
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
+use crate::gui::theme;
 use crate::gui::widgets::common::{short, waiting};
 use crate::gui::widgets::symbol::grouped;
 use crate::gui::widgets::tree_rows::Rows;
@@ -47,29 +48,29 @@ enum Move {
 const COLUMNS: [(&str, [f32; 2], &str); 9] = [
     (
         "node",
-        [100.0, 164.0],
+        [86.0, 164.0],
         "Index of the node in the tree's array; 0 is the root",
     ),
     ("depth", [38.0, 42.0], "Levels below the root"),
     (
         "plane, or why a leaf",
-        [92.0, 164.0],
+        [76.0, 164.0],
         "Axis and place of the split plane, in units of length; or why the cell was not split",
     ),
     (
         "objects",
-        [48.0, 54.0],
+        [46.0, 54.0],
         "Objects in the cell, each counted once",
     ),
-    ("refs", [52.0, 66.0], "References of all leaves below"),
+    ("refs", [50.0, 66.0], "References of all leaves below"),
     (
         "area",
-        [58.0, 58.0],
+        [56.0, 58.0],
         "Surface area of the cell, in percent of the root's",
     ),
     (
         "tests",
-        [44.0, 54.0],
+        [42.0, 54.0],
         "Expected cost: intersection tests of a ray through the cell if nothing stops it \
          (MacDonald and Booth 1990)",
     ),
@@ -299,6 +300,7 @@ impl Table<'_> {
             .auto_shrink(false)
             .show(ui, |ui| {
                 ui.spacing_mut().item_spacing.x = 6.0;
+                ui.style_mut().override_text_style = Some(theme::named(theme::HINT));
                 ui.set_min_width(width);
                 let mut builder = TableBuilder::new(ui)
                     .striped(true)

@@ -606,7 +606,7 @@ fn pins(painter: &egui::Painter, rect: Rect, picture: [u32; 2], pinned: &[[u32; 
             (1.0, Color32::WHITE),
         );
         let (font, middle) = (
-            egui::FontId::proportional(11.0),
+            egui::FontId::proportional(12.0),
             egui::Align2::CENTER_CENTER,
         );
         painter.text(at, middle, i + 1, font, Color32::WHITE);

@@ -170,7 +170,7 @@ fn map(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale, method: &str) ->
         if shown.is_best(row) {
             diamond(&painter, square, over);
         } else if let Some(value) = value(shown, row).filter(|_| width >= ROOMY) {
-            let font = FontId::proportional(11.0);
+            let font = FontId::proportional(12.0);
             painter.text(
                 square.center(),
                 Align2::CENTER_CENTER,

@@ -41,10 +41,7 @@ pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) -> bool {
     /// Around the contents.
     const MARGIN: f32 = 6.0;
     // The ground is dark in both themes, and so is the legend.
-    let visuals = egui::Visuals {
-        override_text_color: Some(Color32::from_gray(225)),
-        ..egui::Visuals::dark()
-    };
+    let visuals = ui.ctx().style_of(egui::Theme::Dark).visuals.clone();
     // Its height is known once it was laid out: the last frame's tells where it begins.
     let id = ui.scope_id().with("legend height");
     let height = ui.data(|data| data.get_temp::<f32>(id)).unwrap_or(100.0);
