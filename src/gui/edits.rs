@@ -36,6 +36,9 @@ pub enum Request {
     Show(&'static str),
     /// Switch to a task.
     Task(&'static str),
+    /// Show these panes beside a lesson: slots from left to right, each with panes from the top; the
+    /// usual ones if there are none.
+    Stage(Vec<Vec<&'static str>>),
     /// Run an action.
     Run(&'static str),
     /// Open a scene, or a workspace.

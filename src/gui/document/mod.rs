@@ -8,6 +8,7 @@ mod build_view;
 mod building;
 pub mod comparing;
 pub mod inspect;
+mod interesting;
 mod keep;
 pub mod notices;
 pub mod picked;
@@ -84,6 +85,8 @@ pub struct Document {
     pub hovered: Option<([u32; 2], Option<String>)>,
     /// The task on view.
     pub task: &'static str,
+    /// Whether a pixel is to be picked whose rays are worth following.
+    pub wants_ray: bool,
     /// A lesson that is to begin.
     pub next_lesson: Option<Lesson>,
     /// Whether a lesson is being taken.
@@ -169,6 +172,7 @@ impl Document {
             region: None,
             hovered: None,
             task: "explore",
+            wants_ray: false,
             next_lesson: start.lesson.clone(),
             in_lesson: false,
             asked: Vec::new(),

@@ -3,10 +3,11 @@
 use super::actions::ACTIONS;
 use super::exporting::Exports;
 use super::files::Files;
-use super::first_hint::{Chosen, FirstHint};
+use super::first_start::{FirstStart, Way};
 use super::kept::KeptFile;
-use super::layout::{self, LAYOUT_FILE, Layout, PaneId};
+use super::layout::{self, Column, LAYOUT_FILE, Layout, PaneId};
 use super::palette::{Command, Palette};
+use super::present::{self, Presenting};
 use super::recent::Recent;
 use super::status::StatusLine;
 use super::tasks::{Task, TaskId, task};
@@ -20,6 +21,7 @@ use crate::gui::edits::{Edits, Request};
 use crate::gui::pane::{AnyPane, Cx};
 use crate::gui::panes::PANES;
 use crate::gui::theme;
+use crate::gui::widgets::hidden;
 use crate::scene::SceneSource;
 use crate::scene::format::names;
 use crate::setup::measure_command;
@@ -41,12 +43,12 @@ pub struct App {
     maximized: Option<PaneId>,
     /// The pane under the pointer.
     under_pointer: Option<PaneId>,
-    presenting: bool,
+    presenting: Option<Presenting>,
     status: StatusLine,
     pub(super) help_open: bool,
     palette: Palette,
     exports: Exports,
-    first_hint: FirstHint,
+    first_start: FirstStart,
     /// What panes and menus asked for in this frame.
     requests: Vec<Request>,
 }
@@ -87,12 +89,12 @@ impl App {
             kept_layout: None,
             maximized: None,
             under_pointer: None,
-            presenting: false,
+            presenting: None,
             status: StatusLine::default(),
             help_open: false,
             palette: Palette::default(),
             exports: Exports::default(),
-            first_hint: FirstHint::new(&start),
+            first_start: FirstStart::new(&start),
             requests: Vec::new(),
         };
         app.doc.notices = notices;
@@ -157,8 +159,10 @@ impl App {
     }
 
     pub(super) fn toggle_present(&mut self, ctx: &egui::Context) {
-        self.presenting ^= true;
-        ctx.send_viewport_cmd(egui::ViewportCommand::Fullscreen(self.presenting));
+        match self.presenting.take() {
+            Some(presenting) => presenting.end(ctx),
+            None => self.presenting = Some(Presenting::begin(ctx)),
+        }
     }
 
     pub(super) fn toggle_bottom(&mut self) {
@@ -200,14 +204,13 @@ impl App {
     pub(super) fn escape(&mut self, ctx: &egui::Context) {
         let message = self.palette.close()
             || std::mem::take(&mut self.help_open)
-            || self.first_hint.dismiss()
             || self.doc.failure.take().is_some()
             || self.doc.notices.close()
             || self.maximized.take().is_some();
         if message {
             return;
         }
-        if self.presenting {
+        if self.presenting.is_some() {
             self.toggle_present(ctx);
         } else if self.doc.inspect.undo() || self.doc.cancel() {
         } else if self.layout.task.0 == "ray" {
@@ -262,6 +265,7 @@ impl App {
                     }
                 }
                 Request::Task(id) => self.switch(id),
+                Request::Stage(slots) => self.layout.stage(&slots),
                 Request::Run(id) => self.run(id, ctx),
                 Request::Open(source) => self.files.open(source, ctx, &mut self.doc),
                 Request::Export(export) => self.exports.ask(*export, &mut self.doc),
@@ -289,20 +293,27 @@ impl App {
 
     /// Runs the actions that keys ask for everywhere.
     fn keys(&mut self, ctx: &egui::Context) {
+        if self.doc.in_lesson {
+            self.pane_keys(ctx, Scope::Lesson);
+        }
         let shell: Vec<Info> = shell_actions().collect();
         for place in keys::pressed(ctx, &shell, Scope::Everywhere) {
             (ACTIONS[place].run)(self, ctx);
         }
+        self.pane_keys(ctx, Scope::Everywhere);
+    }
+
+    /// Runs the actions of panes that keys ask for in one scope.
+    fn pane_keys(&mut self, ctx: &egui::Context, scope: Scope) {
         for pane in PaneId::all() {
-            let pressed = keys::pressed(ctx, &self.actions[pane.place()], Scope::Everywhere);
-            for place in pressed {
+            for place in keys::pressed(ctx, &self.actions[pane.place()], scope) {
                 self.with_pane(pane, ctx, |pane, cx| pane.act(place, cx));
             }
         }
     }
 
     /// Draws a pane; keys go to it while the pointer is over it.
-    fn pane(&mut self, ui: &mut egui::Ui, pane: PaneId) {
+    pub(super) fn pane(&mut self, ui: &mut egui::Ui, pane: PaneId) {
         let rect = ui.max_rect();
         let ctx = ui.ctx().clone();
         if ctx.rect_contains_pointer(ui.layer_id(), rect) {
@@ -311,8 +322,8 @@ impl App {
                 self.with_pane(pane, &ctx, |pane, cx| pane.act(place, cx));
             }
         }
-        if self.doc.hides_figures && pane.entry().shows_figures && !is_view(pane) {
-            ui.weak(HIDDEN);
+        if self.doc.hides(pane.entry().reveals) {
+            hidden::card(ui);
             return;
         }
         self.with_pane(pane, &ctx, |pane, cx| pane.ui(ui, cx));
@@ -336,6 +347,10 @@ impl App {
             });
         }
         let pane = *last;
+        if pane.entry().fills {
+            self.pane(ui, pane);
+            return;
+        }
         egui::ScrollArea::vertical()
             .id_salt(pane.entry().id)
             .auto_shrink(false)
@@ -349,10 +364,7 @@ impl App {
             left, right, below, ..
         } = self.layout.current();
         if let Some(column) = left {
-            egui::Panel::left("left column")
-                .exact_size(column.size(window))
-                .resizable(false)
-                .show(ui, |ui| self.column(ui, column.panes));
+            self.side(ui, column, window);
         }
         if let Some(column) = right {
             egui::Panel::right("right column")
@@ -361,12 +373,30 @@ impl App {
                 .show(ui, |ui| self.column(ui, column.panes));
         }
         if let Some(row) = below {
-            egui::Panel::bottom("row below")
-                .exact_size(row.size(window))
-                .resizable(false)
-                .show(ui, |ui| self.column(ui, row.panes));
+            self.row(ui, row, window);
         }
         self.bottom(ui);
+        self.tiles(ui);
+    }
+
+    /// Draws the column at the left.
+    pub(super) fn side(&mut self, ui: &mut egui::Ui, column: &Column, window: egui::Vec2) {
+        egui::Panel::left("left column")
+            .exact_size(column.size(window))
+            .resizable(false)
+            .show(ui, |ui| self.column(ui, column.panes));
+    }
+
+    /// Draws the row below.
+    pub(super) fn row(&mut self, ui: &mut egui::Ui, row: &Column, window: egui::Vec2) {
+        egui::Panel::bottom("row below")
+            .exact_size(row.size(window))
+            .resizable(false)
+            .show(ui, |ui| self.column(ui, row.panes));
+    }
+
+    /// Draws the tiles of the current task in what is left.
+    pub(super) fn tiles(&mut self, ui: &mut egui::Ui) {
         let mut tiles = self.layout.tiles().clone();
         egui::CentralPanel::default()
             .frame(egui::Frame::new().fill(ui.visuals().panel_fill))
@@ -404,6 +434,37 @@ impl App {
             .show(ui, |ui| {
                 ui.set_min_height(ui.available_height());
                 self.pane(ui, pane);
+            });
+    }
+
+    fn top_bar(&mut self, ui: &mut egui::Ui) {
+        let mut edits = Edits::default();
+        top_bar::show(ui, &mut self.doc, &mut self.files, &mut edits);
+        self.requests.extend(edits.apply(&mut self.doc));
+    }
+
+    /// The top bar over what is presented, while the pointer is at the upper edge.
+    fn sliding_bar(&mut self, ctx: &egui::Context) {
+        let seen = present::bar(ctx);
+        if seen == 0.0 {
+            return;
+        }
+        let width = ctx.content_rect().width();
+        egui::Area::new(egui::Id::unique("sliding bar"))
+            .order(egui::Order::Middle)
+            .constrain(false)
+            .fixed_pos([0.0, (seen - 1.0) * present::BAR])
+            .show(ctx, |ui| {
+                let rect =
+                    egui::Rect::from_min_size(ui.max_rect().min, egui::vec2(width, present::BAR));
+                let (fill, line) = (ui.visuals().panel_fill, ui.visuals().window_stroke);
+                ui.painter().rect_filled(rect, 0.0, fill);
+                ui.painter().hline(rect.x_range(), rect.bottom(), line);
+                let inside = rect.shrink2(egui::vec2(8.0, 2.0));
+                ui.scope_builder(egui::UiBuilder::new().max_rect(inside), |ui| {
+                    self.top_bar(ui)
+                });
+                ui.expand_to_include_rect(rect);
             });
     }
 
@@ -526,25 +587,40 @@ impl eframe::App for App {
         self.serve(&ctx);
         self.under_pointer = None;
         self.doc.restore_selection();
+        self.doc.pick_interesting();
         self.doc.follow_rays(&ctx);
-        let mut edits = Edits::default();
-        egui::Panel::top("top bar").exact_size(40.0).show(ui, |ui| {
-            top_bar::show(ui, &mut self.doc, &mut self.files, &mut edits);
-        });
-        self.requests.extend(edits.apply(&mut self.doc));
-        egui::Panel::bottom("status line").show(ui, |ui| self.status.ui(ui, &mut self.doc));
+        let presents = self.presenting.is_some();
+        if !presents {
+            egui::Panel::top("top bar")
+                .exact_size(present::BAR)
+                .show(ui, |ui| self.top_bar(ui));
+            egui::Panel::bottom("status line").show(ui, |ui| self.status.ui(ui, &mut self.doc));
+        }
         if let Some(pane) = self.maximized {
             egui::CentralPanel::default().show(ui, |ui| self.pane(ui, pane));
+        } else if presents {
+            present::show(self, ui);
         } else {
             self.drawer(ui);
             self.task(ui);
         }
+        if presents {
+            self.sliding_bar(&ctx);
+        }
         self.message(&ctx);
         if self.doc.in_lesson {
-            self.first_hint.dismiss();
+            self.first_start.dismiss();
         }
-        if self.first_hint.show(&ctx) == Some(Chosen::FirstLesson) {
-            self.doc.next_lesson = crate::lesson::LESSONS.first().map(|known| known.read());
+        match self.first_start.show(&ctx) {
+            Some(Way::Tour) => {
+                self.doc.next_lesson = crate::lesson::LESSONS.first().map(|known| known.read());
+            }
+            Some(Way::Ray) => {
+                self.doc.wants_ray = true;
+                self.switch("ray");
+            }
+            Some(Way::Scene) => self.files.focus_path(),
+            None => {}
         }
         self.doc.notices.show(&ctx);
         self.ask_where_to_save(&ctx);
@@ -573,14 +649,6 @@ impl eframe::App for App {
         self.layout_file.write(&self.layout);
         self.keep_session(0.0, true);
     }
-}
-
-/// What stands in the place of figures while a lesson waits for a prediction.
-const HIDDEN: &str = "Hidden until you have made your prediction.";
-
-/// Whether a pane is a view of the scene, which a lesson never hides.
-fn is_view(pane: PaneId) -> bool {
-    matches!(pane.entry().id, "picture" | "view3d")
 }
 
 fn shell_actions() -> impl Iterator<Item = Info> {

@@ -1,8 +1,8 @@
 //! The row above two compared pictures: how they are shown, and what their keys do.
 
 use crate::gui::action::tip;
-use crate::gui::document::{Document, Fact};
 use crate::gui::document::comparing::View;
+use crate::gui::document::{Document, Fact};
 use crate::gui::widgets::hidden::HIDDEN;
 use crate::gui::widgets::symbol::grouped;
 
