@@ -11,9 +11,7 @@ use std::sync::Arc;
 pub fn run(args: &AccuracyArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
     let setup = args.settings.setup(&args.scene)?;
-    let scene = Arc::new(resolve::scene(&setup.scene)?);
-    // Report an invalid size before a tree is built for it.
-    setup.render.view(&scene)?;
+    let scene = Arc::new(resolve::scene_in_view(&setup)?);
     let job = StudyAccuracy {
         scene: Arc::clone(&scene),
         setup,

@@ -21,8 +21,8 @@ pub fn run(args: &CompareArgs) -> Result<Outcome> {
     let scene_of_b = other.as_ref().unwrap_or(&scene);
     of_a.render.view(&scene)?;
     of_b.render.view(scene_of_b)?;
-    let a = measure::run_of(&scene, &of_a.build, &of_a.render)?;
-    let b = measure::run_of(scene_of_b, &of_b.build, &of_b.render)?;
+    let a = measure::run_of(&scene, &of_a)?;
+    let b = measure::run_of(scene_of_b, &of_b)?;
     let reasons = unequal((&a.measurement, &a.picture), (&b.measurement, &b.picture));
     if !reasons.is_empty() {
         output::write_to(None, |out| {

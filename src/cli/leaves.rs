@@ -2,33 +2,22 @@
 
 use super::args::{LeavesArgs, LeavesShown};
 use super::outcome::Outcome;
-use super::{bar, output, resolve};
+use super::{output, resolve};
 use crate::present::export::{LEAF_WRITERS, LeafCells};
 use crate::present::overlay::Filter;
-use crate::setup::Setup;
-use crate::structure::build;
-use crate::trace::thread_pool;
 use anyhow::Result;
 
 pub fn run(args: &LeavesArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
-    let Setup {
-        scene: request,
-        build: settings,
-        render,
-    } = args.settings.setup(&args.scene)?;
-    let scene = resolve::scene(&request)?;
-    let pool = thread_pool(render.threads)?;
-    let stage = format!("{}: building the tree", scene.name());
-    let tree = bar::with_bar(&stage, |progress| {
-        pool.install(|| build(&scene, &settings, progress))
-    })?;
+    let setup = args.settings.setup(&args.scene)?;
+    let scene = resolve::scene(&setup.scene)?;
+    let tree = resolve::tree(&scene, &setup)?;
     let filter = Filter {
         full: args.only != Some(LeavesShown::Empty),
         empty: args.only != Some(LeavesShown::Full),
         ..Filter::default()
     };
-    let of = format!("{}, {}", scene.name(), settings.method.name);
+    let of = format!("{}, {}", scene.name(), setup.build.method.name);
     let leaves = LeafCells::new(of, &tree, &filter, None);
     let file = args.output.as_deref();
     let writer = resolve::writer(LEAF_WRITERS, args.format.as_deref(), file);

@@ -30,13 +30,12 @@ pub fn run(args: &ModelArgs) -> Result<Outcome> {
     let mut all = Vec::new();
     for source in &args.scenes {
         let setup = args.settings.setup(source)?;
-        let scene = Arc::new(resolve::scene(&setup.scene)?);
+        let scene = Arc::new(resolve::scene_in_view(&setup)?);
         // One thread: others would compete for caches and memory.
         let render = RenderSettings {
             threads: 1,
             ..setup.render
         };
-        render.view(&scene)?;
         all.push(found(&scene, render, args)?);
     }
     output::write_to(args.output.as_deref(), |out| match args.format {

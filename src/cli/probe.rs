@@ -2,34 +2,22 @@
 
 use super::args::{ListFormat, ProbeArgs};
 use super::outcome::Outcome;
-use super::{bar, output, resolve};
+use super::{output, resolve};
 use crate::present::report::pixel::{PixelReport, write_json, write_text};
-use crate::setup::Setup;
-use crate::structure::build;
 use crate::trace::record_pixel;
 use anyhow::{Result, bail};
 
 pub fn run(args: &ProbeArgs) -> Result<Outcome> {
     output::check_place(args.output.as_deref())?;
     let setups = args.settings.setups(&args.scene)?;
-    let Setup {
-        scene: request,
-        render,
-        ..
-    } = &setups[0];
-    let scene = resolve::scene(request)?;
-    // Report an invalid size before a tree is built for it.
-    render.view(&scene)?;
+    let scene = resolve::scene_in_view(&setups[0])?;
+    let render = &setups[0].render;
     let pixel = pixel_of(args.pixel, [render.width, render.height])?;
     let mut records = Vec::new();
-    for Setup {
-        build: settings, ..
-    } in &setups
-    {
-        let stage = format!("{}, {}: building", scene.name(), settings.method.name);
-        let tree = bar::with_bar(&stage, |progress| build(&scene, settings, progress))?;
+    for setup in &setups {
+        let tree = resolve::tree(&scene, setup)?;
         let record = record_pixel(&scene, &tree, render, pixel)?;
-        records.push((settings.method, record));
+        records.push((setup.build.method, record));
     }
     let report = PixelReport {
         scene: &scene,

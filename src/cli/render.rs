@@ -2,11 +2,8 @@
 
 use super::args::RenderArgs;
 use super::outcome::Outcome;
-use super::{bar, heat, output, picture, resolve};
+use super::{heat, output, picture, resolve};
 use crate::present::export;
-use crate::setup::Setup;
-use crate::structure::build;
-use crate::trace::thread_pool;
 use anyhow::{Result, bail};
 use image::ImageFormat;
 use std::path::Path;
@@ -15,19 +12,10 @@ pub fn run(args: &RenderArgs) -> Result<Outcome> {
     let format = format_of(&args.output)?;
     heat::check(&args.heat, format)?;
     output::check_place(Some(&args.output))?;
-    let Setup {
-        scene: request,
-        build: settings,
-        render,
-    } = args.settings.setup(&args.scene)?;
-    let scene = resolve::scene(&request)?;
-    // Report an invalid size before a tree is built for it.
-    render.view(&scene)?;
-    let pool = thread_pool(render.threads)?;
-    let tree = bar::with_bar(
-        &format!("{}: building the tree", scene.name()),
-        |progress| pool.install(|| build(&scene, &settings, progress)),
-    )?;
+    let setup = args.settings.setup(&args.scene)?;
+    let scene = resolve::scene_in_view(&setup)?;
+    let tree = resolve::tree(&scene, &setup)?;
+    let render = setup.render;
     let bytes = match args.heat.show {
         Some(shown) => heat::encoded(&scene, &tree, &render, shown.0, &args.heat, format)?,
         None => export::encoded(&picture::render(&scene, &tree, &render)?, format)?,

@@ -1,9 +1,12 @@
-//! Resolves arguments to a scene and a writer.
+//! Resolves arguments to a scene, a tree and a writer.
 
 use super::bar;
 use crate::present::report::Writer;
 use crate::scene::format::{FORMATS, FormatError};
 use crate::scene::{LoadError, NoteKind, Scene, SceneRequest, SceneSource, builtin, load};
+use crate::setup::Setup;
+use crate::structure::{Tree, build};
+use crate::trace::thread_pool;
 use anyhow::{Result, bail};
 use std::io::{ErrorKind, Write};
 use std::path::Path;
@@ -30,6 +33,23 @@ pub fn scene(request: &SceneRequest) -> Result<Scene> {
         }
         Err(error) => Err(error.into()),
     }
+}
+
+/// Loads the scene of a setup. Reports an invalid camera or size before a tree is built for it.
+pub fn scene_in_view(setup: &Setup) -> Result<Scene> {
+    let scene = scene(&setup.scene)?;
+    setup.render.view(&scene)?;
+    Ok(scene)
+}
+
+/// Builds the tree of a setup, with a progress bar.
+pub fn tree(scene: &Scene, setup: &Setup) -> Result<Tree> {
+    let pool = thread_pool(setup.render.threads)?;
+    let method = setup.build.method.name;
+    let stage = format!("{}, {method}: building the tree", scene.name());
+    Ok(bar::with_bar(&stage, |progress| {
+        pool.install(|| build(scene, &setup.build, progress))
+    })?)
 }
 
 /// Prints what was skipped, changed or defaulted in a file to standard error. The whole load report

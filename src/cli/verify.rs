@@ -11,7 +11,7 @@ use crate::primitive::Precision;
 use crate::scene::Scene;
 use crate::scene::builtin::BUILTINS;
 use crate::setup::Setup;
-use crate::structure::{BuildSettings, Invalid, Method, Tree, build, validate};
+use crate::structure::{BuildSettings, Invalid, Method, Tree, validate};
 use crate::trace::{RayKind, thread_pool};
 use anyhow::{Context, Result};
 use std::io::{self, Write};
@@ -72,15 +72,10 @@ fn findings_of(text: &str, args: &VerifyArgs) -> Result<Vec<Finding>> {
     let precision = render.precision_for(&scene).precision;
     let mut expected: Option<(RaySample, Answers)> = None;
     let mut findings = Vec::new();
-    for Setup {
-        build: settings, ..
-    } in &setups
-    {
-        let method = settings.method;
+    for setup in &setups {
+        let method = setup.build.method;
         let stage = |what: &str| format!("{}, {}: {what}", scene.name(), method.name);
-        let tree = bar::with_bar(&stage("building the tree"), |progress| {
-            pool.install(|| build(&scene, settings, progress))
-        })?;
+        let tree = resolve::tree(&scene, setup)?;
         let (sample, answers) = match &mut expected {
             Some(expected) => expected,
             none => {
@@ -103,7 +98,7 @@ fn findings_of(text: &str, args: &VerifyArgs) -> Result<Vec<Finding>> {
             files: Vec::new(),
         });
         if let Some(finding) = findings.last_mut() {
-            finding.files = write_faults(&scene, settings, &finding.rays)?;
+            finding.files = write_faults(&scene, &setup.build, &finding.rays)?;
         }
     }
     Ok(findings)

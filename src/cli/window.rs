@@ -108,16 +108,15 @@ fn scene_text(args: &WindowArgs) -> &str {
     args.scene.as_deref().unwrap_or(FIRST_SCENE)
 }
 
-/// Prints Δ and Λ of setups of one scene, all rendered like the first, and writes the picture of
+/// Prints Δ and Λ of setups of one scene, and writes the picture of
 /// the last to a file, if there is one.
 fn summary(setups: &[Setup], file: Option<&Path>) -> Result<Outcome> {
     let first = setups.first().context("there is at least one method")?;
-    let scene = &resolve::scene(&first.scene)?;
-    first.render.view(scene)?;
+    let scene = &resolve::scene_in_view(first)?;
     let mut runs = Vec::new();
     let mut last = None;
-    for Setup { build, .. } in setups {
-        let measured = measure::run_of(scene, build, &first.render)?;
+    for setup in setups {
+        let measured = measure::run_of(scene, setup)?;
         runs.push(measured.measurement);
         last = Some(measured.picture);
     }

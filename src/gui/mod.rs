@@ -18,20 +18,9 @@ mod widgets;
 pub use shell::{App, shortcuts};
 pub use start::StartOptions;
 
+use eframe::egui_wgpu::WgpuSetup;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// The room below what a pane shows already, never wider than the pane.
-fn rest_of(ui: &egui::Ui) -> egui::Vec2 {
-    let size = egui::vec2(ui.max_rect().width(), ui.available_height());
-    size.max(egui::vec2(16.0, 16.0))
-}
-
-/// Gives a widget its accessible name; after its tooltip, which would be its name otherwise.
-fn name_widget(ui: &egui::Ui, response: &egui::Response, name: &str) {
-    let label = |node: &mut egui::accesskit::Node| node.set_label(name);
-    ui.ctx().accesskit_node_builder(response.id, label);
-}
 
 /// Why there is no window.
 #[derive(Debug, thiserror::Error)]
@@ -68,15 +57,25 @@ pub fn run(start: StartOptions) -> Result<(), GuiError> {
         .unwrap_or([1400.0, 900.0]);
     let [least_width, least_height] = shell::LEAST_SIZE;
     let size = [width.max(least_width), height.max(least_height)];
-    let options = eframe::NativeOptions {
+    let mut options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
-            .with_title("bspscope")
+            .with_title(shell::PROGRAM)
             .with_app_id("bspscope")
             .with_icon(icon())
             .with_inner_size(size)
             .with_min_inner_size(shell::LEAST_SIZE),
         ..Default::default()
     };
+    if let WgpuSetup::CreateNew(setup) = &mut options.wgpu_options.wgpu_setup {
+        let usual = Arc::clone(&setup.device_descriptor);
+        // Several screens beside each other can be wider than the usual limit of 8192 pixels.
+        setup.device_descriptor = Arc::new(move |adapter| {
+            let mut device = (*usual)(adapter);
+            device.required_limits.max_texture_dimension_2d =
+                adapter.limits().max_texture_dimension_2d;
+            device
+        });
+    }
     let opened = Arc::new(AtomicBool::new(false));
     let inside = Arc::clone(&opened);
     let open = || {

@@ -46,6 +46,9 @@ pub trait Pane: Default + 'static {
     /// Draws the pane.
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>);
 
+    /// Draws what belongs into the pane's title row, from right to left.
+    fn controls(&mut self, _ui: &mut egui::Ui, _cx: &mut Cx<'_>) {}
+
     /// What else the palette offers, such as one line per heatmap.
     fn choices(&self) -> Vec<String> {
         Vec::new()
@@ -67,6 +70,7 @@ pub trait AnyPane {
     fn start(&mut self, graphics: Option<&RenderState>);
     fn update(&mut self, cx: &mut Cx<'_>);
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>);
+    fn controls(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>);
     fn choices(&self) -> Vec<String>;
     fn choose(&mut self, place: usize, cx: &mut Cx<'_>);
     fn save(&self, view: &mut View);
@@ -88,6 +92,10 @@ impl<P: Pane> AnyPane for P {
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         Pane::ui(self, ui, cx);
+    }
+
+    fn controls(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
+        Pane::controls(self, ui, cx);
     }
 
     fn choices(&self) -> Vec<String> {

@@ -39,12 +39,8 @@ impl Job for StudyAccuracy {
     type Partial = Measured;
     type Output = AccuracyStudy;
 
-    fn slot(&self) -> Slot {
-        Slot::named("accuracy study")
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Study
+    fn place(&self) -> (Slot, Priority) {
+        (Slot::named("accuracy study"), Priority::Study)
     }
 
     fn run(self, context: &Context<Measured>) -> Result<AccuracyStudy, JobError> {

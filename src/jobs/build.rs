@@ -22,12 +22,8 @@ impl Job for Build {
     type Partial = ();
     type Output = Built;
 
-    fn slot(&self) -> Slot {
-        Slot::named("build")
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Now
+    fn place(&self) -> (Slot, Priority) {
+        (Slot::named("build"), Priority::Now)
     }
 
     fn run(self, context: &Context<()>) -> Result<Built, JobError> {

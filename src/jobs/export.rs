@@ -19,12 +19,8 @@ impl Job for Export {
     type Partial = ();
     type Output = ();
 
-    fn slot(&self) -> Slot {
-        Slot::unique("export")
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Now
+    fn place(&self) -> (Slot, Priority) {
+        (Slot::unique("export"), Priority::Now)
     }
 
     fn run(self, context: &Context<()>) -> Result<(), JobError> {

@@ -10,9 +10,8 @@ pub trait Job: Send + 'static {
     /// What it sends when it is done.
     type Output: Send + 'static;
 
-    fn slot(&self) -> Slot;
-
-    fn priority(&self) -> Priority;
+    /// Returns which job it replaces, and which jobs it goes before.
+    fn place(&self) -> (Slot, Priority);
 
     /// Does the work: everything that takes long in units of `context`, everything whose time is
     /// measured in timed units.
@@ -49,12 +48,8 @@ impl<T: Send + 'static> Job for Run<T> {
     type Partial = ();
     type Output = T;
 
-    fn slot(&self) -> Slot {
-        self.slot
-    }
-
-    fn priority(&self) -> Priority {
-        self.priority
+    fn place(&self) -> (Slot, Priority) {
+        (self.slot, self.priority)
     }
 
     fn run(self, context: &Context<()>) -> Result<T, JobError> {

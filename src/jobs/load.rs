@@ -13,12 +13,8 @@ impl Job for Load {
     type Partial = ();
     type Output = Arc<Scene>;
 
-    fn slot(&self) -> Slot {
-        Slot::named("load")
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Now
+    fn place(&self) -> (Slot, Priority) {
+        (Slot::named("load"), Priority::Now)
     }
 
     fn run(self, context: &Context<()>) -> Result<Arc<Scene>, JobError> {

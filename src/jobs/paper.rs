@@ -17,12 +17,8 @@ impl Job for RepeatPaper {
     /// One result per scene.
     type Output = Vec<Reproduction>;
 
-    fn slot(&self) -> Slot {
-        Slot::named("paper's experiment")
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Study
+    fn place(&self) -> (Slot, Priority) {
+        (Slot::named("paper's experiment"), Priority::Study)
     }
 
     fn run(self, context: &Context<Reproduction>) -> Result<Vec<Reproduction>, JobError> {

@@ -89,12 +89,8 @@ impl Job for RenderPicture {
     type Partial = Update;
     type Output = ();
 
-    fn slot(&self) -> Slot {
-        Slot::named("picture")
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Now
+    fn place(&self) -> (Slot, Priority) {
+        (Slot::named("picture"), Priority::Now)
     }
 
     fn run(self, context: &Context<Update>) -> Result<(), JobError> {

@@ -20,12 +20,8 @@ impl Job for CountTerms {
     type Partial = ();
     type Output = PictureTerms;
 
-    fn slot(&self) -> Slot {
-        Slot::named("terms")
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Detail
+    fn place(&self) -> (Slot, Priority) {
+        (Slot::named("terms"), Priority::Detail)
     }
 
     fn run(self, context: &Context<()>) -> Result<PictureTerms, JobError> {

@@ -37,12 +37,8 @@ impl Job for CountPixels {
     type Partial = Measurement;
     type Output = CountedPixels;
 
-    fn slot(&self) -> Slot {
-        Slot::named("pixel counts")
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Now
+    fn place(&self) -> (Slot, Priority) {
+        (Slot::named("pixel counts"), Priority::Now)
     }
 
     fn run(self, context: &Context<Measurement>) -> Result<CountedPixels, JobError> {

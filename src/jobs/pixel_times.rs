@@ -22,12 +22,11 @@ impl Job for TimePixels {
     type Partial = ();
     type Output = PixelCounts;
 
-    fn slot(&self) -> Slot {
-        Slot::numbered("pixel times", self.picture)
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Detail
+    fn place(&self) -> (Slot, Priority) {
+        (
+            Slot::numbered("pixel times", self.picture),
+            Priority::Detail,
+        )
     }
 
     fn run(self, context: &Context<()>) -> Result<PixelCounts, JobError> {

@@ -135,10 +135,10 @@ impl Starter {
     pub fn start<J: Job>(&self, job: J) -> Handle<J> {
         let inbox = Arc::new(Inbox::new());
         let (board, to_close) = (&self.board, Arc::clone(&inbox));
-        let slot = job.slot();
+        let (slot, priority) = job.place();
         let entry = Entry {
             slot,
-            priority: job.priority(),
+            priority,
             close: Box::new(move |early| to_close.close(early.end())),
         };
         let thread = |number| {

@@ -21,12 +21,8 @@ impl Job for Sweep {
     type Partial = Row;
     type Output = ();
 
-    fn slot(&self) -> Slot {
-        Slot::named("sweep")
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Study
+    fn place(&self) -> (Slot, Priority) {
+        (Slot::named("sweep"), Priority::Study)
     }
 
     fn run(self, context: &Context<Row>) -> Result<(), JobError> {

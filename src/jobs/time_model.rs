@@ -35,12 +35,8 @@ impl Job for FitTimeModel {
     type Partial = Timed;
     type Output = Fit;
 
-    fn slot(&self) -> Slot {
-        Slot::named("time model")
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Study
+    fn place(&self) -> (Slot, Priority) {
+        (Slot::named("time model"), Priority::Study)
     }
 
     fn run(self, context: &Context<Timed>) -> Result<Fit, JobError> {

@@ -27,27 +27,23 @@ impl Job for Verify {
     type Partial = Verification;
     type Output = Verification;
 
-    fn slot(&self) -> Slot {
-        Slot::named("verification")
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Idle
+    fn place(&self) -> (Slot, Priority) {
+        (Slot::named("verification"), Priority::Idle)
     }
 
     fn run(self, context: &Context<Verification>) -> Result<Verification, JobError> {
-        let Verify {
-            scene,
-            tree,
-            render,
-        } = self;
         context.stage("checking sampled rays");
         let pool = thread_pool(1)?;
-        let affordable = TESTS / 4 / scene.objects().len().max(1);
+        let affordable = TESTS / 4 / self.scene.objects().len().max(1);
         let per_kind = affordable.clamp(50, RAYS);
         context.unit(|progress| {
             let so_far = |result: &Verification| context.send(result.clone());
-            verify_sample(&scene, &tree, &render, per_kind, &pool, progress, so_far)
+            let Verify {
+                scene,
+                tree,
+                render,
+            } = &self;
+            verify_sample(scene, tree, render, per_kind, &pool, progress, so_far)
         })
     }
 }

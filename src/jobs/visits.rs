@@ -49,25 +49,17 @@ impl Job for CountVisits {
     type Partial = ();
     type Output = PictureVisits;
 
-    fn slot(&self) -> Slot {
-        Slot::named("visits")
-    }
-
-    fn priority(&self) -> Priority {
-        Priority::Pane
+    fn place(&self) -> (Slot, Priority) {
+        (Slot::named("visits"), Priority::Pane)
     }
 
     fn run(self, context: &Context<()>) -> Result<PictureVisits, JobError> {
-        let CountVisits {
-            scene,
-            tree,
-            render,
-        } = self;
         context.stage("counting visits");
-        let pool = thread_pool(render.threads)?;
-        let visits =
-            context.unit(|progress| count_visits(&scene, &tree, &render, &pool, progress))?;
-        let leaves = visits.leaves_by_visits(&tree);
+        let pool = thread_pool(self.render.threads)?;
+        let visits = context.unit(|progress| {
+            count_visits(&self.scene, &self.tree, &self.render, &pool, progress)
+        })?;
+        let leaves = visits.leaves_by_visits(&self.tree);
         Ok(PictureVisits { visits, leaves })
     }
 }

@@ -40,7 +40,7 @@ pub use picture::{Picture, TILE, Tile, srgb8, tiles};
 pub use precision::{ChosenPrecision, NotInF32, fits_f32, objects_fit_f32};
 pub use precision_choice::PrecisionChoice;
 pub use probe::{Children, PixelTallies, Probe, RayCounts, RayMaxima, Tally};
-pub use query::{any_hit, any_hit_brute_force, closest_hit, closest_hit_brute_force};
+pub use query::{any_hit, closest_hit, closest_hit_brute_force};
 pub use record::{
     InnerStep, LeafOutcome, LeafStep, PixelRecord, RayPath, RecordedRay, Step, TestStep,
     record_pixel, record_pixel_within, record_ray,

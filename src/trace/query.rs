@@ -197,13 +197,3 @@ pub fn closest_hit_brute_force(shapes: &Shapes, ray: &Ray) -> Hit {
         nearest.map_or(Hit::MISS, |hit| hit_in_world(hit, &ray))
     })
 }
-
-/// [`any_hit`] by testing every object, without a tree.
-pub fn any_hit_brute_force(shapes: &Shapes, ray: &Ray) -> bool {
-    with_shapes!(shapes, space, objects => {
-        space.transform(ray).is_some_and(|ray| {
-            let [_, t_max] = ray.interval();
-            objects.iter().any(|shape| shape.intersect(&ray, t_max).is_some())
-        })
-    })
-}

@@ -516,7 +516,7 @@ fn a_reader_that_leaves_early_is_no_error() {
 fn help_is_there_for_every_command() {
     let program = Program::new();
     for command in [
-        "", "measure", "render", "generate", "methods", "verify", "trade",
+        "", "measure", "render", "generate", "methods", "verify", "trade", "tune",
     ] {
         let help = program.done(&format!("{command} --help"));
         assert!(help.contains("Usage: bspscope"), "{help}");

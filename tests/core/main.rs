@@ -32,5 +32,6 @@ mod settings;
 mod simd;
 mod stability;
 mod tolerant;
+mod tune;
 mod visits;
 mod workspace;

@@ -95,12 +95,8 @@ impl Job for Virtual {
     type Partial = (u64, usize);
     type Output = u64;
 
-    fn slot(&self) -> Slot {
-        self.slot
-    }
-
-    fn priority(&self) -> Priority {
-        self.priority
+    fn place(&self) -> (Slot, Priority) {
+        (self.slot, self.priority)
     }
 
     fn run(self, context: &Context<(u64, usize)>) -> Result<u64, JobError> {

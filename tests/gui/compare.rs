@@ -288,6 +288,8 @@ fn a_comparison_that_ends_while_the_other_tree_is_rendered_leaves_nothing_runnin
     press(&mut window, Modifiers::COMMAND, Key::E);
     wait_for(&mut window, "May be compared");
     press(&mut window, Modifiers::NONE, Key::J);
+    // With the same method, the tree behind would take the finished picture of the one in front.
+    press(&mut window, Modifiers::COMMAND, Key::M);
     press(&mut window, Modifiers::COMMAND, Key::PageDown);
     wait_for(&mut window, "May not be compared");
     // From here on the tree behind is rendered with other settings.

@@ -5,6 +5,7 @@ use super::result::Current;
 use super::tasks::Latest;
 use crate::measure::{Unequal, differing_pixels, unequal};
 pub use crate::workspace::{Arrangement as View, Which};
+use std::cell::RefCell;
 use std::sync::Arc;
 
 /// How two trees are compared.
@@ -20,7 +21,8 @@ pub struct Comparing {
     pub all_parameters: bool,
     /// Whether what rays did is listed kind by kind, too.
     pub per_kind: bool,
-    verdict: Latest<[u64; 2], Verdict>,
+    /// Made when it is asked for.
+    verdict: RefCell<Latest<[u64; 2], Verdict>>,
 }
 
 impl Default for Comparing {
@@ -32,7 +34,7 @@ impl Default for Comparing {
             asks_for_pixels: false,
             all_parameters: false,
             per_kind: false,
-            verdict: Latest::default(),
+            verdict: RefCell::default(),
         }
     }
 }
@@ -48,7 +50,7 @@ pub struct Verdict {
 impl Comparing {
     /// The verdict on two finished pictures; `None` until it is there.
     pub fn verdict(
-        &mut self,
+        &self,
         both: [Option<&Current>; 2],
         ctx: &egui::Context,
     ) -> Option<Arc<Verdict>> {
@@ -59,7 +61,8 @@ impl Comparing {
             return None;
         }
         let key = [a.number, b.number];
-        if let Some(verdict) = self.verdict.ready(&key) {
+        let mut latest = self.verdict.borrow_mut();
+        if let Some(verdict) = latest.ready(&key) {
             return Some(verdict);
         }
         let [a, b] = [a, b].map(|side| {
@@ -68,7 +71,7 @@ impl Comparing {
                 Arc::clone(&side.shown.picture),
             )
         });
-        self.verdict.get(&key, ctx, move || Verdict {
+        latest.get(&key, ctx, move || Verdict {
             reasons: unequal((&a.0, &a.1), (&b.0, &b.1)),
             pixels: differing_pixels(&a.1, &b.1),
         })

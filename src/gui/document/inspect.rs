@@ -11,6 +11,7 @@ use crate::present::overlay::{HISTOGRAMS, Leaf, Ranges, in_ranges, leaves};
 use crate::scene::Scene;
 use crate::structure::{NodeCost, Tree, TreeIndex};
 use crate::workspace::NODES_PER_RAY;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -38,19 +39,20 @@ pub struct WhatIf {
     pub plane: f64,
 }
 
-/// What the tree's panes and the 3D view share.
+/// What the tree's panes and the 3D view share. Facts are worked out when a pane first needs them: hence
+/// the cells.
 #[derive(Default)]
 pub struct Inspect {
     /// The tree that all else is about.
     tree: Option<TreeKey>,
     /// The scene that the ranges were chosen in.
     scene: Option<Arc<Scene>>,
-    index: Latest<TreeKey, TreeIndex>,
-    leaves: Latest<LeavesKey, Vec<Leaf>>,
+    index: RefCell<Latest<TreeKey, TreeIndex>>,
+    leaves: RefCell<Latest<LeavesKey, Vec<Leaf>>>,
     /// How often rays of the picture visited every node.
     pub visits: VisitsJob,
-    cost: Latest<(TreeKey, u32), NodeCost>,
-    counted: Option<(Ranges, bool, usize)>,
+    cost: RefCell<Latest<(TreeKey, u32), NodeCost>>,
+    counted: Cell<Option<(Ranges, bool, usize)>>,
     /// Ranges of the histograms: leaves outside are not shown.
     pub ranges: Ranges,
     /// Numbers of nodes that a ray visits: pixels without a ray in this range are dimmed.
@@ -66,12 +68,12 @@ impl Inspect {
     /// Forgets what was about another tree or scene, or about another selection.
     pub fn follow(&mut self, current: &Current) {
         if self.visits.follow(current) {
-            self.counted = None;
+            self.counted.take();
         }
         let key = TreeKey(Arc::clone(&current.shown.tree));
         if self.tree.as_ref() != Some(&key) {
             self.tree = Some(key);
-            self.counted = None;
+            self.counted.take();
             self.what_if = None;
             self.frame = None;
             self.build.reset();
@@ -87,18 +89,18 @@ impl Inspect {
     }
 
     /// Facts of all nodes; `None` while they are being worked out.
-    pub fn index(&mut self, current: &Current, ctx: &egui::Context) -> Option<Arc<TreeIndex>> {
+    pub fn index(&self, current: &Current, ctx: &egui::Context) -> Option<Arc<TreeIndex>> {
         let key = TreeKey(Arc::clone(&current.shown.tree));
         let objects = current.shown.scene.objects().len();
         let making = Arc::clone(&key.0);
         let size = making.nodes().len() + making.references().len();
         let make = move || TreeIndex::new(&making, objects);
-        get(&mut self.index, key, size, ctx, make)
+        get(&self.index, key, size, ctx, make)
     }
 
     /// All leaves, with their visits if those are there; `None` while they are being gathered.
     pub fn leaves(
-        &mut self,
+        &self,
         current: &Current,
         visits: Option<&Arc<PictureVisits>>,
         ctx: &egui::Context,
@@ -108,38 +110,33 @@ impl Inspect {
         let picture = visits.map(|_| current.number);
         let key = (TreeKey(Arc::clone(&tree)), picture);
         let visits = visits.cloned();
-        get(&mut self.leaves, key, size, ctx, move || {
+        get(&self.leaves, key, size, ctx, move || {
             leaves(&tree, visits.as_ref().map(|visits| &visits.visits))
         })
     }
 
     /// The cost of splitting a node; `None` while it is being worked out.
-    pub fn cost(
-        &mut self,
-        current: &Current,
-        node: u32,
-        ctx: &egui::Context,
-    ) -> Option<Arc<NodeCost>> {
+    pub fn cost(&self, current: &Current, node: u32, ctx: &egui::Context) -> Option<Arc<NodeCost>> {
         let index = self.index(current, ctx)?;
         let key = (TreeKey(Arc::clone(&current.shown.tree)), node);
         let (scene, tree) = (Arc::clone(&current.shown.scene), Arc::clone(&key.0.0));
         let size = index.of(node).references as usize;
-        get(&mut self.cost, key, size, ctx, move || {
+        get(&self.cost, key, size, ctx, move || {
             NodeCost::new(&scene, &tree, &index, node)
         })
     }
 
     /// How many leaves lie in all ranges, and of how many.
-    pub fn selected_leaves(&mut self, leaves: &[Leaf]) -> [usize; 2] {
+    pub fn selected_leaves(&self, leaves: &[Leaf]) -> [usize; 2] {
         let visited = leaves.first().is_some_and(|leaf| leaf.visits.is_some());
-        let count = match self.counted {
+        let count = match self.counted.get() {
             Some((ranges, known, count)) if (ranges, known) == (self.ranges, visited) => count,
             _ => leaves
                 .iter()
                 .filter(|leaf| in_ranges(leaf, &self.ranges))
                 .count(),
         };
-        self.counted = Some((self.ranges, visited, count));
+        self.counted.set(Some((self.ranges, visited, count)));
         [count, leaves.len()]
     }
 
@@ -175,12 +172,13 @@ impl Inspect {
 
 /// Works a value out at once if that is quick, else in the background.
 fn get<K: Clone + PartialEq, T: Send + 'static>(
-    latest: &mut Latest<K, T>,
+    latest: &RefCell<Latest<K, T>>,
     key: K,
     size: usize,
     ctx: &egui::Context,
     make: impl FnOnce() -> T + Send + 'static,
 ) -> Option<Arc<T>> {
+    let mut latest = latest.borrow_mut();
     if let Some(ready) = latest.ready(&key) {
         Some(ready)
     } else if size <= AT_ONCE {

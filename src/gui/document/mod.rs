@@ -289,7 +289,7 @@ impl Document {
     }
 
     /// Whether A and B may be compared; `None` until both are finished.
-    pub fn verdict(&mut self, ctx: &egui::Context) -> Option<Arc<Verdict>> {
+    pub fn verdict(&self, ctx: &egui::Context) -> Option<Arc<Verdict>> {
         let front = self.current.as_ref();
         let behind = self.other.as_ref().and_then(|other| other.current.as_ref());
         self.comparing

@@ -2,13 +2,15 @@
 
 use super::result::Current;
 use crate::jobs::{End, Handle, Job, Scheduler, Standing};
+use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
-/// The job about one picture, and its result; forgotten with the picture.
+/// The job about one picture, and its result; forgotten with the picture. Asking for the result starts
+/// the job, which changes nothing that anyone sees: hence the cells.
 pub struct PictureJob<J: Job> {
     /// Number of the picture that the job is about.
-    number: Option<u64>,
-    at: At<J>,
+    number: Cell<Option<u64>>,
+    at: RefCell<At<J>>,
 }
 
 enum At<J: Job> {
@@ -34,8 +36,8 @@ pub enum Progress {
 impl<J: Job> Default for PictureJob<J> {
     fn default() -> Self {
         PictureJob {
-            number: None,
-            at: At::Due,
+            number: Cell::default(),
+            at: RefCell::new(At::Due),
         }
     }
 }
@@ -43,16 +45,17 @@ impl<J: Job> Default for PictureJob<J> {
 impl<J: Job> PictureJob<J> {
     /// The result for this picture. Starts the job if the picture is finished.
     pub fn get(
-        &mut self,
+        &self,
         current: &Current,
         jobs: &Scheduler,
         make: impl FnOnce() -> J,
     ) -> Option<Arc<J::Output>> {
         self.follow(current);
-        if let At::Running(handle) = &self.at
+        let mut at = self.at.borrow_mut();
+        if let At::Running(handle) = &*at
             && let Some(end) = handle.receive().end
         {
-            self.at = match end {
+            *at = match end {
                 End::Done(output) => At::Done(Arc::new(output)),
                 End::Failed(why) => At::Ended(why),
                 End::Cancelled => At::Ended("cancelled".to_owned()),
@@ -60,33 +63,32 @@ impl<J: Job> PictureJob<J> {
                 End::Replaced => At::Due,
             };
         }
-        match &self.at {
+        match &*at {
             At::Done(output) => Some(Arc::clone(output)),
             At::Due if current.done => {
-                self.at = At::Running(jobs.start(make()));
+                *at = At::Running(jobs.start(make()));
                 None
             }
             _ => None,
         }
     }
 
-    /// Forgets a job about another picture. Returns whether the picture is another.
-    pub fn follow(&mut self, current: &Current) -> bool {
-        let another = self.number != Some(current.number);
-        if another {
-            self.number = Some(current.number);
-            self.at = At::Due;
+    /// Forgets a job about a different picture. Returns whether the picture is different.
+    pub fn follow(&self, current: &Current) -> bool {
+        let different = self.number.replace(Some(current.number)) != Some(current.number);
+        if different {
+            self.at.replace(At::Due);
         }
-        another
+        different
     }
 
     pub fn is_running(&self) -> bool {
-        matches!(self.at, At::Running(_))
+        matches!(*self.at.borrow(), At::Running(_))
     }
 
     /// The result, if it is there.
     pub fn ready(&self) -> Option<Arc<J::Output>> {
-        match &self.at {
+        match &*self.at.borrow() {
             At::Done(output) => Some(Arc::clone(output)),
             _ => None,
         }
@@ -95,26 +97,35 @@ impl<J: Job> PictureJob<J> {
     /// Cancels a job that nothing needs any more; it starts anew when it is needed again.
     pub fn drop_unneeded(&mut self) {
         if self.is_running() {
-            self.at = At::Due;
+            self.at.replace(At::Due);
         }
     }
 
     /// Cancels a running job until [`PictureJob::again`].
     pub fn cancel(&mut self) {
         if self.is_running() {
-            self.at = At::Ended("cancelled".to_owned());
+            self.at.replace(At::Ended("cancelled".to_owned()));
         }
     }
 
     /// Lets a job start again that was not done.
     pub fn again(&mut self) {
-        if matches!(self.at, At::Ended(_)) {
-            self.at = At::Due;
+        if matches!(*self.at.get_mut(), At::Ended(_)) {
+            self.at.replace(At::Due);
+        }
+    }
+
+    /// Cancels a running job, or lets one start again that was not done.
+    pub fn cancel_or_restart(&mut self) {
+        if self.is_running() {
+            self.cancel();
+        } else {
+            self.again();
         }
     }
 
     pub fn progress(&self) -> Progress {
-        match &self.at {
+        match &*self.at.borrow() {
             At::Due => Progress::Waiting,
             At::Running(handle) => match handle.status() {
                 Some(status) if status.standing == Standing::Running => {

@@ -14,7 +14,7 @@ pub type VisitsJob = PictureJob<CountVisits>;
 impl VisitsJob {
     /// The visits of the current picture; `None` while they are not counted. Counting starts when
     /// the picture is finished.
-    pub fn of(&mut self, current: &Current, jobs: &Scheduler) -> Option<Arc<PictureVisits>> {
+    pub fn of(&self, current: &Current, jobs: &Scheduler) -> Option<Arc<PictureVisits>> {
         if is_too_large(current) {
             return None;
         }
@@ -39,26 +39,6 @@ impl VisitsJob {
             Progress::Running(done) => Some(format!("counting visits … {:.0} %", done * 100.0)),
             Progress::Done => None,
             Progress::Ended(why) => Some(format!("visits not counted: {why}")),
-        }
-    }
-
-    /// Shows how counting stands, with a button to cancel it or to begin it again.
-    pub fn show(&mut self, ui: &mut egui::Ui, current: &Current) {
-        let Some(note) = self.note(current) else {
-            return;
-        };
-        ui.label(note);
-        let (name, about) = match self.progress() {
-            Progress::Running(_) => ("Cancel counting", "Stop counting visits."),
-            Progress::Ended(_) => ("Count again", "Begin counting visits again."),
-            Progress::Waiting | Progress::Done => return,
-        };
-        if ui.button(name).on_hover_text(about).clicked() {
-            if name == "Count again" {
-                self.again();
-            } else {
-                self.cancel();
-            }
         }
     }
 }

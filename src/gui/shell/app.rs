@@ -1,16 +1,20 @@
 //! Puts the window together: bars, panes of the current task, messages, and the order of a frame.
 
 use super::actions::ACTIONS;
+use super::clipboard::Clipboard;
 use super::exporting::Exports;
 use super::files::Files;
 use super::first_start::{FirstStart, Way};
 use super::kept::KeptFile;
-use super::layout::{self, Column, LAYOUT_FILE, Layout, PaneId};
+use super::layout::{self, LAYOUT_FILE, Layout, PaneId};
 use super::palette::{Command, Palette};
 use super::present::{self, Presenting};
+use super::progress::WorkInProgress;
 use super::recent::Recent;
 use super::status::StatusLine;
 use super::tasks::{Task, TaskId, task};
+use super::tiles::TITLE_ROW;
+use super::title::Title;
 use super::workspaces::Workspaces;
 use super::{help, keys, top_bar};
 use crate::gui::StartOptions;
@@ -18,9 +22,10 @@ use crate::gui::action::{self, Info, Scope};
 use crate::gui::document::notices::Notices;
 use crate::gui::document::{Document, tasks};
 use crate::gui::edits::{Edits, Request};
+use crate::gui::icons;
 use crate::gui::pane::{AnyPane, Cx};
 use crate::gui::panes::PANES;
-use crate::gui::theme;
+use crate::gui::theme::{self, IconButton};
 use crate::gui::widgets::hidden;
 use crate::scene::SceneSource;
 use crate::scene::format::names;
@@ -44,11 +49,16 @@ pub struct App {
     /// The pane under the pointer.
     under_pointer: Option<PaneId>,
     presenting: Option<Presenting>,
-    status: StatusLine,
+    pub(super) status: StatusLine,
     pub(super) help_open: bool,
     palette: Palette,
     exports: Exports,
     first_start: FirstStart,
+    clipboard: Clipboard,
+    title: Title,
+    /// The largest window that the graphics adapter can draw, in pixels on a side; 0 before it is known.
+    largest: usize,
+    working: WorkInProgress,
     /// What panes and menus asked for in this frame.
     requests: Vec<Request>,
 }
@@ -95,6 +105,10 @@ impl App {
             palette: Palette::default(),
             exports: Exports::default(),
             first_start: FirstStart::new(&start),
+            clipboard: Clipboard::default(),
+            title: Title::default(),
+            largest: 0,
+            working: WorkInProgress::default(),
             requests: Vec::new(),
         };
         app.doc.notices = notices;
@@ -177,9 +191,17 @@ impl App {
     }
 
     pub(super) fn maximize_under_pointer(&mut self) {
+        match self.under_pointer {
+            Some(pane) => self.maximize(pane),
+            None => self.maximized = None,
+        }
+    }
+
+    /// Lets a pane fill the window; a second time, brings back the others.
+    pub(super) fn maximize(&mut self, pane: PaneId) {
         self.maximized = match self.maximized {
             Some(_) => None,
-            None => self.under_pointer,
+            None => Some(pane),
         };
     }
 
@@ -195,8 +217,7 @@ impl App {
 
     pub(super) fn copy_command(&mut self, ctx: &egui::Context) {
         let command = measure_command(&self.doc.wanted);
-        self.doc.notices.say(format!("Copied: {command}"));
-        ctx.copy_text(command);
+        self.clipboard.copy(command, ctx);
     }
 
     /// Ends what is in the way, one at a time: a message, a maximized pane, the presentation, the work in
@@ -269,7 +290,7 @@ impl App {
                 Request::Run(id) => self.run(id, ctx),
                 Request::Open(source) => self.files.open(source, ctx, &mut self.doc),
                 Request::Export(export) => self.exports.ask(*export, &mut self.doc),
-                Request::Copy(text) => ctx.copy_text(text),
+                Request::Copy(text) => self.clipboard.copy(text, ctx),
             }
             ctx.request_repaint();
         }
@@ -329,8 +350,47 @@ impl App {
         self.with_pane(pane, &ctx, |pane, cx| pane.ui(ui, cx));
     }
 
+    /// Draws what a pane has in its title row.
+    pub(super) fn controls(&mut self, ui: &mut egui::Ui, pane: PaneId) {
+        if self.doc.hides(pane.entry().reveals) {
+            return;
+        }
+        let ctx = ui.ctx().clone();
+        self.with_pane(pane, &ctx, |pane, cx| pane.controls(ui, cx));
+    }
+
+    /// Draws a pane below a row with its title and controls.
+    pub(super) fn pane_with_header(&mut self, ui: &mut egui::Ui, pane: PaneId) {
+        let size = egui::vec2(ui.available_width(), TITLE_ROW);
+        let row = egui::Layout::left_to_right(egui::Align::Center);
+        ui.allocate_ui_with_layout(size, row, |ui| {
+            ui.set_min_size(size);
+            ui.label(theme::strong(pane.entry().title));
+            let to_the_left = egui::Layout::right_to_left(egui::Align::Center);
+            ui.with_layout(to_the_left, |ui| {
+                let is_maximized = self.maximized.is_some();
+                let (icon, verb) = match is_maximized {
+                    true => (icons::MINIMIZE, "Restore"),
+                    false => (icons::MAXIMIZE, "Maximize"),
+                };
+                if !is_maximized {
+                    let close = IconButton::new(icons::CLOSE, "Close the pane");
+                    if ui.add(close).clicked() {
+                        self.layout.open = None;
+                    }
+                }
+                let name = format!("{verb} {}", pane.entry().title);
+                if ui.add(IconButton::new(icon, &name)).clicked() {
+                    self.maximize(pane);
+                }
+                self.controls(ui, pane);
+            });
+        });
+        self.pane(ui, pane);
+    }
+
     /// Draws panes below each other; the last one scrolls.
-    fn column(&mut self, ui: &mut egui::Ui, panes: &[&str]) {
+    pub(super) fn column(&mut self, ui: &mut egui::Ui, panes: &[&str]) {
         let panes: Vec<PaneId> = panes.iter().filter_map(|id| layout::pane(id)).collect();
         let Some((last, before)) = panes.split_last() else {
             return;
@@ -364,7 +424,7 @@ impl App {
             left, right, below, ..
         } = self.layout.current();
         if let Some(column) = left {
-            self.side(ui, column, window);
+            self.left_column(ui, column);
         }
         if let Some(column) = right {
             egui::Panel::right("right column")
@@ -373,99 +433,16 @@ impl App {
                 .show(ui, |ui| self.column(ui, column.panes));
         }
         if let Some(row) = below {
-            self.row(ui, row, window);
+            self.row_below(ui, row);
         }
-        self.bottom(ui);
+        self.opened_pane(ui);
         self.tiles(ui);
     }
 
-    /// Draws the column at the left.
-    pub(super) fn side(&mut self, ui: &mut egui::Ui, column: &Column, window: egui::Vec2) {
-        egui::Panel::left("left column")
-            .exact_size(column.size(window))
-            .resizable(false)
-            .show(ui, |ui| self.column(ui, column.panes));
-    }
-
-    /// Draws the row below.
-    pub(super) fn row(&mut self, ui: &mut egui::Ui, row: &Column, window: egui::Vec2) {
-        egui::Panel::bottom("row below")
-            .exact_size(row.size(window))
-            .resizable(false)
-            .show(ui, |ui| self.column(ui, row.panes));
-    }
-
-    /// Draws the tiles of the current task in what is left.
-    pub(super) fn tiles(&mut self, ui: &mut egui::Ui) {
-        let mut tiles = self.layout.tiles().clone();
-        egui::CentralPanel::default()
-            .frame(egui::Frame::new().fill(ui.visuals().panel_fill))
-            .show(ui, |ui| {
-                let mut behavior = Behavior { app: self };
-                tiles.ui(&mut behavior, ui);
-            });
-        *self.layout.tiles() = tiles;
-    }
-
-    /// The tabs of the panes that the task does not show, and the one that is open.
-    fn bottom(&mut self, ui: &mut egui::Ui) {
-        egui::Panel::bottom("strip")
-            .exact_size(32.0)
-            .show(ui, |ui| {
-                ui.horizontal_centered(|ui| {
-                    for pane in self.layout.strip() {
-                        let entry = pane.entry();
-                        let is_open = self.layout.opened() == Some(pane);
-                        let tab = egui::Button::selectable(is_open, entry.title);
-                        if ui.add(tab).on_hover_text(entry.about).clicked() {
-                            self.layout.open = (!is_open).then(|| entry.id.to_owned());
-                        }
-                    }
-                });
-            });
-        let Some(pane) = self.layout.opened() else {
-            return;
-        };
-        let height = 0.4 * ui.available_height();
-        egui::Panel::bottom("open pane")
-            .resizable(true)
-            .default_size(height)
-            .size_range(80.0..=0.8 * ui.available_height())
-            .show(ui, |ui| {
-                ui.set_min_height(ui.available_height());
-                self.pane(ui, pane);
-            });
-    }
-
-    fn top_bar(&mut self, ui: &mut egui::Ui) {
+    pub(super) fn top_bar(&mut self, ui: &mut egui::Ui) {
         let mut edits = Edits::default();
         top_bar::show(ui, &mut self.doc, &mut self.files, &mut edits);
         self.requests.extend(edits.apply(&mut self.doc));
-    }
-
-    /// The top bar over what is presented, while the pointer is at the upper edge.
-    fn sliding_bar(&mut self, ctx: &egui::Context) {
-        let seen = present::bar(ctx);
-        if seen == 0.0 {
-            return;
-        }
-        let width = ctx.content_rect().width();
-        egui::Area::new(egui::Id::unique("sliding bar"))
-            .order(egui::Order::Middle)
-            .constrain(false)
-            .fixed_pos([0.0, (seen - 1.0) * present::BAR])
-            .show(ctx, |ui| {
-                let rect =
-                    egui::Rect::from_min_size(ui.max_rect().min, egui::vec2(width, present::BAR));
-                let (fill, line) = (ui.visuals().panel_fill, ui.visuals().window_stroke);
-                ui.painter().rect_filled(rect, 0.0, fill);
-                ui.painter().hline(rect.x_range(), rect.bottom(), line);
-                let inside = rect.shrink2(egui::vec2(8.0, 2.0));
-                ui.scope_builder(egui::UiBuilder::new().max_rect(inside), |ui| {
-                    self.top_bar(ui)
-                });
-                ui.expand_to_include_rect(rect);
-            });
     }
 
     /// All settings, beside the panes.
@@ -481,6 +458,17 @@ impl App {
                         .auto_shrink(false)
                         .show(ui, |ui| self.pane(ui, pane));
                 });
+        }
+    }
+
+    /// Keeps the window within what the graphics adapter can draw: a larger one could not be shown.
+    fn limit_size(&mut self, ctx: &egui::Context) {
+        let largest = ctx.input(|i| i.max_texture_side);
+        if largest != self.largest {
+            self.largest = largest;
+            let side = largest as f32 / ctx.pixels_per_point();
+            let size = egui::vec2(side, side);
+            ctx.send_viewport_cmd(egui::ViewportCommand::MaxInnerSize(size));
         }
     }
 
@@ -579,6 +567,12 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
         keys::note_focus(&ctx);
+        self.clipboard.follow(&ctx, &mut self.doc.notices);
+        self.limit_size(&ctx);
+        self.working.follow(&self.doc, &ctx);
+        self.status.progress = self.working.text();
+        let is_unsaved = self.files.workspaces.is_changed(&self.doc.all_wanted());
+        self.title.follow(&self.doc, is_unsaved, &ctx);
         if let Some(current) = &self.doc.current {
             self.doc.inspect.follow(current);
         }
@@ -594,10 +588,11 @@ impl eframe::App for App {
             egui::Panel::top("top bar")
                 .exact_size(present::BAR)
                 .show(ui, |ui| self.top_bar(ui));
-            egui::Panel::bottom("status line").show(ui, |ui| self.status.ui(ui, &mut self.doc));
+            self.strip(ui);
+            self.working.line(ui, ui.available_rect_before_wrap());
         }
         if let Some(pane) = self.maximized {
-            egui::CentralPanel::default().show(ui, |ui| self.pane(ui, pane));
+            egui::CentralPanel::default().show(ui, |ui| self.pane_with_header(ui, pane));
         } else if presents {
             present::show(self, ui);
         } else {
@@ -605,7 +600,7 @@ impl eframe::App for App {
             self.task(ui);
         }
         if presents {
-            self.sliding_bar(&ctx);
+            present::sliding_bar(self, &ctx);
         }
         self.message(&ctx);
         if self.doc.in_lesson {
@@ -667,31 +662,4 @@ fn drop_hint(ctx: &egui::Context) {
         egui::FontId::proportional(26.0),
         egui::Color32::WHITE,
     );
-}
-
-/// How tiles show the panes.
-struct Behavior<'a> {
-    app: &'a mut App,
-}
-
-impl egui_tiles::Behavior<PaneId> for Behavior<'_> {
-    fn tab_title_for_pane(&mut self, pane: &PaneId) -> egui::WidgetText {
-        pane.entry().title.into()
-    }
-
-    fn pane_ui(
-        &mut self,
-        ui: &mut egui::Ui,
-        _: egui_tiles::TileId,
-        pane: &mut PaneId,
-    ) -> egui_tiles::UiResponse {
-        egui::Frame::new()
-            .inner_margin(egui::Margin::same(4))
-            .show(ui, |ui| self.app.pane(ui, *pane));
-        egui_tiles::UiResponse::None
-    }
-
-    fn simplification_options(&self) -> egui_tiles::SimplificationOptions {
-        layout::simplification()
-    }
 }

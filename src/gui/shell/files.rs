@@ -3,14 +3,18 @@
 use super::recent::Recent;
 use super::workspaces::Workspaces;
 use crate::gui::action::tip;
-use crate::gui::document::Document;
 use crate::gui::document::tasks::{Task, dialog, take};
+use crate::gui::document::{Document, Failure};
 use crate::scene::SceneSource;
 use crate::scene::builtin::BUILTINS;
 use crate::scene::format::{FORMATS, names};
 use crate::workspace::{EXTENSION, Workspace};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// A person needs longer than this to close a dialog.
+const FASTEST: Duration = Duration::from_millis(200);
 
 /// What opening scenes needs to remember.
 pub struct Files {
@@ -20,7 +24,7 @@ pub struct Files {
     /// Put the cursor into the path field.
     focus_path: bool,
     /// The answer of an open dialog.
-    dialog: Option<Task<Option<PathBuf>>>,
+    dialog: Option<(Task<Option<PathBuf>>, Instant)>,
     pub workspaces: Workspaces,
 }
 
@@ -40,13 +44,14 @@ impl Files {
         if self.dialog.is_some() {
             return;
         }
-        self.dialog = Some(dialog(ctx, || {
+        let task = dialog(ctx, || {
             let mut dialog = rfd::FileDialog::new().set_title("Open a scene or a workspace");
             for (name, extensions) in filters() {
                 dialog = dialog.add_filter(name, &extensions);
             }
             dialog.add_filter("All files", &["*"]).pick_file()
-        }));
+        });
+        self.dialog = Some((task, Instant::now()));
     }
 
     /// Opens a scene or a workspace.
@@ -65,10 +70,24 @@ impl Files {
 
     /// Opens what the dialog answered and what was dropped.
     pub fn receive(&mut self, ctx: &egui::Context, doc: &mut Document) {
-        if let Some(answer) = self.dialog.as_ref().and_then(take) {
+        if let Some((task, since)) = &self.dialog
+            && let Some(answer) = take(task)
+        {
+            let took = since.elapsed();
             self.dialog = None;
-            if let Some(path) = answer.flatten() {
-                self.open(SceneSource::File(path), ctx, doc);
+            match answer.flatten() {
+                Some(path) => self.open(SceneSource::File(path), ctx, doc),
+                // Nobody closes a dialog that fast: none could be opened.
+                None if took < FASTEST => {
+                    doc.failure = Some(Failure {
+                        what: "The system's file dialog could not be opened".to_owned(),
+                        why: "no desktop portal answered; type the path into the menu Scene, or drop \
+                              the file onto the window"
+                            .to_owned(),
+                    });
+                    self.focus_path();
+                }
+                None => {}
             }
         }
         let dropped = ctx.input(|i| i.raw.dropped_files.first().map(|f| f.path().to_owned()));

@@ -130,23 +130,27 @@ impl Layout {
 
     /// Whether the task on view shows a pane without opening the bottom.
     pub fn has(&self, pane: PaneId) -> bool {
-        let task = self.current();
-        let columns = [&task.left, &task.right, &task.below];
-        let fixed = columns.into_iter().flatten().flat_map(|c| c.panes);
-        let id = pane.entry().id;
-        let in_tiles = self.tasks.get(&self.task).is_some_and(|tiles| {
-            let mut all = tiles.tiles.tiles();
-            all.any(|tile| matches!(tile, Tile::Pane(p) if *p == pane))
-        });
-        in_tiles || fixed.into_iter().any(|known| *known == id)
+        let tiles = self.tasks.get(&self.task);
+        tiles.is_some_and(|tiles| shows(self.current(), tiles, pane))
     }
 
-    /// The panes that the task on view does not show by itself: the tabs of the bottom strip.
+    /// The panes that no task shows by itself, and the one that is open: the tabs of the bottom strip.
     pub fn strip(&self) -> Vec<PaneId> {
-        let is_drawer = |pane: &PaneId| pane.entry().id == "settings";
-        PaneId::all()
-            .filter(|pane| !self.has(*pane) && !is_drawer(pane))
-            .collect()
+        let opened = self.opened();
+        let is_tab = |pane: &PaneId| opened == Some(*pane) || !is_of_a_task(*pane);
+        self.elsewhere().filter(is_tab).collect()
+    }
+
+    /// The panes that only other tasks show.
+    pub fn of_other_tasks(&self) -> Vec<PaneId> {
+        let opened = self.opened();
+        let is_other = |pane: &PaneId| opened != Some(*pane) && is_of_a_task(*pane);
+        self.elsewhere().filter(is_other).collect()
+    }
+
+    /// The panes that the task on view does not show by itself.
+    fn elsewhere(&self) -> impl Iterator<Item = PaneId> {
+        PaneId::all().filter(|pane| !self.has(*pane) && pane.entry().id != "settings")
     }
 
     /// Brings a pane to the front: its tab, the drawer, or the bottom.
@@ -166,6 +170,20 @@ impl Layout {
         let pane = self.open.as_deref().and_then(pane)?;
         (!self.has(pane)).then_some(pane)
     }
+}
+
+/// Whether a task shows this pane at first.
+fn is_of_a_task(pane: PaneId) -> bool {
+    TASKS.iter().any(|task| shows(task, &(task.tiles)(), pane))
+}
+
+/// Whether a task with these tiles shows a pane.
+fn shows(task: &Task, tiles: &Tiles, pane: PaneId) -> bool {
+    let columns = [&task.left, &task.right, &task.below];
+    let mut fixed = columns.into_iter().flatten().flat_map(|c| c.panes);
+    let mut tiles = tiles.tiles.tiles();
+    fixed.any(|id| *id == pane.entry().id)
+        || tiles.any(|tile| matches!(tile, Tile::Pane(p) if *p == pane))
 }
 
 /// With tabs, panes can be dragged beside or onto each other.
@@ -309,8 +327,10 @@ mod tests {
                 layout.show(pane);
                 let shown = layout.has(pane) || layout.opened() == Some(pane) || layout.settings;
                 assert!(shown, "{} in {}", pane.entry().id, task.id);
-                let in_strip = layout.strip().contains(&pane) || pane.entry().id == "settings";
-                assert_ne!(layout.has(pane), in_strip);
+                layout.open = None;
+                let tabs = [layout.strip(), layout.of_other_tasks()].concat();
+                let is_tab = tabs.contains(&pane) || pane.entry().id == "settings";
+                assert_ne!(layout.has(pane), is_tab);
             }
         }
     }

@@ -3,6 +3,7 @@
 
 mod actions;
 mod app;
+mod clipboard;
 mod exporting;
 mod files;
 mod first_start;
@@ -12,16 +13,21 @@ mod keys;
 mod layout;
 mod palette;
 mod present;
+mod progress;
 mod recent;
 mod save_as;
 mod status;
+mod strip;
 mod tasks;
+mod tiles;
+mod title;
 mod top_bar;
 mod workspaces;
 
 pub use app::App;
 pub use kept::KeptFile;
 pub use layout::{LAYOUT_FILE, LEAST_SIZE, Layout};
+pub use title::PROGRAM;
 
 use help::Section;
 

@@ -51,17 +51,16 @@ impl Presenting {
 /// Shows the task on view for an audience.
 pub fn show(app: &mut App, ui: &mut egui::Ui) {
     let task = app.layout.current();
-    let size = ui.ctx().content_rect().size();
     match task.id {
         "lessons" => {
             if let Some(column) = &task.left {
-                app.side(ui, column, size);
+                app.left_column(ui, column);
             }
             app.tiles(ui);
         }
         "ray" => {
             if let Some(row) = &task.below {
-                app.row(ui, row, size);
+                app.row_below(ui, row);
             }
             halves(app, ui);
         }
@@ -77,8 +76,30 @@ pub fn show(app: &mut App, ui: &mut egui::Ui) {
     }
 }
 
-/// Whether the top bar is to be seen, and how much of it: 0 to 1.
-pub fn bar(ctx: &egui::Context) -> f32 {
+/// Shows the top bar over what is presented, while the pointer is at the upper edge.
+pub fn sliding_bar(app: &mut App, ctx: &egui::Context) {
+    let seen = seen(ctx);
+    if seen == 0.0 {
+        return;
+    }
+    let width = ctx.content_rect().width();
+    egui::Area::new(egui::Id::unique("sliding bar"))
+        .order(egui::Order::Middle)
+        .constrain(false)
+        .fixed_pos([0.0, (seen - 1.0) * BAR])
+        .show(ctx, |ui| {
+            let rect = Rect::from_min_size(ui.max_rect().min, vec2(width, BAR));
+            let (fill, line) = (ui.visuals().panel_fill, ui.visuals().window_stroke);
+            ui.painter().rect_filled(rect, 0.0, fill);
+            ui.painter().hline(rect.x_range(), rect.bottom(), line);
+            let inside = rect.shrink2(vec2(8.0, 2.0));
+            ui.scope_builder(UiBuilder::new().max_rect(inside), |ui| app.top_bar(ui));
+            ui.expand_to_include_rect(rect);
+        });
+}
+
+/// How much of the bar is to be seen: 0 to 1.
+fn seen(ctx: &egui::Context) -> f32 {
     let id = egui::Id::unique("presented bar");
     let was = ctx.data(|data| data.get_temp::<bool>(id)).unwrap_or(false);
     let pointer = ctx.pointer_hover_pos();

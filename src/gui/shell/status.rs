@@ -1,6 +1,8 @@
-//! The line at the bottom: pixel, colour, sample, rays a second, memory, jobs.
+//! The right end of the bottom strip: work in progress, the pixel under the pointer, jobs.
 
+use crate::gui::action::shortcut;
 use crate::gui::document::Document;
+use crate::gui::theme;
 use crate::gui::widgets::color_text::color_text;
 use crate::gui::widgets::symbol::grouped;
 use crate::jobs::{JobStatus, Scheduler, Standing};
@@ -10,69 +12,28 @@ use crate::jobs::{JobStatus, Scheduler, Standing};
 pub struct StatusLine {
     /// Bytes of memory, and when they were asked for in seconds.
     memory: Option<(usize, f64)>,
+    /// The work in progress; `None` while there is nothing to say.
+    pub progress: Option<String>,
 }
 
 impl StatusLine {
-    /// Shows the line.
+    /// Shows jobs, then what is worked on or what is under the pointer, from right to left.
     pub fn ui(&mut self, ui: &mut egui::Ui, doc: &mut Document) {
+        let memory = self.memory(ui.input(|i| i.time));
+        jobs(ui, &doc.jobs).on_hover_text(facts(doc, memory));
         let hovered = doc.hovered.take();
-        ui.horizontal(|ui| {
-            ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
-            let current = doc.current.as_ref();
-            let pixel = match (hovered, current) {
-                (Some(([x, y], value)), Some(current)) => {
-                    let color = || color_text(current.shown.picture.get(x, y));
-                    format!("Pixel {x}, {y}: {}", value.unwrap_or_else(color))
-                }
-                _ => "Pixel –".to_owned(),
-            };
-            // The rest of the line keeps its place whatever the pixel's text is.
-            let (rect, _) = ui.allocate_exact_size(
-                egui::vec2(
-                    400.0_f32.min(0.44 * ui.available_width()),
-                    ui.available_height(),
-                ),
-                egui::Sense::hover(),
-            );
-            ui.put(rect, |ui: &mut egui::Ui| {
-                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                    ui.add(egui::Label::new(pixel).truncate())
-                })
-                .inner
-            });
-            ui.separator();
-            let samples = match current {
-                Some(current) => format!(
-                    "Sample {} of {}",
-                    current.sample + 1,
-                    current.shown.setup.render.samples
-                ),
-                None => "Sample –".to_owned(),
-            };
-            ui.label(samples).on_hover_text("Samples a pixel, so far");
-            ui.separator();
-            ui.label(
-                current
-                    .and_then(|c| rays_per_second(&c.shown.measurement))
-                    .map_or_else(
-                        || "– rays/s".to_owned(),
-                        |rays| format!("{} rays/s", grouped(rays as usize)),
-                    ),
-            )
-            .on_hover_text(
-                "All rays of the picture by the time on the wall of the timed pass, all threads",
-            );
-            ui.separator();
-            let memory = self.memory(ui.input(|i| i.time));
-            ui.label(memory.map_or_else(
-                || "Memory –".to_owned(),
-                |bytes| format!("Memory {} MiB", grouped(bytes >> 20)),
-            ))
-            .on_hover_text("Physical memory of this program");
-            // At the right end, where it keeps its place.
-            let to_the_left = egui::Layout::right_to_left(egui::Align::Center);
-            ui.with_layout(to_the_left, |ui| jobs(ui, &doc.jobs));
-        });
+        let current = doc.current.as_ref();
+        let text = match (&self.progress, hovered, current) {
+            (Some(progress), ..) => progress.clone(),
+            (None, Some(([x, y], value)), Some(current)) => {
+                let color = || color_text(current.shown.picture.get(x, y));
+                format!("Pixel {x}, {y}: {}", value.unwrap_or_else(color))
+            }
+            _ if doc.stopped => format!("Stopped · {} resumes", shortcut("window.again")),
+            _ => return,
+        };
+        ui.add(egui::Label::new(theme::hint(&text)).truncate())
+            .on_hover_text(text);
     }
 
     fn memory(&mut self, now: f64) -> Option<usize> {
@@ -84,8 +45,26 @@ impl StatusLine {
     }
 }
 
+/// Samples, speed and memory, for a tooltip.
+fn facts(doc: &Document, memory: Option<usize>) -> String {
+    let mut text = "What runs in the background".to_owned();
+    if let Some(current) = &doc.current {
+        let (sample, of) = (current.sample + 1, current.shown.setup.render.samples);
+        text += &format!("\nSamples per pixel: {sample} of {of}");
+        if let Some(rays) = rays_per_second(&current.shown.measurement) {
+            let rays = grouped(rays as usize);
+            text += &format!("\n{rays} rays/s: all rays of the picture, elapsed time, all threads");
+        }
+    }
+    if let Some(bytes) = memory {
+        let mebibytes = grouped(bytes >> 20);
+        text += &format!("\n{mebibytes} MiB of memory used by this program");
+    }
+    text
+}
+
 /// The live jobs as a menu, to pause, resume or cancel each.
-fn jobs(ui: &mut egui::Ui, jobs: &Scheduler) {
+fn jobs(ui: &mut egui::Ui, jobs: &Scheduler) -> egui::Response {
     let live = jobs.jobs();
     let listed: Vec<_> = live
         .iter()
@@ -105,7 +84,7 @@ fn jobs(ui: &mut egui::Ui, jobs: &Scheduler) {
         }
         ui.ctx().request_repaint_after_secs(0.2);
     });
-    menu.response.on_hover_text("What runs in the background");
+    menu.response
 }
 
 fn row(ui: &mut egui::Ui, job: &JobStatus, jobs: &Scheduler) {

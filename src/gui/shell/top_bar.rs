@@ -6,8 +6,11 @@ use crate::gui::action::{shortcut, tip};
 use crate::gui::document::Document;
 use crate::gui::document::comparing::Which;
 use crate::gui::edits::{Edits, Request};
+use crate::gui::icons;
+use crate::gui::theme::IconButton;
 use crate::measure::parameter;
 use crate::structure::{MaxDepth, Method};
+use egui::containers::menu::MenuButton;
 
 /// Below this width, in points, tasks become a menu and the slider is short.
 const NARROW: f32 = 1100.0;
@@ -30,9 +33,9 @@ pub fn show(ui: &mut egui::Ui, doc: &mut Document, files: &mut Files, edits: &mu
         let to_the_left = egui::Layout::right_to_left(egui::Align::Center);
         ui.with_layout(to_the_left, |ui| {
             more(ui, edits);
-            let settings = ui.button("Settings");
             let about = tip("All settings of tree and picture.", "window.settings");
-            if settings.on_hover_text(about).clicked() {
+            let settings = IconButton::new(icons::GEAR, "Settings").tip(&about);
+            if ui.add(settings).clicked() {
                 edits.request(Request::Run("window.settings"));
             }
         });
@@ -70,7 +73,8 @@ fn more(ui: &mut egui::Ui, edits: &mut Edits) {
         ("Light or dark", "window.theme"),
         ("Shortcuts", "window.help"),
     ];
-    let menu = ui.menu_button("More", |ui| {
+    let dots = egui::Button::new(icons::DOTS).min_size(egui::vec2(28.0, 28.0));
+    let (menu, _) = MenuButton::from_button(dots).ui(ui, |ui| {
         for (name, action) in items {
             let item = egui::Button::new(name).shortcut_text(shortcut(action));
             if ui.add(item).clicked() {
@@ -79,7 +83,8 @@ fn more(ui: &mut egui::Ui, edits: &mut Edits) {
             }
         }
     });
-    menu.response.on_hover_text("Save, export, layout, help");
+    menu.on_hover_text("Save, export, layout, help")
+        .accessible_name("More");
 }
 
 /// From dark to light and back.

@@ -6,8 +6,9 @@ use crate::files;
 use crate::gui::StartOptions;
 use crate::gui::document::notices::Notices;
 use crate::gui::document::tasks::{Task, take, task};
-use crate::gui::document::{Document, Failure};
+use crate::gui::document::{Document, Failure, Wanted};
 use crate::scene::SceneSource;
+use crate::setup::Setup;
 use crate::workspace::{EXTENSION, Workspace};
 use std::path::{Path, PathBuf};
 
@@ -20,8 +21,8 @@ const EVERY: f64 = 2.0;
 /// Files of workspaces, and the one that is open.
 #[derive(Default)]
 pub struct Workspaces {
-    /// Where it was opened from or saved to last.
-    path: Option<PathBuf>,
+    /// The workspace that was opened or saved last.
+    open: Option<Open>,
     opening: Option<(PathBuf, Task<Result<Workspace, String>>)>,
     /// Whether the scene of a workspace that was opened is another than when it was saved.
     comparing: Option<(SceneSource, Task<bool>)>,
@@ -31,6 +32,21 @@ pub struct Workspaces {
     session: Option<PathBuf>,
     /// What was kept last, and when.
     kept: (String, f64),
+}
+
+/// A workspace in a file.
+struct Open {
+    path: PathBuf,
+    /// The setups that the file has.
+    a: Setup,
+    b: Option<Setup>,
+}
+
+impl Open {
+    /// Whether the file is of the scene that is wanted now: no other scene may overwrite it.
+    fn is_of(&self, wanted: &Setup) -> bool {
+        self.a.scene.source == wanted.scene.source
+    }
 }
 
 /// Reads a workspace; its scene must be there.
@@ -79,7 +95,11 @@ impl Workspaces {
 
     /// Takes note of a workspace that was read, and compares its scene with the one it was saved of.
     fn opened(&mut self, path: &Path, workspace: &Workspace, ctx: &egui::Context) {
-        self.path = Some(path.to_owned());
+        self.open = Some(Open {
+            path: path.to_owned(),
+            a: workspace.a.clone(),
+            b: workspace.b.clone(),
+        });
         let (source, compared) = (workspace.a.scene.source.clone(), workspace.clone());
         let task = task(ctx, move || compared.scene_was_changed());
         self.comparing = Some((source, task));
@@ -143,17 +163,29 @@ impl Workspaces {
         self.saving = None;
     }
 
-    /// Saves to where it was opened from or saved to last; asks where, if there is no such place.
+    /// Saves to where the workspace of this scene was opened from or saved to; asks where, if there is
+    /// no such place.
     pub fn save(&mut self, workspace: Workspace, ctx: &egui::Context) {
-        match self.path.clone() {
+        match self.path_for(&workspace.a) {
             Some(path) => self.write(path, workspace, ctx),
             None => self.ask(&workspace),
         }
     }
 
+    /// Whether a workspace of this scene is open and has other setups than its file.
+    pub fn is_changed(&self, Wanted { a, b }: &Wanted) -> bool {
+        let open = self.open.as_ref().filter(|open| open.is_of(a));
+        open.is_some_and(|open| open.a != *a || open.b != *b)
+    }
+
+    fn path_for(&self, wanted: &Setup) -> Option<PathBuf> {
+        let open = self.open.as_ref().filter(|open| open.is_of(wanted))?;
+        Some(open.path.clone())
+    }
+
     /// Asks where to save.
     pub fn ask(&mut self, workspace: &Workspace) {
-        let path = self.path.clone().unwrap_or_else(|| {
+        let path = self.path_for(&workspace.a).unwrap_or_else(|| {
             let source = &workspace.a.scene.source;
             let name = match source {
                 SceneSource::File(path) => path.with_extension(EXTENSION),
@@ -189,7 +221,11 @@ impl Workspaces {
     }
 
     fn write(&mut self, path: PathBuf, mut workspace: Workspace, ctx: &egui::Context) {
-        self.path = Some(path.clone());
+        self.open = Some(Open {
+            path: path.clone(),
+            a: workspace.a.clone(),
+            b: workspace.b.clone(),
+        });
         let to = path.clone();
         let task = task(ctx, move || {
             if let SceneSource::File(scene) = &workspace.a.scene.source {

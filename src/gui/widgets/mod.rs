@@ -13,3 +13,4 @@ pub mod setting_widget;
 pub mod step_text;
 pub mod symbol;
 pub mod tree_rows;
+pub mod visits_note;

@@ -1,6 +1,7 @@
 //! The rendering time with one tree, and the counts by which equation (1) explains it.
 
 use super::equation::{Equation, Term};
+use crate::geometry::Ray;
 use crate::measure::MeasureError;
 use crate::primitive::{PrimitiveKind, Shapes};
 use crate::progress::Progress;
@@ -115,7 +116,7 @@ fn count(
 /// A ray with its kind.
 pub(super) struct Traced<'a> {
     pub kind: RayKind,
-    pub ray: &'a crate::geometry::Ray,
+    pub ray: &'a Ray,
     /// Column and row of the ray's pixel.
     pub pixel: (u32, u32),
 }
@@ -190,6 +191,12 @@ impl<F: FnMut(&Traced<'_>, &Watcher)> Reporter<'_, F> {
         self.watcher.tests.clear();
         self.watcher.answer = None;
     }
+
+    fn report(&mut self, kind: RayKind, ray: &Ray, pixel: u32, answer: Option<u32>) {
+        self.watcher.answer = answer;
+        let pixel = self.pixels[pixel as usize];
+        (self.report)(&Traced { kind, ray, pixel }, &self.watcher);
+    }
 }
 
 impl<F: FnMut(&Traced<'_>, &Watcher)> RayTracer for Reporter<'_, F> {
@@ -199,15 +206,8 @@ impl<F: FnMut(&Traced<'_>, &Watcher)> RayTracer for Reporter<'_, F> {
             self.clear();
             let (scratch, watcher) = (&mut self.scratch, &mut self.watcher);
             let hit = closest_hit(self.tree, self.shapes, ray, scratch, watcher);
-            watcher.answer = hit.is_hit().then_some(hit.object);
-            (self.report)(
-                &Traced {
-                    kind: batch.kind,
-                    ray,
-                    pixel: self.pixels[pixel as usize],
-                },
-                watcher,
-            );
+            let answer = hit.is_hit().then_some(hit.object);
+            self.report(batch.kind, ray, pixel, answer);
             hits.push(hit);
         }
     }
@@ -218,15 +218,8 @@ impl<F: FnMut(&Traced<'_>, &Watcher)> RayTracer for Reporter<'_, F> {
             self.clear();
             let (scratch, watcher) = (&mut self.scratch, &mut self.watcher);
             let hit = any_hit(self.tree, self.shapes, ray, scratch, watcher);
-            watcher.answer = watcher.tests.last().filter(|_| hit).map(|test| test.0);
-            (self.report)(
-                &Traced {
-                    kind: batch.kind,
-                    ray,
-                    pixel: self.pixels[pixel as usize],
-                },
-                watcher,
-            );
+            let answer = watcher.tests.last().filter(|_| hit).map(|test| test.0);
+            self.report(batch.kind, ray, pixel, answer);
             blocked.push(hit);
         }
     }

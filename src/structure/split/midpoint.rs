@@ -18,7 +18,8 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     rule: |settings| Box::new(Midpoint(settings.first_axis)),
 };
 
-struct Midpoint(Axis);
+/// Splits in the middle, with the axes in cyclic order from this one.
+pub(super) struct Midpoint(pub(super) Axis);
 
 impl SplitRule for Midpoint {
     fn decide(&self, cell: &Cell<'_>) -> Decision {

@@ -4,8 +4,7 @@
 //! Its inner nodes are the planes that separate the children, seven per octree node: x, then y,
 //! then z.
 
-use super::rule::{Cell, Decision, SplitRule};
-use crate::geometry::Axis;
+use super::midpoint::Midpoint;
 use crate::structure::method::Structure;
 use crate::structure::settings::MethodInfo;
 
@@ -21,17 +20,5 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper_spheres_exactly: true,
     structure: Structure::Octree,
     constants: &[],
-    rule: |settings| Box::new(Octree(settings.first_axis)),
+    rule: |settings| Box::new(Midpoint(settings.first_axis)),
 };
-
-struct Octree(Axis);
-
-impl SplitRule for Octree {
-    fn decide(&self, cell: &Cell<'_>) -> Decision {
-        let axis = Axis::from_index(self.0.index() + cell.depth as usize);
-        Decision::Split {
-            axis,
-            plane: cell.midpoint(axis),
-        }
-    }
-}

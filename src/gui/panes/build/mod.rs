@@ -4,8 +4,8 @@ use crate::gui::action::{actions, tip};
 use crate::gui::document::Document;
 use crate::gui::document::RATES;
 use crate::gui::edits::Request;
-use crate::gui::name_widget;
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
+use crate::gui::widgets::common::name_widget;
 use crate::gui::widgets::symbol::grouped;
 use crate::structure::{Moment, NodeKind};
 

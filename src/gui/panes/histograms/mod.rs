@@ -6,6 +6,7 @@ use crate::gui::document::inspect::{LeavesKey, TreeKey};
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::waiting;
 use crate::gui::widgets::symbol::grouped;
+use crate::gui::widgets::visits_note::visits_note;
 use crate::present::overlay::{
     Bars, HISTOGRAMS, HistogramAxis, Leaf, NODES_PER_RAY, Spread, ray_bars,
 };
@@ -86,7 +87,9 @@ impl Pane for Histograms {
                 "Bars as high as the logarithm of their leaves, so that few are seen beside many; \
                  the full share of a bar stays true.",
             );
-            doc.inspect.visits.show(ui, current);
+            if visits_note(ui, &doc.inspect.visits, current) {
+                cx.edits.add(|doc| doc.inspect.visits.cancel_or_restart());
+            }
             let key = "filled: full leaves, rays · hollow: empty leaves · drag to select";
             ui.add(egui::Label::new(key).truncate());
         });
@@ -115,7 +118,7 @@ impl Pane for Histograms {
             .collect();
         let ranges = doc.inspect.ranges.iter_mut();
         let mut ranges: Vec<_> = ranges.chain([&mut doc.inspect.nodes_a_ray]).collect();
-        let size = crate::gui::rest_of(ui);
+        let size = crate::gui::widgets::common::rest_of(ui);
         let gap = 8.0;
         let columns = ((size.x / LEAST_WIDTH) as usize).clamp(1, plots.len());
         let rows = plots.len().div_ceil(columns);

@@ -8,6 +8,7 @@ use crate::gui::pane::{Cx, Fact, Pane};
 use crate::gui::widgets::coloring_bar::color_bar;
 use crate::gui::widgets::common::{short, waiting};
 use crate::gui::widgets::symbol::grouped;
+use crate::gui::widgets::visits_note::visits_note;
 use crate::jobs::PictureVisits;
 use crate::present::overlay::{COLORINGS, Coloring, Leaf};
 use crate::structure::{Moment, NodeKind, Tree, TreeIndex};
@@ -117,12 +118,17 @@ impl Pane for Icicle {
         let range = self.range(&values, &facts);
         self.toolbar(ui, current.selection.node, &index);
         if waits {
-            ui.horizontal(|ui| doc.inspect.visits.show(ui, current));
+            let note = ui.horizontal(|ui| visits_note(ui, &doc.inspect.visits, current));
+            if note.inner {
+                cx.edits.add(|doc| doc.inspect.visits.cancel_or_restart());
+            }
         } else {
             self.legend(ui, range, &index);
         }
-        let (outer, response) =
-            ui.allocate_exact_size(crate::gui::rest_of(ui), Sense::click_and_drag());
+        let (outer, response) = ui.allocate_exact_size(
+            crate::gui::widgets::common::rest_of(ui),
+            Sense::click_and_drag(),
+        );
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Icicle of the tree")
         });

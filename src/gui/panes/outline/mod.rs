@@ -13,6 +13,7 @@ use crate::gui::theme;
 use crate::gui::widgets::common::{short, waiting};
 use crate::gui::widgets::symbol::grouped;
 use crate::gui::widgets::tree_rows::Rows;
+use crate::gui::widgets::visits_note::visits_note;
 use crate::jobs::PictureVisits;
 use crate::structure::{NodeKind, Tree, TreeIndex};
 use egui::{Align, Sense};
@@ -161,7 +162,9 @@ impl Pane for Outline {
         }
         ui.horizontal(|ui| {
             by_visits(ui, &mut current.selection.node, visits.as_deref());
-            doc.inspect.visits.show(ui, current);
+            if visits_note(ui, &doc.inspect.visits, current) {
+                cx.edits.add(|doc| doc.inspect.visits.cancel_or_restart());
+            }
             summary(ui, current, &index, &mut self.find);
         });
         let listed = found.filter(|_| self.find.only);

@@ -181,7 +181,7 @@ impl PicturePane {
 
     /// Shows the picture and picks pixels.
     fn picture(&mut self, ui: &mut egui::Ui, doc: &mut Document) {
-        let mut size = crate::gui::rest_of(ui);
+        let mut size = crate::gui::widgets::common::rest_of(ui);
         let legend = self.heat.legend_height();
         if legend > 0.0 {
             size.y = (size.y - legend - ui.spacing().item_spacing.y).max(16.0);

@@ -72,7 +72,7 @@ impl Pane for SweepPane {
             ui.add(egui::Label::new(answer.sentence(self.shown)).wrap());
         }
         let best: Vec<&Row> = best.iter().map(|answer| answer.best).collect();
-        let size = crate::gui::rest_of(ui);
+        let size = crate::gui::widgets::common::rest_of(ui);
         let wide = size.x >= WIDE;
         let parts = if wide { 2.0 } else { 1.0 };
         let part = vec2((size.x - 8.0 * (parts - 1.0)) / parts, size.y - 2.0);

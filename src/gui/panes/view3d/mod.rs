@@ -125,7 +125,7 @@ impl Pane for View3d {
         self.follow(doc);
         let marks = marks::Marks::of(doc, ui.ctx());
         controls::toolbar(self, ui, doc);
-        let size = crate::gui::rest_of(ui);
+        let size = crate::gui::widgets::common::rest_of(ui);
         let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::Canvas, true, "3D view of scene and tree")

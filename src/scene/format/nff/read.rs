@@ -127,41 +127,19 @@ impl<'a> Reader<'a> {
     /// Reads the entity that begins with `word`.
     fn entity(&mut self, word: Word) -> Result<(), ReadError> {
         let line = word.line;
-        let letter = match word.bytes {
-            b"s" => {
-                self.sphere(line)?;
-                "s"
-            }
-            b"p" => {
-                self.polygon(line, false)?;
-                "p"
-            }
-            b"pp" => {
-                self.polygon(line, true)?;
-                "pp"
-            }
-            b"f" => {
-                self.read_fill(line)?;
-                "f"
-            }
-            b"c" => {
-                self.cone(line)?;
-                "c"
-            }
-            b"l" => {
-                self.light(line)?;
-                "l"
-            }
-            b"b" => {
-                self.background(line)?;
-                "b"
-            }
-            b"v" => {
-                self.view(line)?;
-                "v"
-            }
+        type Read<'a> = fn(&mut Reader<'a>, usize) -> Result<(), ReadError>;
+        let (letter, read): (_, Read<'_>) = match word.bytes {
+            b"s" => ("s", Self::sphere),
+            b"p" => ("p", |reader, line| reader.polygon(line, false)),
+            b"pp" => ("pp", |reader, line| reader.polygon(line, true)),
+            b"f" => ("f", Self::read_fill),
+            b"c" => ("c", Self::cone),
+            b"l" => ("l", Self::light),
+            b"b" => ("b", Self::background),
+            b"v" => ("v", Self::view),
             _ => return Err(self.no_entity(&word)),
         };
+        read(self, line)?;
         self.last_entity = Some((letter, line));
         Ok(())
     }
