@@ -57,7 +57,7 @@ pub fn leaf_writer_names() -> PossibleValuesParser {
 }
 
 pub fn method_names() -> impl TypedValueParser<Value = Method> {
-    PossibleValuesParser::new(Method::all().map(|m| PossibleValue::new(m.name).help(m.title)))
+    PossibleValuesParser::new(Method::all().map(|m| PossibleValue::new(m.name).help(m.summary)))
         .try_map(|name| Method::named(&name))
 }
 

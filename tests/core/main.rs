@@ -34,4 +34,5 @@ mod stability;
 mod tolerant;
 mod tune;
 mod visits;
+mod wording;
 mod workspace;

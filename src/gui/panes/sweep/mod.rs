@@ -217,7 +217,7 @@ fn settings(ui: &mut egui::Ui, sweeping: &mut Sweeping, may_change: bool) {
             let mut chosen = sweeping.methods.contains(&method);
             if ui
                 .checkbox(&mut chosen, method.name)
-                .on_hover_text(method.title)
+                .on_hover_text(method.summary)
                 .changed()
             {
                 sweeping.methods.retain(|known| *known != method);
