@@ -150,11 +150,11 @@ fn assert_nothing_tells(window: &mut Window<'_>, step: &Step, figures: &Figures)
     for pane in [
         "Figures",
         "Comparison",
-        "All parameters",
+        "All figures",
         "Rays of the pixel",
-        "Ray",
-        "Tree outline",
-        "Leaf histograms",
+        "Steps of the ray",
+        "Outline",
+        "Histograms",
     ] {
         if window.query_by_label(pane).is_some() {
             click(window, pane);
