@@ -27,7 +27,7 @@ use crate::jobs::{
     Cache, End, Handle, JobStatus, News, Priority, RenderPicture, Scheduler, Stage, Standing,
     Update,
 };
-use crate::lesson::Lesson;
+use crate::lesson::{Lesson, Secret};
 use crate::measure::model::Region;
 use crate::scene::{CameraOverride, SceneRequest, SceneSource};
 use crate::setup::Setup;
@@ -92,7 +92,7 @@ pub struct Document {
     /// Whether a lesson is being taken.
     pub in_lesson: bool,
     /// What a lesson asks for, until the prediction is checked.
-    pub asked: Vec<Fact>,
+    pub asked: Secret,
     /// What the user wrote down.
     pub notes: String,
     /// Pixels marked to come back to.
@@ -175,7 +175,7 @@ impl Document {
             wants_ray: false,
             next_lesson: start.lesson.clone(),
             in_lesson: false,
-            asked: Vec::new(),
+            asked: Secret::default(),
             notes: String::new(),
             pinned: Vec::new(),
             restoring: None,

@@ -18,7 +18,7 @@ impl Pane for FiguresPane {
     const TITLE: &'static str = "Figures";
     const ALIASES: &'static [&'static str] = &["Δ  the tree in seven figures", "Λ  the times"];
     const ABOUT: &'static str = "The septet Δ of counts and the triplet Λ of times.";
-    const REVEALS: &'static [Fact] = &[Fact::Tree, Fact::Rays, Fact::Time];
+    const REVEALS: &'static [Fact] = &[Fact::Counters(&DELTA), Fact::Counters(&LAMBDA)];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "figures.export" Everywhere ALT [Num4] "Export the figures: text, JSON, CSV, Markdown, LaTeX" => |_, cx| {
             let export = export::figures(cx.doc, cx.ctx);

@@ -37,7 +37,7 @@ impl Pane for Histograms {
     const TITLE: &'static str = "Histograms";
     const ALIASES: &'static [&'static str] = &["Leaf histograms"];
     const ABOUT: &'static str = "How leaves and rays are distributed; drag to select.";
-    const REVEALS: &'static [Fact] = &[Fact::Tree, Fact::Rays, Fact::Pixel];
+    const REVEALS: &'static [Fact] = &[Fact::AllCounters];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "histograms.clear-ranges" Here NONE [Delete] "Select all leaves again" => |_, cx| cx.doc.inspect.clear_ranges();
     };

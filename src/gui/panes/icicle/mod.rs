@@ -82,7 +82,7 @@ impl Pane for Icicle {
     const ID: &'static str = "icicle";
     const TITLE: &'static str = "Icicle";
     const ABOUT: &'static str = "The tree as nested bars, one row per depth.";
-    const REVEALS: &'static [Fact] = &[Fact::Tree, Fact::Rays, Fact::Pixel];
+    const REVEALS: &'static [Fact] = &[Fact::AllCounters];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         let doc = &mut *cx.doc;

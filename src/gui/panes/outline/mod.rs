@@ -100,7 +100,7 @@ impl Pane for Outline {
     const ID: &'static str = "outline";
     const TITLE: &'static str = "Outline";
     const ABOUT: &'static str = "The nodes of the tree as a table that unfolds.";
-    const REVEALS: &'static [Fact] = &[Fact::Tree, Fact::Rays, Fact::Pixel];
+    const REVEALS: &'static [Fact] = &[Fact::AllCounters, Fact::Steps];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "outline.row-up" Here NONE [ArrowUp] "Select the row above" => |pane, _| pane.moves.push(Move::RowUp);
         "outline.row-down" Here NONE [ArrowDown] "Select the row below" => |pane, _| pane.moves.push(Move::RowDown);

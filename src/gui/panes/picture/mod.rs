@@ -135,7 +135,7 @@ impl Pane for PicturePane {
         self.heat.update(ui.ctx(), doc);
         self.picture(ui, doc);
         self.heat.legend(ui, doc, self.hovered);
-        let told = self.hovered.filter(|_| !doc.hides(heat::REVEALS));
+        let told = self.hovered.filter(|_| !self.heat.is_secret(doc));
         let value = told.and_then(|pixel| self.heat.value_text(pixel));
         doc.hovered = self.hovered.map(|pixel| (pixel, value));
     }

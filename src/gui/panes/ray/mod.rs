@@ -16,7 +16,7 @@ impl Pane for RayPane {
     const TITLE: &'static str = "Steps of the ray";
     const ALIASES: &'static [&'static str] = &["Walk of the ray"];
     const ABOUT: &'static str = "Every node that the selected ray visits, in order, and why.";
-    const REVEALS: &'static [Fact] = &[Fact::Pixel];
+    const REVEALS: &'static [Fact] = &[Fact::Rays, Fact::Steps];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "ray.previous-ray" Everywhere NONE [PageUp] "Select the previous ray of the picked pixel" => |_, cx| cx.doc.next_ray(-1);
         "ray.next-ray" Everywhere NONE [PageDown] "Select the next ray of the picked pixel" => |_, cx| cx.doc.next_ray(1);

@@ -98,7 +98,7 @@ impl Pane for RaysPane {
     const TITLE: &'static str = "Rays of the pixel";
     const ALIASES: &'static [&'static str] = &["Picked pixel"];
     const ABOUT: &'static str = "The picked pixel, its rays and what they did.";
-    const REVEALS: &'static [Fact] = &[Fact::Pixel];
+    const REVEALS: &'static [Fact] = &[Fact::Rays, Fact::Steps];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         pixel::show(ui, cx.doc);

@@ -161,7 +161,7 @@ impl Pane for View3d {
             }
             (Some(_), None) => note(ui, rect, "No scene yet"),
             (Some(_), Some(current)) => {
-                let tells = !doc.hides(&[Fact::Tree, Fact::Pixel]);
+                let tells = !doc.hides(&[Fact::Tree, Fact::Steps]);
                 self.draw(ui, rect, current, visits, &marks, tells);
             }
         }

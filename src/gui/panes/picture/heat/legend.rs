@@ -2,7 +2,7 @@
 //! pointer's and the picked pixel's values lie.
 
 use super::look::Look;
-use super::{HeatView, Progress, REVEALS};
+use super::{HeatView, Progress};
 use crate::gui::document::Document;
 use crate::gui::widgets::hidden::HIDDEN;
 use crate::gui::widgets::scale_bar::{NUMBERS, TICK, color_bar, numbers};
@@ -31,6 +31,12 @@ impl HeatView {
         }
     }
 
+    /// Whether a lesson asks for what the heatmap tells.
+    pub fn is_secret(&self, doc: &Document) -> bool {
+        let heatmap = self.choice.heatmap();
+        heatmap.is_some_and(|(_, heatmap)| doc.asked.hides_heatmap(heatmap.symbol))
+    }
+
     /// Shows the legend of what is on view, or why there is nothing yet.
     pub fn legend(&mut self, ui: &mut egui::Ui, doc: &Document, hovered: Option<[u32; 2]>) {
         if self.choice.heatmap.is_none() {
@@ -43,7 +49,7 @@ impl HeatView {
         let shown = ui.vertical(|ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
             ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
-            if doc.hides(REVEALS) {
+            if self.is_secret(doc) {
                 ui.set_min_height(self.legend_height());
                 ui.weak(HIDDEN);
                 return;

@@ -12,7 +12,7 @@ mod look;
 use crate::gui::document::comparing::{View, Which};
 use crate::gui::document::picture_job::{PictureJob, Progress};
 use crate::gui::document::tasks::Latest;
-use crate::gui::document::{Current, Document, Fact};
+use crate::gui::document::{Current, Document};
 use crate::gui::widgets::symbol::grouped;
 use crate::jobs::{Stage, TimePixels};
 use crate::measure::heat::{Heatmap, PIXEL_COUNTS_LIMIT, Source};
@@ -22,9 +22,6 @@ use egui::{Color32, TextureId};
 use layer::Layer;
 use look::{Look, LookKey, Values, ValuesKey};
 use std::sync::Arc;
-
-/// What the legend and the value under the pointer tell.
-pub const REVEALS: &[Fact] = &[Fact::Rays, Fact::Pixel, Fact::Time];
 
 /// The heatmaps over the picture, or over the pictures of two compared trees.
 #[derive(Default)]
