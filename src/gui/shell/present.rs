@@ -135,7 +135,7 @@ fn figures(ui: &mut egui::Ui, doc: &Document) {
         .exact_size(FIGURES / SCALE)
         .resizable(false)
         .show(ui, |ui| {
-            if doc.hides(&[Fact::Tree, Fact::Rays, Fact::Time]) {
+            if doc.hides(&[Fact::Counters(&["N_RPRT", "N_AT", "N_LS", "T_TR"])]) {
                 ui.centered_and_justified(|ui| ui.label(theme::hint(HIDDEN)));
                 return;
             }

@@ -1,39 +1,13 @@
-//! A step's question: what it asks for, the prediction, and what became of it.
+//! A step's question: the prediction, and what became of it.
 
 use super::running::Running;
 use super::scale;
 use super::step::Asked;
 use crate::gui::action::tip;
 use crate::gui::icons;
-use crate::gui::pane::Fact;
 use crate::gui::theme;
-use crate::lesson::{Answer, Choice, Name, Question, Tolerance, Verdict};
-use crate::measure::Class;
+use crate::lesson::{Answer, Choice, Grade, Question, Verdict};
 use egui::{Button, Key, Label, RichText, vec2};
-
-/// The facts that would tell the answer.
-pub fn facts(question: &Question) -> Vec<Fact> {
-    let formulas = question.answer.formulas().into_iter();
-    formulas
-        .flat_map(|formula| formula.names())
-        .filter_map(fact)
-        .collect()
-}
-
-/// The kind of fact that a figure is; `None` for one that was specified.
-fn fact(name: &Name) -> Option<Fact> {
-    match name {
-        Name::Parameter(_, parameter) => match parameter.class {
-            Class::S => None,
-            Class::C => Some(Fact::Tree),
-            Class::D | Class::R => Some(Fact::Rays),
-            Class::T => Some(Fact::Time),
-        },
-        Name::Total(..) => Some(Fact::Rays),
-        Name::Pixel(..) => Some(Fact::Pixel),
-        Name::Differing | Name::Rmse => Some(Fact::Difference),
-    }
-}
 
 /// Shows the field or the choices of a prediction, and the button that checks it.
 pub fn prediction(
@@ -104,44 +78,21 @@ fn check(running: &Running, ui: &mut egui::Ui, asked: &mut Option<Asked>) {
 /// Shows what became of the prediction.
 pub fn outcome(running: &Running, question: &Question, verdict: &Verdict, ui: &mut egui::Ui) {
     let t = theme::tokens(ui);
-    let (word, icon, color) = match verdict.right {
-        true => ("Close", icons::CHECK, t.better),
-        false => ("Off", icons::CLOSE, t.worse),
+    let (icon, color) = match verdict.grade {
+        Grade::Exact | Grade::Close => (icons::CHECK, t.better),
+        Grade::Off => (icons::CLOSE, t.worse),
     };
-    match &question.answer {
-        Answer::Number { formula, within } => {
-            let figures = running.now().figures.as_ref();
-            let truth = figures.and_then(|figures| formula.value(figures));
-            if let (Some(truth), Ok(guess)) = (truth, verdict.predicted.parse()) {
-                let marks = scale::Scale {
-                    guess,
-                    truth,
-                    close: close(*within, truth),
-                    measured: &verdict.truth,
-                };
-                marks.show(ui);
-            }
-        }
-        Answer::Choice(choices) => chosen(running, choices, verdict, ui),
+    if let Some(scale) = &verdict.scale {
+        scale::show(ui, scale, verdict);
     }
-    let told = format!(
-        "{word}: you said {}, measured {}",
-        verdict.predicted, verdict.truth
-    );
+    if let Answer::Choice(choices) = &question.answer {
+        chosen(running, choices, verdict, ui);
+    }
     ui.horizontal_top(|ui| {
         ui.label(RichText::new(icon).size(18.0).color(color));
-        let text = theme::lesson(told).family(theme::semibold()).color(color);
-        ui.add(Label::new(text).wrap());
+        let text = theme::lesson(verdict.text()).family(theme::semibold());
+        ui.add(Label::new(text.color(color)).wrap());
     });
-}
-
-/// Between which numbers a guess is close.
-fn close(within: Tolerance, truth: f64) -> [f64; 2] {
-    let most = match within {
-        Tolerance::Absolute(most) => most,
-        Tolerance::Relative(share) => share * truth.abs(),
-    };
-    [truth - most, truth + most]
 }
 
 /// The choices as they were: the right one, and the one that was chosen.
