@@ -62,7 +62,7 @@ fn methods(window: &Window<'_>) -> [&'static str; 2] {
     ["A", "B"].map(|side| {
         let list = window.get_by_label(&format!("Build method of {side}"));
         let title = list.accesskit_node().value().expect("a method");
-        let method = Method::all().find(|method| method.title == title);
+        let method = Method::all().find(|method| method.name == title);
         method.expect("a known method").name
     })
 }
