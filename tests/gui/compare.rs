@@ -60,7 +60,8 @@ fn comparing(graphics: bool) -> Window<'static> {
 /// The build methods of A and B.
 fn methods(window: &Window<'_>) -> [&'static str; 2] {
     ["A", "B"].map(|side| {
-        let list = window.get_by_label(&format!("Build method of {side}"));
+        let label = format!("Build method of {side}");
+        let list = window.get_by_label(&label);
         let title = list.accesskit_node().value().expect("a method");
         let method = Method::all().find(|method| method.name == title);
         method.expect("a known method").name
