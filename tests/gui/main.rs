@@ -4,6 +4,7 @@ mod harness;
 #[path = "../support/mod.rs"]
 mod support;
 
+mod acceptance;
 mod accuracy;
 mod build;
 mod compare;
@@ -20,6 +21,8 @@ mod process;
 mod rays;
 mod settings;
 mod sweep;
+mod theme;
 mod tree;
 mod tune;
+mod view3d;
 mod window;
