@@ -124,7 +124,10 @@ fn the_chosen_outcomes_error_is_mapped_pixel_by_pixel() {
     assert!(has(&window, "pixel 6, 10: ") && !has(&window, "Pixel 6, 10 (from"));
     window.drag_at(at);
     window.drop_at(at);
-    wait(&mut window, "the pixel", |w| has(w, "Pixel 6, 10 (from"));
+    // Back in the task Explore, the settings of the next choice are loaded.
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Num2);
+    wait(&mut window, "the pixel", |w| has(w, "Pixel 6, 10"));
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Num1);
     let point = text_with(&window, "method sah-cut: ");
     click(&mut window, &point);
     wait(&mut window, "no error", |w| has(w, "No pixel differs"));

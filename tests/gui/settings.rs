@@ -48,11 +48,8 @@ fn the_minimum_contribution_is_set_in_the_drawer() {
     open_drawer(&mut window);
     assert_eq!(window.state().setup().render.min_contribution, 0.0);
     let field = window.get_by_role_and_label(Role::SpinButton, "Minimum contribution");
-    field.click();
-    window.run_steps(2);
-    let field = window.get_by_label("Minimum contribution");
-    field.type_text("0.25");
-    press(&mut window, egui::Modifiers::NONE, egui::Key::Enter);
+    field.set_value_accesskit(0.25);
+    window.run_steps(3);
     assert_eq!(window.state().setup().render.min_contribution, 0.25);
 }
 

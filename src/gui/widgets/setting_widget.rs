@@ -43,7 +43,9 @@ pub fn rows(
             label(ui, &setting, setup);
             show(ui, &setting, setup, around, edits);
             if let Some([note, about]) = (around.note)(&setting, setup) {
-                ui.weak(note).on_hover_text(about);
+                // As a whole on one line, so that all of it is under the pointer.
+                ui.add(egui::Label::new(egui::RichText::new(note).weak()).extend())
+                    .on_hover_text(about);
             }
         });
     }

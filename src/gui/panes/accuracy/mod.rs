@@ -5,6 +5,7 @@ mod error_map;
 mod plot;
 mod study;
 mod table;
+mod words;
 
 use crate::gui::action::{actions, tip};
 use crate::gui::document::Document;
@@ -12,7 +13,7 @@ use crate::gui::edits::Edits;
 use crate::gui::pane::{Cx, Pane, PaneAction};
 use crate::gui::widgets::common::{busy, no_picture};
 use crate::jobs::{End, Standing};
-use crate::measure::accuracy::{AccuracyStudy, ERROR_MEASURES, ErrorMeasure, Outcome};
+use crate::measure::accuracy::ERROR_MEASURES;
 use crate::present::number::{Digits, counted, significant};
 use egui::vec2;
 use study::{Found, Trading};
@@ -234,16 +235,5 @@ fn about(found: &Found) -> String {
         significant(first.median()),
         found.taken,
         found.steps,
-    )
-}
-
-/// An outcome in words: its choice, its time and its error by one measure.
-fn words(trade: &AccuracyStudy, outcome: &Outcome, measure: &ErrorMeasure) -> String {
-    format!(
-        "{}: {:.3} of the reference's time, {} {}",
-        outcome.choice.words(),
-        trade.ratios(outcome)[1],
-        measure.name,
-        significant((measure.value)(outcome))
     )
 }

@@ -1,6 +1,6 @@
 //! Error against time, both by the logarithm, with the Pareto front.
 
-use super::words;
+use super::words::words;
 use crate::gui::widgets::log_axis::{marks, number};
 use crate::measure::accuracy::{AccuracyStudy, ErrorMeasure, Outcome};
 use crate::present::number::{Digits, significant};

@@ -1,5 +1,6 @@
 //! The outcomes as rows.
 
+use crate::gui::theme::{HINT, named};
 use crate::measure::accuracy::{AccuracyStudy, Outcome};
 use crate::present::number::{Digits, significant};
 use egui::{Align, Sense};
@@ -8,7 +9,8 @@ use egui_extras::{Column, TableBuilder};
 const COLUMNS: [(&str, f32, &str); 11] = [
     (
         "choice",
-        170.0,
+        // At least.
+        120.0,
         "What differs from the reference; everything else is the same",
     ),
     (
@@ -73,20 +75,23 @@ pub fn show(
     scroll: Option<usize>,
 ) -> Option<usize> {
     let height = ui.text_style_height(&egui::TextStyle::Body) + 2.0;
+    let first = name_width(ui, trade);
     let mut clicked = None;
     egui::ScrollArea::horizontal()
         .id_salt("outcomes")
         .auto_shrink(false)
         .show(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 6.0;
+            ui.style_mut().override_text_style = Some(named(HINT));
             let mut builder = TableBuilder::new(ui)
                 .striped(true)
                 .sense(Sense::click())
                 .auto_shrink(false)
                 .cell_layout(egui::Layout::left_to_right(Align::Center))
                 .animate_scrolling(false);
-            for (_, width, _) in COLUMNS {
-                builder = builder.column(Column::exact(width).clip(true));
+            builder = builder.column(Column::exact(first));
+            for (_, width, _) in &COLUMNS[1..] {
+                builder = builder.column(Column::exact(*width).clip(true));
             }
             if let Some(row) = scroll {
                 builder = builder.scroll_to_row(row, Some(Align::Center));
@@ -137,6 +142,19 @@ pub fn show(
             });
         });
     clicked
+}
+
+/// The width of the longest choice: none is cut.
+fn name_width(ui: &egui::Ui, trade: &AccuracyStudy) -> f32 {
+    let font = named(HINT).resolve(ui.style());
+    let color = ui.visuals().text_color();
+    let widths = trade.outcomes.iter().map(|outcome| {
+        let words = outcome.choice.words();
+        let font = font.clone();
+        ui.ctx()
+            .fonts_mut(|fonts| fonts.layout_no_wrap(words, font, color).size().x)
+    });
+    widths.fold(COLUMNS[0].1, f32::max).ceil()
 }
 
 fn cells(trade: &AccuracyStudy, outcome: &Outcome, front: bool) -> [String; 11] {

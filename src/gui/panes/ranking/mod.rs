@@ -2,16 +2,16 @@
 
 mod sentence;
 mod table;
+mod uses;
 
 use crate::gui::document::Document;
 use crate::gui::document::tuning::Found;
-use crate::gui::edits::{Edits, Request};
+use crate::gui::edits::Edits;
 use crate::gui::pane::{Cx, Pane};
 use crate::gui::theme::{hint, strong};
 use crate::gui::widgets::common::{busy, no_picture};
-use crate::measure::tune::Row;
-use crate::setup::measure_command;
 use egui::{Align, Layout, vec2};
+use uses::{copy, use_this};
 
 #[derive(Default)]
 pub struct RankingPane;
@@ -78,13 +78,4 @@ fn recommended(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edi
         });
     });
     ui.label(hint(sentence::conditions(found)));
-}
-
-fn use_this(row: &Row, edits: &mut Edits) {
-    let setup = row.setup.clone();
-    edits.add(move |doc| doc.use_tree_of(setup));
-}
-
-fn copy(row: &Row, edits: &mut Edits) {
-    edits.request(Request::Copy(measure_command(&row.setup)));
 }

@@ -1,6 +1,7 @@
 //! The ranking as a table with a bar for every time.
 
-use super::{copy, sentence, use_this};
+use super::sentence;
+use super::uses::{copy, use_this};
 use crate::gui::document::Document;
 use crate::gui::document::tuning::Found;
 use crate::gui::edits::Edits;

@@ -1,6 +1,6 @@
 //! A parameter over depth and leaf size in colors, one map per method.
 
-use super::Shown;
+use super::shown::Shown;
 use crate::gui::widgets::common::short;
 use crate::gui::widgets::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::measure::heat::HeatImage;

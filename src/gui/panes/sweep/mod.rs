@@ -3,6 +3,7 @@
 
 mod map;
 mod plot;
+mod shown;
 mod study;
 
 use crate::gui::action::{actions, tip};
@@ -13,11 +14,12 @@ use crate::gui::pane::{Cx, Pane, PaneAction};
 use crate::gui::widgets::common::{busy, no_picture};
 
 use crate::jobs::{End, Scheduler, Standing};
-use crate::measure::sweep::{Row, answers, rule_depth};
+use crate::measure::sweep::{Row, answers};
 use crate::measure::{Class, Parameter, parameter, parameters};
 use crate::present::number::Digits;
 use crate::structure::{MaxDepth, Method};
 use egui::vec2;
+use shown::Shown;
 use study::{Found, Saving, Sweeping};
 
 /// From this width on, in points, the map stands beside the curves.
@@ -267,40 +269,5 @@ fn save(ui: &mut egui::Ui, saving: &mut Saving, jobs: &Scheduler, found: &Found)
     }
     if let Some(said) = &saving.said {
         ui.label(said);
-    }
-}
-
-/// What curves and map show.
-struct Shown<'a> {
-    rows: &'a [Row],
-    parameter: &'static Parameter,
-    /// Of every method.
-    best: &'a [&'a Row],
-    /// The row that was loaded last.
-    chosen: Option<usize>,
-}
-
-impl Shown<'_> {
-    /// The automatic depth, 1.2 log2 N + 2.
-    fn rule(&self) -> Option<u32> {
-        self.rows.first().and_then(rule_depth)
-    }
-
-    fn is_best(&self, row: &Row) -> bool {
-        self.best.iter().any(|best| best.point == row.point)
-    }
-
-    /// A row in words.
-    fn words(&self, row: &Row) -> String {
-        let depth = parameter("D_MAX");
-        format!(
-            "{}, depth {}, leaf size {}: {} {}{}",
-            row.key.method,
-            depth.format(row.value(depth)),
-            row.key.n_oilf,
-            self.parameter.symbol,
-            self.parameter.format(row.value(self.parameter)),
-            if self.is_best(row) { " (least)" } else { "" }
-        )
     }
 }

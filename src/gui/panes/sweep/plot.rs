@@ -1,6 +1,6 @@
 //! A parameter against the depth, one curve per method and leaf size.
 
-use super::Shown;
+use super::shown::Shown;
 use crate::gui::widgets::log_axis;
 use crate::present::chart::{Curve, curves, is_wide};
 use egui::{Color32, Rect, Sense, vec2};

@@ -1,6 +1,5 @@
 //! The stacked bar of terms, and the table that is its legend.
 
-use super::duration;
 use crate::measure::model::Part;
 use crate::present::number::{Digits, grouped};
 use egui::{Color32, FontId, Rect, Sense, Stroke, StrokeKind, pos2, vec2};
@@ -82,7 +81,7 @@ fn stacked(ui: &mut egui::Ui, parts: &[Part], sum: f64, most: f64) {
 fn single(ui: &mut egui::Ui, seconds: f64, most: f64) {
     let size = vec2(ui.available_width(), HEIGHT * 0.7);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    let text = format!("measured T_TR: {}", duration(seconds));
+    let text = format!("measured T_TR: {}", Digits::Four.seconds(seconds));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
     let ink = ui.visuals().text_color();
     let width = (seconds / most) as f32 * rect.width();
@@ -102,7 +101,7 @@ fn words(part: &Part, sum: f64) -> String {
     format!(
         "{}: {}, {}",
         part.term.name(),
-        duration(part.seconds()),
+        Digits::Four.seconds(part.seconds()),
         Digits::Three.percent(share(part, sum))
     )
 }
@@ -132,9 +131,9 @@ fn table(ui: &mut egui::Ui, parts: &[Part], sum: f64) {
                 swatch(ui, place);
                 ui.label(part.term.name()).on_hover_text(&about);
                 for text in [
-                    duration(part.each),
+                    Digits::Four.seconds(part.each),
                     grouped(part.count as f64),
-                    duration(part.seconds()),
+                    Digits::Four.seconds(part.seconds()),
                     Digits::Three.percent(share(part, sum)),
                 ] {
                     ui.label(egui::RichText::new(text).monospace());
@@ -144,7 +143,7 @@ fn table(ui: &mut egui::Ui, parts: &[Part], sum: f64) {
             for text in ["", "sum", "", ""] {
                 ui.label(text);
             }
-            ui.label(egui::RichText::new(duration(sum)).monospace());
+            ui.label(egui::RichText::new(Digits::Four.seconds(sum)).monospace());
             ui.end_row();
         });
 }

@@ -288,11 +288,11 @@ impl TimePane {
                 r.width, r.height, r.x, r.y
             ),
         };
-        let mut text = format!("{of}: {} predicted", duration(predicted));
+        let mut text = format!("{of}: {} predicted", Digits::Four.seconds(predicted));
         if let Some(measured) = measured {
             text += &format!(
                 ", {} measured (T_TR), {}",
-                duration(measured),
+                Digits::Four.seconds(measured),
                 Digits::Three.signed_percent(predicted / measured - 1.0)
             );
         }
@@ -308,9 +308,4 @@ impl TimePane {
         }
         text
     }
-}
-
-/// Formats a time in a unit that suits it.
-fn duration(seconds: f64) -> String {
-    Digits::Four.seconds(seconds)
 }
