@@ -17,7 +17,7 @@ use bspscope::trace::RenderSettings;
 /// The description of the method.
 static METHOD: MethodInfo = MethodInfo {
     name: "longest-side",
-    title: "Middle of the longest side",
+    summary: "splits the longest side in the middle",
     about: "Splits every cell in the middle of its longest side.",
     source: "this example",
     paper: None,

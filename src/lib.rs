@@ -24,6 +24,7 @@
 //! | [`measure`] | counters, which serve as the parameters of the paper's Tables 1 to 3, as heatmaps and as counts per kind of ray; Δ and Λ; verification against testing every object | an entry of [`measure::COUNTERS`] |
 //! | [`measure::model`] | the time model of equation (1), by regression and in place; where the rendering time goes | |
 //! | [`measure::sweep`] | the parameters for every combination of settings: points, rows, shards | |
+//! | [`measure::tune`] | the best tree for a scene: candidates, rounds, ranking with ties | |
 //! | [`measure::paper`] | the paper's printed tables, and its experiment repeated | |
 //! | [`measure::judge`] | exact arithmetic: why two hits differ | |
 //! | [`measure::stability`] | tests with extreme inputs | an entry of [`measure::stability::CASES`] |

@@ -3,18 +3,19 @@
 
 use super::setting_args::{
     Built, Everything, Extreme, Loaded, Modelled, OneMethod, Reference, Reproduced, SettingArgs,
-    Shared, Swept, Verified,
+    Shared, Swept, Tuned, Verified,
 };
 use super::values::{
-    ByColormap, ByHeatmap, ByParameter, colormap_names, equation_names, filter_names,
+    ByColormap, ByHeatmap, ByParameter, colormap_names, equation_names, filter_names, goal_names,
     heatmap_names, knob_names, leaf_writer_names, method_names, paper_scenes, parameter_names,
-    pixel, range, scale_names, share, writer_names,
+    pixel, range, scale_names, seconds, share, writer_names,
 };
 use crate::measure::accuracy::Knob;
 use crate::measure::heat::RayFilter;
 use crate::measure::model::Equation;
 use crate::measure::paper::PaperScene;
 use crate::measure::sweep::Shard;
+use crate::measure::tune::Goal;
 use crate::present::overlay::{Range, Scale};
 use crate::scene::builtin::BUILTINS;
 use crate::scene::format::FORMATS;
@@ -22,6 +23,7 @@ use crate::setup::Edits;
 use crate::structure::Method;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Show, measure and compare the acceleration structures that make ray tracing fast
 ///
@@ -62,6 +64,7 @@ pub enum Command {
     #[command(alias = "trade")]
     Accuracy(AccuracyArgs),
     Lesson(LessonArgs),
+    Tune(TuneArgs),
 }
 
 /// Open the window (the default command)
@@ -211,6 +214,33 @@ pub struct SweepArgs {
     pub output: PathBuf,
     #[command(flatten)]
     pub charts: ChartArgs,
+}
+
+/// Find the best tree for a scene
+///
+/// Measures all build methods with automatic depth on a picture 128 pixels wide, with the shape of
+/// the given one; method none only in scenes of at most 5000 objects. Then measures the best two
+/// methods with depths up to 4 above and below the automatic one, in steps of 2, and leaf sizes 1, 2,
+/// 4 and 8. Every candidate is timed once per round, in 3 rounds. Candidates whose ranges of times
+/// overlap share a rank. At the end, prints the recommended settings as a command.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope tune balls\n\
+    bspscope tune model.obj --kernel stream --resolution 1920x1080\n\
+    bspscope tune rings --for memory --budget 20 --format json -o rings.json"))]
+pub struct TuneArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
+    /// What the tree should be best for
+    #[arg(long = "for", value_name = "GOAL", value_parser = goal_names(), default_value = "time")]
+    pub goal: Goal,
+    /// Time for the measurements in seconds. Every method is measured at least once; what was left
+    /// out is listed
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, default_value = "60", allow_negative_numbers = true)]
+    pub budget: Duration,
+    #[command(flatten)]
+    pub settings: SettingArgs<Tuned>,
+    #[command(flatten)]
+    pub report: ReportArgs,
 }
 
 /// Merge the parts of a sweep

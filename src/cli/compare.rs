@@ -26,7 +26,7 @@ pub fn run(args: &CompareArgs) -> Result<Outcome> {
     let reasons = unequal((&a.measurement, &a.picture), (&b.measurement, &b.picture));
     if !reasons.is_empty() {
         output::write_to(None, |out| {
-            writeln!(out, "A and B cannot be compared:")?;
+            writeln!(out, "A and B are not comparable:")?;
             reasons
                 .iter()
                 .try_for_each(|reason| writeln!(out, "- {reason}"))

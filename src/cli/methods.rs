@@ -26,7 +26,7 @@ fn text(out: &mut dyn Write) -> io::Result<()> {
         if i > 0 {
             writeln!(out)?;
         }
-        writeln!(out, "{}: {}", method.name, method.title)?;
+        writeln!(out, "{}: {}", method.name, method.summary)?;
         writeln!(out, "  {}", method.about)?;
         writeln!(out, "  Source: {}", method.source)?;
         for constant in method.constants {
@@ -78,7 +78,7 @@ fn json(method: Method) -> Value {
         .collect();
     json!({
         "name": method.name,
-        "title": method.title,
+        "title": method.summary,
         "about": method.about,
         "source": method.source,
         "paper": method.paper,

@@ -26,6 +26,7 @@ mod resolve;
 mod setting_args;
 mod stability;
 mod sweep;
+mod tune;
 mod values;
 mod verify;
 mod window;
@@ -58,6 +59,7 @@ pub fn main() -> ExitCode {
         Some(Command::Stability(args)) => stability::run(args),
         Some(Command::Accuracy(args)) => accuracy::run(args),
         Some(Command::Lesson(args)) => lesson::run(args),
+        Some(Command::Tune(args)) => tune::run(args),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

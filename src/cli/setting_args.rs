@@ -32,6 +32,8 @@ pub enum Methods {
     Paper,
     /// All methods except `none`.
     AllButNone,
+    /// The command tries methods on its own, with the default values of their settings.
+    Searched,
 }
 
 impl Methods {
@@ -42,13 +44,14 @@ impl Methods {
                 "Build method. Can be repeated [default: the two methods of the paper]"
             }
             Methods::AllButNone => "Build method. Can be repeated [default: all except none]",
+            Methods::Searched => "Build method",
         }
     }
 
     fn list(&self) -> Vec<Method> {
         match self {
             Methods::One(name) => Method::all().filter(|m| m.name == *name).collect(),
-            Methods::Paper => Method::of_the_paper(),
+            Methods::Paper | Methods::Searched => Method::of_the_paper(),
             Methods::AllButNone => Method::all().filter(|m| m.name != "none").collect(),
         }
     }
@@ -116,6 +119,8 @@ offers! {
     /// The reference of an accuracy study, whose cylinders are exact.
     Reference: |setting| setting.name != "cylinders", Methods::One("sah-cut"),
         ["samples-per-pixel" = "8"];
+    /// The settings that a search for the best tree does not try.
+    Tuned: |setting| !["method", "d-max", "n-oilf"].contains(&setting.name), Methods::Searched, [];
 }
 
 /// The settings given on the command line.
@@ -239,7 +244,8 @@ impl<O: Offer> FromArgMatches for SettingArgs<O> {
 
 /// Returns whether a command has the settings of build methods.
 fn sets_constants<O: Offer>() -> bool {
-    SETTINGS.iter().any(|s| O::has(s) && s.name == "overlap")
+    !matches!(O::methods(), Methods::Searched)
+        && SETTINGS.iter().any(|s| O::has(s) && s.name == "overlap")
 }
 
 impl<O: Offer> Args for SettingArgs<O> {

@@ -4,12 +4,14 @@ use crate::measure::accuracy::{KNOBS, Knob};
 use crate::measure::heat::{Heatmap, RayFilter, heatmap, heatmaps};
 use crate::measure::model::Equation;
 use crate::measure::paper::{self, PaperScene};
+use crate::measure::tune::Goal;
 use crate::measure::{Parameter, parameter, parameters};
 use crate::present::export::LEAF_WRITERS;
 use crate::present::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::present::report::WRITERS;
 use crate::structure::Method;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::time::Duration;
 
 /// A parameter, given by its symbol.
 #[derive(Clone, Copy)]
@@ -55,7 +57,7 @@ pub fn leaf_writer_names() -> PossibleValuesParser {
 }
 
 pub fn method_names() -> impl TypedValueParser<Value = Method> {
-    PossibleValuesParser::new(Method::all().map(|m| PossibleValue::new(m.name).help(m.title)))
+    PossibleValuesParser::new(Method::all().map(|m| PossibleValue::new(m.name).help(m.summary)))
         .try_map(|name| Method::named(&name))
 }
 
@@ -145,6 +147,23 @@ pub fn knob_names() -> impl TypedValueParser<Value = &'static Knob> {
         };
         knobs.find(called).ok_or("no such setting")
     })
+}
+
+pub fn goal_names() -> impl TypedValueParser<Value = Goal> {
+    PossibleValuesParser::new(Goal::ALL.map(|goal| {
+        PossibleValue::new(goal.name()).help(match goal {
+            Goal::Time => "the shortest rendering time",
+            Goal::Memory => "the smallest tree that is at most twice as slow as the fastest",
+        })
+    }))
+    .try_map(|name| Goal::named(&name).ok_or("no such goal"))
+}
+
+pub fn seconds(text: &str) -> Result<Duration, String> {
+    text.parse()
+        .ok()
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or_else(|| "expected a number of seconds, at least 0, such as 60".into())
 }
 
 pub fn constant(text: &str) -> Result<(String, f64), String> {

@@ -22,18 +22,6 @@ use eframe::egui_wgpu::WgpuSetup;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The room below what a pane shows already, never wider than the pane.
-fn rest_of(ui: &egui::Ui) -> egui::Vec2 {
-    let size = egui::vec2(ui.max_rect().width(), ui.available_height());
-    size.max(egui::vec2(16.0, 16.0))
-}
-
-/// Gives a widget its accessible name; after its tooltip, which would be its name otherwise.
-fn name_widget(ui: &egui::Ui, response: &egui::Response, name: &str) {
-    let label = |node: &mut egui::accesskit::Node| node.set_label(name);
-    ui.ctx().accesskit_node_builder(response.id, label);
-}
-
 /// Why there is no window.
 #[derive(Debug, thiserror::Error)]
 pub enum GuiError {

@@ -35,6 +35,7 @@ mod scheduler;
 mod slot;
 mod sweep;
 mod time_model;
+mod tune;
 mod verification;
 mod visits;
 
@@ -56,5 +57,6 @@ pub use scheduler::{Handle, Scheduler, Starter};
 pub use slot::{Priority, Slot};
 pub use sweep::Sweep;
 pub use time_model::{FitTimeModel, Timed};
+pub use tune::{FindBestTree, Tried};
 pub use verification::Verify;
 pub use visits::{CountVisits, PictureVisits};

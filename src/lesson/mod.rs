@@ -11,18 +11,24 @@ mod check;
 mod content;
 mod figures;
 mod formula;
+mod grade;
 mod prose;
 mod question;
 mod read;
+mod secret;
 mod subject;
+mod tolerance;
 
 pub use check::{Measurer, check, check_step};
 pub use content::{Expectation, Lesson, LessonError, Step};
 pub use figures::{Difference, Figures, Name, Side, SideFigures};
 pub use formula::{Condition, Formula, Operator, Relation, Style};
+pub use grade::{Grade, GuessScale, Verdict};
 pub use prose::{Placeholder, Prose};
-pub use question::{Answer, Choice, Prediction, Question, Tolerance, Verdict};
+pub use question::{Answer, Choice, Prediction, Question};
+pub use secret::Secret;
 pub use subject::{Look, Named, Subject};
+pub use tolerance::Tolerance;
 
 use std::path::Path;
 

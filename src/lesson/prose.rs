@@ -55,10 +55,14 @@ impl Prose {
     /// Returns the Markdown with all figures filled in, or with `…` in place of each if there are
     /// no figures yet.
     pub fn fill(&self, figures: Option<&Figures>) -> String {
-        let pieces = self.pieces.iter().map(|piece| match (piece, figures) {
-            (Piece::Text(text), _) => text.clone(),
-            (Piece::Value(_), None) => "…".to_owned(),
-            (Piece::Value(value), Some(figures)) => value.text(figures),
+        self.fill_with(|value| figures.map_or_else(|| "…".to_owned(), |of| value.write(of)))
+    }
+
+    /// Returns the Markdown with a text in place of every figure.
+    pub fn fill_with(&self, text_of: impl Fn(&Placeholder) -> String) -> String {
+        let pieces = self.pieces.iter().map(|piece| match piece {
+            Piece::Text(text) => text.clone(),
+            Piece::Value(value) => text_of(value),
         });
         pieces.collect()
     }
@@ -87,7 +91,8 @@ impl Prose {
 }
 
 impl Placeholder {
-    fn text(&self, figures: &Figures) -> String {
+    /// Formats the figure; `–` if it has no value.
+    pub fn write(&self, figures: &Figures) -> String {
         self.formula.write(self.formula.value(figures), self.style)
     }
 }

@@ -3,6 +3,9 @@
 
 use super::figures::Figures;
 use super::formula::{Condition, Formula, Operator, Relation, Style};
+use super::grade::{Grade, GuessScale, Verdict};
+use super::tolerance::Tolerance;
+use crate::present::number::Digits;
 
 /// A question of a step.
 #[derive(Clone, Debug)]
@@ -31,66 +34,12 @@ pub struct Choice {
     pub when: Vec<Condition>,
 }
 
-/// How far off a prediction may be.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Tolerance {
-    Absolute(f64),
-    /// A fraction of the true value.
-    Relative(f64),
-}
-
 /// A prediction by the reader.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Prediction {
     Number(f64),
     /// The index of a choice.
     Choice(usize),
-}
-
-/// A prediction compared with the truth.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Verdict {
-    pub right: bool,
-    /// The prediction and the truth, as text.
-    pub predicted: String,
-    pub truth: String,
-}
-
-impl Tolerance {
-    /// Parses `20 %` or a number.
-    ///
-    /// # Errors
-    /// What was expected.
-    pub fn parse(text: &str) -> Result<Tolerance, String> {
-        let (number, share) = match text.trim().strip_suffix('%') {
-            Some(number) => (number.trim(), true),
-            None => (text.trim(), false),
-        };
-        let number = number.parse::<f64>().ok();
-        let number = number.filter(|n| *n >= 0.0 && n.is_finite());
-        match (number, share) {
-            (Some(percent), true) => Ok(Tolerance::Relative(percent / 100.0)),
-            (Some(number), false) => Ok(Tolerance::Absolute(number)),
-            (None, _) => Err(format!("expected a number or '20 %', found '{text}'")),
-        }
-    }
-
-    fn allows(self, predicted: f64, truth: f64) -> bool {
-        let most = match self {
-            Tolerance::Absolute(most) => most,
-            Tolerance::Relative(share) => share * truth.abs(),
-        };
-        (predicted - truth).abs() <= most
-    }
-}
-
-impl std::fmt::Display for Tolerance {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Tolerance::Absolute(most) => write!(f, "{most}"),
-            Tolerance::Relative(share) => write!(f, "{} %", share * 100.0),
-        }
-    }
 }
 
 impl Answer {
@@ -156,38 +105,26 @@ impl Answer {
             (Answer::Number { formula, within }, Prediction::Number(predicted)) => {
                 let truth = formula.value(figures)?;
                 Some(Verdict {
-                    right: within.allows(predicted, truth),
-                    predicted: predicted.to_string(),
+                    grade: Grade::of(predicted, truth, *within),
+                    predicted: Digits::All.number(predicted),
                     truth: formula.write(Some(truth), Style::Plain),
+                    scale: Some(GuessScale::new(predicted, truth, *within)),
                 })
             }
             (Answer::Choice(choices), Prediction::Choice(place)) => {
                 let right = self.right_choices(figures);
+                let grade = match right.contains(&place) {
+                    true => Grade::Exact,
+                    false => Grade::Off,
+                };
                 Some(Verdict {
-                    right: right.contains(&place),
+                    grade,
+                    scale: None,
                     predicted: choices.get(place)?.text.clone(),
                     truth: choices[*right.first()?].text.clone(),
                 })
             }
             _ => None,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tolerances_are_shares_or_numbers() {
-        assert_eq!(Tolerance::parse("20 %"), Ok(Tolerance::Relative(0.2)));
-        assert_eq!(Tolerance::parse("3"), Ok(Tolerance::Absolute(3.0)));
-        for wrong in ["", "x", "-1", "5 %%", "inf"] {
-            assert!(Tolerance::parse(wrong).is_err(), "{wrong}");
-        }
-        assert!(Tolerance::Relative(0.2).allows(8.0, 10.0));
-        assert!(!Tolerance::Relative(0.2).allows(7.9, 10.0));
-        assert!(Tolerance::Absolute(1.0).allows(11.0, 10.0));
-        assert!(!Tolerance::Absolute(1.0).allows(11.5, 10.0));
     }
 }

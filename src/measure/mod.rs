@@ -12,6 +12,7 @@ pub mod model;
 pub mod paper;
 pub mod stability;
 pub mod sweep;
+pub mod tune;
 mod verify;
 
 pub use comparison::{Change, Unequal, change, differing_pixels, unequal};

@@ -16,7 +16,7 @@ fn choice(name: &'static str, about: &'static str) -> Choice {
 
 pub fn methods() -> Vec<Choice> {
     Method::all()
-        .map(|m| choice(m.info().name, m.info().title))
+        .map(|m| choice(m.info().name, m.info().summary))
         .collect()
 }
 

@@ -79,9 +79,9 @@ impl StopReason {
         match self {
             StopReason::Empty => "empty",
             StopReason::CutOut => "empty slab, cut out",
-            StopReason::FewObjects => "at most N_OILF objects",
+            StopReason::FewObjects => "few enough objects (N_OILF)",
             StopReason::MaxDepth => "depth D_MAX reached",
-            StopReason::LeafIsCheaper => "a leaf is cheaper than any split (SAH)",
+            StopReason::LeafIsCheaper => "no split would pay off (SAH)",
             StopReason::NoCandidate => "no plane to split at",
             StopReason::TooThin => "too thin to split",
             StopReason::NotSplit => "the method does not split",

@@ -53,8 +53,8 @@ impl Serialize for Method {
 pub struct MethodInfo {
     /// Name on the command line and in files.
     pub name: &'static str,
-    /// Name in lists for users.
-    pub title: &'static str,
+    /// What it does in a few words, to be read after the name.
+    pub summary: &'static str,
     /// A short description of how it splits.
     pub about: &'static str,
     /// Publications that describe it.

@@ -393,7 +393,7 @@ fn methods_lists_every_method_and_setting() {
     for (method, entry) in Method::all().zip(list) {
         assert_eq!(entry["name"], method.name);
         assert_eq!(entry["source"], method.source);
-        assert!(text.contains(&format!("{}: {}", method.name, method.title)));
+        assert!(text.contains(&format!("{}: {}", method.name, method.summary)));
         let constants = entry["constants"].as_array().unwrap();
         assert_eq!(constants.len(), method.constants.len());
         for (constant, entry) in method.constants.iter().zip(constants) {
@@ -516,7 +516,7 @@ fn a_reader_that_leaves_early_is_no_error() {
 fn help_is_there_for_every_command() {
     let program = Program::new();
     for command in [
-        "", "measure", "render", "generate", "methods", "verify", "trade",
+        "", "measure", "render", "generate", "methods", "verify", "trade", "tune",
     ] {
         let help = program.done(&format!("{command} --help"));
         assert!(help.contains("Usage: bspscope"), "{help}");

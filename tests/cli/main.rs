@@ -6,3 +6,4 @@ mod support;
 mod commands;
 mod show;
 mod sweep;
+mod tune;

@@ -2,7 +2,10 @@
 
 use crate::support::program::Program;
 use crate::support::scenes::scene_path;
-use bspscope::lesson::{LESSONS, Lesson, Measurer, Prediction, check, check_step};
+use bspscope::lesson::{
+    Answer, Figures, Formula, LESSONS, Lesson, Measurer, Prediction, Prose, Style, check,
+    check_step,
+};
 use bspscope::progress::Progress;
 use std::path::Path;
 
@@ -94,7 +97,7 @@ fn figures_are_filled_in_from_what_was_measured() {
     let answer = &step.question.as_ref().unwrap().answer;
     let right = |share: f64| {
         let prediction = Prediction::Number(truth * share);
-        answer.judge(prediction, &figures).unwrap().right
+        answer.judge(prediction, &figures).unwrap().is_right()
     };
     assert_eq!(
         [0.89, 0.91, 1.09, 1.11].map(right),
@@ -114,9 +117,13 @@ fn a_comparison_knows_more_from_less() {
     let verdicts = [0, 1, 2].map(|place| {
         let verdict = answer.judge(Prediction::Choice(place), &figures).unwrap();
         assert_eq!(verdict.truth, "More");
-        (verdict.predicted, verdict.right)
+        (verdict.text(), verdict.is_right())
     });
-    let expected = [("More", true), ("The same", false), ("Less", false)];
+    let expected = [
+        ("Exact: you said More, measured More", true),
+        ("Off: you said The same, measured More", false),
+        ("Off: you said Less, measured More", false),
+    ];
     assert_eq!(
         verdicts,
         expected.map(|(text, right)| (text.to_owned(), right))
@@ -386,4 +393,119 @@ fn the_command_line_lists_checks_and_shows() {
         "{err}"
     );
     program.ends(2, "lesson check not-there.md");
+}
+
+/// Returns the numbers in a text, without groups of digits.
+fn numbers(text: &str) -> Vec<String> {
+    let text = text.replace('\u{a0}', "");
+    let belongs = |c: char| c.is_ascii_digit() || c == '.';
+    let words = text.split(|c| !belongs(c));
+    let words = words.map(|word| word.trim_matches('.').to_owned());
+    words.filter(|word| !word.is_empty()).collect()
+}
+
+/// Returns the measured numbers in a text; those that were specified give nothing away.
+fn measured_numbers(prose: &Prose, figures: &Figures) -> Vec<String> {
+    let text = prose.fill_with(
+        |value| match value.formula.names().iter().all(|n| n.is_given()) {
+            true => String::new(),
+            false => value.write(figures),
+        },
+    );
+    numbers(&text)
+}
+
+fn number_of(formula: &Formula, figures: &Figures) -> String {
+    numbers(&formula.write(formula.value(figures), Style::Plain)).concat()
+}
+
+/// No text of a step or an earlier one contains the answer.
+#[test]
+fn no_text_gives_a_later_answer_away() {
+    let mut asked = 0;
+    let mut told = Vec::new();
+    for known in LESSONS {
+        let lesson = known.read();
+        let mut measurer = Measurer::default();
+        let mut seen: Vec<String> = Vec::new();
+        for step in &lesson.steps {
+            let figures = measurer.measure(&lesson, step, &Progress::new()).unwrap();
+            seen.extend(measured_numbers(&step.before, &figures));
+            let question = step.question.as_ref().expect("every step asks");
+            seen.extend(numbers(&question.ask));
+            // Every number that decides the answer.
+            let decisive: Vec<_> = match &question.answer {
+                Answer::Number { formula, .. } => vec![vec![number_of(formula, &figures)]],
+                Answer::Choice(choices) => {
+                    let right = &choices[question.answer.right_choices(&figures)[0]];
+                    let sides = |when: &bspscope::lesson::Condition| {
+                        let sides = when.sides().into_iter();
+                        let measured = sides.filter(|s| s.names().iter().any(|n| !n.is_given()));
+                        measured.map(|side| number_of(side, &figures)).collect()
+                    };
+                    right.when.iter().map(sides).collect()
+                }
+            };
+            for numbers in decisive {
+                assert!(!numbers.is_empty(), "{}", step.title);
+                if numbers.iter().all(|number| seen.contains(number)) {
+                    told.push(format!("{}, {}: {numbers:?}", known.name, step.title));
+                }
+            }
+            asked += 1;
+            seen.extend(measured_numbers(&step.after, &figures));
+        }
+    }
+    assert!(asked > 20);
+    assert!(told.is_empty(), "{}", told.join("\n"));
+}
+
+/// Numbers in a text are measured or specified. What remains is the rule of thumb, sizes of numbers, "3D",
+/// and settings that the heading or the question repeats.
+#[test]
+fn texts_contain_no_numbers_of_their_own() {
+    const ALLOWED: [&str; 11] = [
+        "1.2", "2", "32", "64", "256", "10", "20", "4", "16", "1", "3",
+    ];
+    let mut placeholders = 0;
+    for known in LESSONS {
+        let lesson = known.read();
+        for step in &lesson.steps {
+            for prose in [&step.before, &step.after] {
+                placeholders += prose.placeholders().count();
+                // Without the commands in backticks.
+                let text = prose.fill_with(|_| String::new());
+                let text: String = text.split('`').step_by(2).collect();
+                for number in numbers(&text) {
+                    let place = format!("{}, {}: {number}", known.name, step.title);
+                    assert!(ALLOWED.contains(&number.as_str()), "{place}");
+                }
+            }
+        }
+    }
+    assert!(placeholders > 100);
+}
+
+/// What a step shows on purpose does not show the answer before the prediction.
+#[test]
+fn every_question_hides_what_it_asks_for() {
+    let mut asked = 0;
+    for known in LESSONS {
+        for step in &known.read().steps {
+            let secret = step.secret();
+            let question = step.question.as_ref().expect("every step asks");
+            for name in question.answer.formulas().iter().flat_map(|f| f.names()) {
+                let text = format!("{name:?}");
+                let symbol = text.rsplit('.').next().expect("a symbol");
+                let hidden = match name.is_of_pixel() {
+                    true => secret.hides_rays() && secret.hides_heatmap(symbol),
+                    false if name.side().is_none() => secret.hides_difference(),
+                    false => secret.hides_counter(symbol),
+                };
+                assert_eq!(hidden, !name.is_given(), "{}: {text}", step.title);
+                asked += 1;
+            }
+        }
+    }
+    assert!(asked > 20);
 }

@@ -32,5 +32,7 @@ mod settings;
 mod simd;
 mod stability;
 mod tolerant;
+mod tune;
 mod visits;
+mod wording;
 mod workspace;

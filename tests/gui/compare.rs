@@ -60,10 +60,10 @@ fn comparing(graphics: bool) -> Window<'static> {
 /// The build methods of A and B.
 fn methods(window: &Window<'_>) -> [&'static str; 2] {
     ["A", "B"].map(|side| {
-        let list = window.get_by_label(&format!("Build method of {side}"));
-        let title = list.accesskit_node().value().expect("a method");
-        let method = Method::all().find(|method| method.title == title);
-        method.expect("a known method").name
+        let name = format!("Build method of {side}");
+        let list = window.get_by_label(&name);
+        let name = list.accesskit_node().value().expect("a method");
+        Method::named(&name).expect("a known method").name
     })
 }
 
@@ -99,7 +99,7 @@ fn either_tree_comes_to_the_front_and_the_pixel_stays_picked() {
     let mut window = comparing(false);
     click(&mut window, "Wipe");
     window.get_by_label("Traced picture").click();
-    click(&mut window, "Rays of a pixel");
+    click(&mut window, "Rays of the pixel");
     wait_for(&mut window, "Pixel 24, 24 (");
     assert!(described(&window).starts_with("balls:1 · sah-cut"));
     press(&mut window, Modifiers::NONE, Key::J);

@@ -7,3 +7,4 @@ pub mod program;
 pub mod random;
 pub mod scenes;
 pub mod tough;
+pub mod wording;

@@ -418,10 +418,18 @@ impl App {
                 .show(ui, |ui| self.column(ui, column.panes));
         }
         if let Some(row) = below {
+            // Its panes divide the height among themselves.
+            let frame = egui::Frame::new().fill(ui.visuals().panel_fill);
+            let frame = frame.inner_margin(egui::Margin::symmetric(8, 0));
             egui::Panel::bottom("row below")
                 .exact_size(row.size(window))
                 .resizable(false)
-                .show(ui, |ui| self.column(ui, row.panes));
+                .frame(frame)
+                .show(ui, |ui| {
+                    for pane in row.panes.iter().filter_map(|id| layout::pane(id)) {
+                        self.pane(ui, pane);
+                    }
+                });
         }
         self.opened_pane(ui);
         let mut tiles = self.layout.tiles().clone();

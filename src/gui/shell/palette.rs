@@ -192,7 +192,7 @@ fn entries(
         .iter()
         .map(|entry| plain(format!("Show {}", entry.title), Command::Show(entry.id)));
     let methods = Method::all().map(|method| {
-        let text = format!("Method: {} ({})", method.title, method.name);
+        let text = format!("Method: {}", method.name);
         plain(text, Command::Method(method))
     });
     let choices = panes.iter().enumerate().flat_map(|(place, pane)| {

@@ -66,6 +66,10 @@ impl egui_tiles::Behavior<PaneId> for Behavior<'_> {
         }
     }
 
+    fn tab_bar_color(&self, visuals: &egui::Visuals) -> egui::Color32 {
+        visuals.extreme_bg_color
+    }
+
     fn tab_bar_height(&self, _: &egui::Style) -> f32 {
         TITLE_ROW
     }

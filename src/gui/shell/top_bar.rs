@@ -128,7 +128,7 @@ fn method(ui: &mut egui::Ui, doc: &mut Document) {
         .width(150.0)
         .show_ui(ui, |ui| {
             for other in Method::all() {
-                let item = ui.selectable_label(other == method, other.title);
+                let item = ui.selectable_label(other == method, other.name);
                 let item = item.on_hover_text(format!("{}\nSource: {}", other.about, other.source));
                 if item.clicked() {
                     doc.wanted.build.set_method(other);
@@ -137,10 +137,7 @@ fn method(ui: &mut egui::Ui, doc: &mut Document) {
         })
         .response
         .accessible_name("Build method")
-        .on_hover_text(tip(
-            &format!("{}\n{}", method.title, method.about),
-            "window.next-method",
-        ));
+        .on_hover_text(tip(method.about, "window.next-method"));
 }
 
 fn d_max(ui: &mut egui::Ui, doc: &mut Document, width: f32) {

@@ -41,3 +41,15 @@ pub fn nice_step(least: f64) -> f64 {
         .find(|&step| step >= least)
         .unwrap_or(10.0 * power)
 }
+
+/// Returns the free space below what a pane shows already, never wider than the pane.
+pub fn rest_of(ui: &egui::Ui) -> egui::Vec2 {
+    let size = egui::vec2(ui.max_rect().width(), ui.available_height());
+    size.max(egui::vec2(16.0, 16.0))
+}
+
+/// Sets the accessible name of a widget. Comes after its tooltip, which would be its name otherwise.
+pub fn name_widget(ui: &egui::Ui, response: &egui::Response, name: &str) {
+    let label = |node: &mut egui::accesskit::Node| node.set_label(name);
+    ui.ctx().accesskit_node_builder(response.id, label);
+}

@@ -12,6 +12,7 @@ pub mod setting_widget;
 pub mod sparkline;
 pub mod step_text;
 pub mod symbol;
+pub mod transport;
 pub mod tree_rows;
 pub mod value_row;
 pub mod visits_note;

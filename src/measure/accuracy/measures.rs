@@ -32,13 +32,13 @@ pub static ERROR_MEASURES: &[ErrorMeasure] = &[
     },
     ErrorMeasure {
         name: "FLIP",
-        about: "How different it looks when one flips between the pictures, 0.7 m from a display 0.7 m \
+        about: "How different the pictures look when one flips between them, 0.7 m from a display 0.7 m \
                 wide with 3840 pixels (Andersson et al. 2020), 0 to 1.",
         value: |outcome| outcome.error.flip,
     },
     ErrorMeasure {
         name: "wrong hits",
-        about: "Share of the pixels whose primary ray meets another object than it should, 0 to 1.",
+        about: "Share of the pixels whose primary ray hits a different object than it should, 0 to 1.",
         value: |outcome| outcome.wrong_hits,
     },
 ];

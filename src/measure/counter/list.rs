@@ -60,12 +60,12 @@ counters! {
         "Volume of the objects' boxes relative to the scene's box.",
         Measured(|m| ratio(m.scene.object_boxes_volume, m.scene.volume)), parameter(Scene, S),
         formula("V_BB / V_SCENE");
-    "D_AREC", "recursion depth", Count, "Maximum depth of secondary rays.",
+    "D_AREC", "bounces", Count, "Maximum depth of secondary rays.",
         Measured(|m| Some(f64::from(m.render.d_arec))), parameter(Scene, S);
-    "D_MAX", "maximum tree depth", Count,
+    "D_MAX", "depth", Count,
         "Maximum depth of a leaf; the root has depth 0.",
         Measured(|m| Some(f64::from(m.depth_limit))), needs_planes(), parameter(Scene, S);
-    "N_OILF", "objects in a leaf to stop at", Count,
+    "N_OILF", "leaf size", Count,
         "A cell with at most this many objects becomes a leaf.",
         Measured(|m| Some(f64::from(m.build.n_oilf))), needs_planes(), parameter(Scene, S);
     // Table 2
@@ -84,22 +84,22 @@ counters! {
         parameter(Static, C), formula("N_ELS / N_LS");
     "N_RO", "references", Count, "References of all leaves to objects.",
         Measured(|m| Some(m.tree.references as f64)), parameter(Static, C);
-    "N_ADL", "mean duplication", Percent,
+    "N_ADL", "extra references per object", Percent,
         "References per object beyond the first, on average; no value without objects.",
         Measured(|m| ratio(m.tree.references as f64, m.scene.objects as f64).map(|r| r - 1.0)),
         parameter(Static, C), formula("N_RO / N_O − 1");
-    "N_AOIL", "references per leaf", Ratio, "Objects per leaf.",
+    "N_AOIL", "objects per leaf", Ratio, "References per leaf, empty ones included.",
         Measured(|m| ratio(m.tree.references as f64, m.tree.leaves as f64)),
         parameter(Static, C), formula("N_RO / N_LS");
-    "N_AOIFL", "references per full leaf", Ratio,
-        "Objects per leaf that is not empty; no value if all leaves are empty.",
+    "N_AOIFL", "objects per full leaf", Ratio,
+        "References per leaf that is not empty; no value if all leaves are empty.",
         Measured(|m| {
             ratio(m.tree.references as f64, (m.tree.leaves - m.tree.empty_leaves) as f64)
         }),
         parameter(Static, C), formula("N_RO / (N_LS − N_ELS)");
     "V_EMPTY", "empty volume", Volume, "Sum of the volumes of the empty leaves.",
         Measured(|m| Some(m.tree.empty_volume)), parameter(Static, C);
-    "R_FVWV", "full volume ratio", Percent, "Share of the root cell's volume in full leaves.",
+    "R_FVWV", "volume in full leaves", Percent, "Share of the root cell's volume in full leaves.",
         Measured(|m| ratio(m.tree.root_volume - m.tree.empty_volume, m.tree.root_volume)),
         parameter(Static, C),
         formula("(V_ROOT − V_EMPTY) / V_ROOT, with V_ROOT the volume of the root cell");
@@ -164,19 +164,19 @@ counters! {
         less_is_better();
     // Beside the tables
     "T_TT", "traversal time", Seconds,
-        "CPU time of taking the same rays through the tree to their known ends, without tests and \
+        "CPU time of traversing the tree with the same rays up to their known ends, without tests and \
          shading.",
         Measured(|m| m.counted.map(|c| c.traversal.as_secs_f64())), parameter(Ours, T),
         less_is_better();
-    "T_TT/T_TR", "traversal share", Percent, "Share of the render time spent on traversal.",
+    "T_TT/T_TR", "time spent traversing", Percent, "Share of the render time spent on traversal.",
         Measured(|m| {
             ratio(m.counted?.traversal.as_secs_f64(), m.rendering?.cpu.as_secs_f64())
         }),
         parameter(Ours, T), formula("T_TT / T_TR");
-    "T_CB_WALL", "wall-clock build time", Seconds, "Wall-clock time of building the tree.",
+    "T_CB_WALL", "elapsed build time", Seconds, "Elapsed time of building the tree.",
         Measured(|m| Some(m.building.wall.as_secs_f64())), parameter(Ours, T), less_is_better();
-    "T_TR_WALL", "wall-clock render time", Seconds,
-        "Wall-clock time of rendering the picture with all threads.",
+    "T_TR_WALL", "elapsed render time", Seconds,
+        "Elapsed time of rendering the picture with all threads.",
         Measured(|m| m.rendering.map(|r| r.wall.as_secs_f64())), parameter(Ours, T),
         less_is_better();
     "N_BITS", "bits per number", Count, "Bits of the numbers that rays are traced with, 32 or 64.",

@@ -18,6 +18,7 @@ mod registry;
 mod sections;
 mod table;
 mod text;
+pub mod tune;
 mod words;
 mod writer;
 

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "grid",
-    title: "Uniform grid",
+    summary: "equal voxels",
     about: "Divides the scene into equal, approximately cubic voxels, and rays step from one to the \
             next. D_MAX and N_OILF do not apply, and rays traverse no inner nodes. The tree panes of \
             the window show the planes between the voxels; only SIMD kernels (--kernel stream) \

@@ -7,7 +7,7 @@ use crate::structure::settings::MethodInfo;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "midpoint",
-    title: "Midpoint, cyclic axes (method 1)",
+    summary: "splits in the middle, axes in cyclic order (the paper's method 1)",
     about: "Splits every cell in the middle, with the axes in cyclic order x, y, z.",
     source: "A. S. Glassner, Space subdivision for fast ray tracing, 1984; K. Sung and P. Shirley, \
              Ray tracing with the BSP tree, Graphics Gems III, 1992; the paper's method 1",

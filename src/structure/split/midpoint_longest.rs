@@ -6,7 +6,7 @@ use crate::structure::settings::MethodInfo;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "midpoint-longest",
-    title: "Midpoint of the longest axis",
+    summary: "splits the longest axis in the middle",
     about: "Splits every cell in the middle of its longest axis, or of the first one if several are \
             equally long.",
     source: "I. Wald and V. Havran, On building fast kd-trees for ray tracing, 2006 (spatial median)",

@@ -8,7 +8,7 @@ use crate::structure::settings::MethodInfo;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "none",
-    title: "None: test every object",
+    summary: "tests every object",
     about: "Never splits. One leaf contains all objects, and every ray is tested against all of them.",
     source: "T. Whitted, An improved illumination model for shaded display, 1980",
     paper: None,

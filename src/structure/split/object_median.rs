@@ -8,7 +8,7 @@ use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "object-median",
-    title: "Object median",
+    summary: "splits at the median of the objects' centers",
     about: "Splits at the median of the objects' centers, so that both halves contain about the same \
             number of objects.",
     source: "M. R. Kaplan, Space-tracing: a constant time ray-tracer, 1985; J. D. MacDonald and \

@@ -10,7 +10,7 @@ use crate::structure::settings::MethodInfo;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "octree",
-    title: "Octree",
+    summary: "eight equal parts per node",
     about: "Splits every node into eight, in the middle along all three axes. It is stored and traversed \
             as planes, seven per octree node: D_MAX, D_REACH and the inner nodes count planes, where \
             three levels of planes are one level of the octree.",

@@ -25,7 +25,7 @@ use extents::Extents;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah",
-    title: "SAH, leaves in blocks",
+    summary: "surface-area heuristic for leaves that are tested in blocks",
     about: "Splits at the plane with the lowest expected cost by the surface-area heuristic if objects \
             are tested in blocks. Favors cutting off empty space.",
     source: "I. Wald and V. Havran, On building fast kd-trees for ray tracing, 2006; V. Havran, \
@@ -42,7 +42,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             step: 1.0,
             unit: "objects",
             about: "Number of objects that are tested at the cost of one.",
-            source: "lanes of a 512-bit vector; 8 and 16 measured by cargo bench --bench peers",
+            source: "elements of a 512-bit vector; 8 and 16 measured by cargo bench --bench peers",
         },
         Constant {
             name: "traversal-cost",

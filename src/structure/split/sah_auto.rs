@@ -16,7 +16,7 @@ use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-auto",
-    title: "SAH, automatic termination",
+    summary: "surface-area heuristic that decides when to stop",
     about: "Splits at the plane with the lowest expected cost by the surface-area heuristic, and stops \
             after a limited number of splits that gained too little. Best with automatic D_MAX.",
     source: "V. Havran, Heuristic ray shooting algorithms, 2000, and V. Havran and J. Bittner, On \

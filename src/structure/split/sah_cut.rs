@@ -14,7 +14,7 @@ use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-cut",
-    title: "SAH, empty space cut off (method 2)",
+    summary: "surface-area heuristic, cuts off empty space (the paper's method 2)",
     about: "Splits at the plane with the lowest expected cost by the surface-area heuristic, and cuts off \
             empty space around and between the objects of the node.",
     source: "J. D. MacDonald and K. S. Booth, Heuristics for ray tracing using space subdivision, \

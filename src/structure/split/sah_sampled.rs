@@ -13,7 +13,7 @@ use crate::structure::settings::{BuildSettings, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-sampled",
-    title: "SAH, sampled planes (as Octree-R)",
+    summary: "surface-area heuristic with sampled planes, as in Octree-R",
     about: "Tries a few equally spaced planes and splits at the one with the lowest expected cost by the \
             surface-area heuristic.",
     source: "K.-Y. Whang, J.-W. Song, J.-W. Chang, J.-Y. Kim, W.-S. Cho, C.-M. Park and I.-Y. Song, \

@@ -61,7 +61,7 @@ impl Pane for AccuracyPane {
         ui.add(egui::Label::new(about(&found)).truncate());
         let measure = &ERROR_MEASURES[self.error];
         let front = found.trade.front_by(measure);
-        let size = crate::gui::rest_of(ui);
+        let size = crate::gui::widgets::common::rest_of(ui);
         let wide = size.x >= WIDE;
         let parts = if wide { 3.0 } else { 2.0 };
         let part = vec2((size.x - 8.0 * (parts - 1.0)) / parts, size.y - 2.0);

@@ -55,12 +55,15 @@ fn method(ui: &mut egui::Ui, doc: &Document, which: Which, setup: &Setup, edits:
     let method = setup.build.method;
     let is_in_front = doc.which == which;
     egui::ComboBox::from_id_salt(("method of", which.name()))
-        .selected_text(method.title)
+        .selected_text(method.name)
         .width(ui.available_width() - 16.0)
         .show_ui(ui, |ui| {
             for other in Method::all() {
-                let item = ui.selectable_label(other == method, other.title);
-                let item = item.on_hover_text(format!("{}\nSource: {}", other.about, other.source));
+                let item = ui.selectable_label(other == method, other.name);
+                let item = item.on_hover_text(format!(
+                    "{}\n{}\nSource: {}",
+                    other.summary, other.about, other.source
+                ));
                 if item.clicked() {
                     edits.add(move |doc| {
                         let behind = doc.other.as_mut().filter(|_| !is_in_front);

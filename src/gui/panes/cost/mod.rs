@@ -70,7 +70,7 @@ impl Pane for CostPane {
             doc.inspect.what_if = None;
             return;
         }
-        let size = crate::gui::rest_of(ui);
+        let size = crate::gui::widgets::common::rest_of(ui);
         let width = ((size.x - 16.0) / 3.0).max(60.0);
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 8.0;

@@ -117,7 +117,7 @@ impl Pane for Histograms {
             .collect();
         let ranges = doc.inspect.ranges.iter_mut();
         let mut ranges: Vec<_> = ranges.chain([&mut doc.inspect.nodes_a_ray]).collect();
-        let size = crate::gui::rest_of(ui);
+        let size = crate::gui::widgets::common::rest_of(ui);
         let gap = 8.0;
         let columns = ((size.x / LEAST_WIDTH) as usize).clamp(1, plots.len());
         let rows = plots.len().div_ceil(columns);

@@ -124,8 +124,10 @@ impl Pane for Icicle {
         } else {
             self.legend(ui, range, &index);
         }
-        let (outer, response) =
-            ui.allocate_exact_size(crate::gui::rest_of(ui), Sense::click_and_drag());
+        let (outer, response) = ui.allocate_exact_size(
+            crate::gui::widgets::common::rest_of(ui),
+            Sense::click_and_drag(),
+        );
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Icicle of the tree")
         });

@@ -119,7 +119,7 @@ fn step(
             if running.asks() {
                 ask(running, &question, ui, &mut asked);
             } else if let Some(verdict) = &running.now().verdict {
-                let word = match verdict.right {
+                let word = match verdict.is_right() {
                     true => "Right",
                     false => "Not so",
                 };

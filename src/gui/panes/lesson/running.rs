@@ -219,7 +219,7 @@ impl Running {
     /// How many predictions were right, of how many whose answers were told.
     pub fn score(&self) -> (usize, usize) {
         let told = self.taken.iter().filter_map(|taken| taken.verdict.as_ref());
-        let right = told.clone().filter(|verdict| verdict.right).count();
+        let right = told.clone().filter(|verdict| verdict.is_right()).count();
         (right, told.count())
     }
 

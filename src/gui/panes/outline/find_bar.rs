@@ -72,7 +72,7 @@ impl FindBar {
                 .desired_width(120.0)
                 .hint_text("objects > 8");
             let field = ui.add(field).on_hover_text(ABOUT);
-            crate::gui::name_widget(ui, &field, "Find nodes");
+            crate::gui::widgets::common::name_widget(ui, &field, "Find nodes");
             if field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter)) {
                 step = Some(Step::Next);
             }

@@ -25,7 +25,7 @@ pub fn show(ui: &mut egui::Ui, doc: &mut Document) {
     rows(ui, "build settings", general, setup, &around);
     let method = setup.build.method;
     ui.add_space(4.0);
-    ui.label(method.title)
+    ui.label(method.name)
         .on_hover_text(format!("{}\nSource: {}", method.about, method.source));
     if method.constants.is_empty() {
         ui.weak("This method has no settings of its own.");

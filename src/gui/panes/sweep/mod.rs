@@ -72,7 +72,7 @@ impl Pane for SweepPane {
             ui.add(egui::Label::new(answer.sentence(self.shown)).wrap());
         }
         let best: Vec<&Row> = best.iter().map(|answer| answer.best).collect();
-        let size = crate::gui::rest_of(ui);
+        let size = crate::gui::widgets::common::rest_of(ui);
         let wide = size.x >= WIDE;
         let parts = if wide { 2.0 } else { 1.0 };
         let part = vec2((size.x - 8.0 * (parts - 1.0)) / parts, size.y - 2.0);
@@ -217,7 +217,7 @@ fn settings(ui: &mut egui::Ui, sweeping: &mut Sweeping, may_change: bool) {
             let mut chosen = sweeping.methods.contains(&method);
             if ui
                 .checkbox(&mut chosen, method.name)
-                .on_hover_text(method.title)
+                .on_hover_text(method.summary)
                 .changed()
             {
                 sweeping.methods.retain(|known| *known != method);

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Aabb, Axis, Vec3};
 use crate::gui::action::{shortcut, tip};
-use crate::gui::name_widget;
+use crate::gui::widgets::common::name_widget;
 use crate::workspace::CutSettings;
 
 /// How far a key moves the plane: a share of the root cell.

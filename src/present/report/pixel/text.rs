@@ -35,7 +35,7 @@ pub fn write(report: &PixelReport<'_>, out: &mut dyn Write) -> Result<()> {
          root."
     )?;
     for (method, record) in &report.records {
-        writeln!(out, "\n{}: {}\n", method.name, method.title)?;
+        writeln!(out, "\n{}: {}\n", method.name, method.summary)?;
         write_record(report.scene, record, out)?;
     }
     Ok(())
@@ -183,7 +183,7 @@ fn write_leaf(
     )?;
     let missed = match kind {
         RayKind::Shadow => "not before the light",
-        _ => "no nearer hit",
+        _ => "no closer hit",
     };
     for test in &leaf.tests {
         let found = test

@@ -1,0 +1,70 @@
+//! Finding the best tree for a scene.
+
+use super::context::{Context, JobError};
+use super::job::Job;
+use super::slot::{Priority, Slot};
+use crate::measure::tune::{Phase, ROUNDS, Row, Search, Tuned, Tuning, Turn, Upcoming};
+use crate::scene::Scene;
+use crate::setup::Setup;
+use std::sync::Arc;
+
+/// Parts into which the bar of the search is divided.
+const PARTS: usize = 1000;
+
+/// Measures all build methods, and depth and leaf size of the best two.
+pub struct FindBestTree {
+    /// As the setup of `search` describes it.
+    pub scene: Arc<Scene>,
+    pub search: Search,
+}
+
+impl FindBestTree {
+    pub const SLOT: Slot = Slot::named("best tree");
+}
+
+/// What is known after one candidate was timed once more.
+pub struct Tried {
+    /// Which of the rows has another time now; the number of the rows before if it is new.
+    pub place: usize,
+    pub row: Row,
+}
+
+impl Job for FindBestTree {
+    type Partial = Tried;
+    type Output = Tuned;
+
+    fn place(&self) -> (Slot, Priority) {
+        (FindBestTree::SLOT, Priority::Study)
+    }
+
+    fn run(self, context: &Context<Tried>) -> Result<Tuned, JobError> {
+        let FindBestTree { scene, search } = self;
+        let mut tuning = Tuning::new(&scene, search)?;
+        while let Some(upcoming) = tuning.upcoming() {
+            context.stage(stage(&upcoming));
+            context.part((upcoming.fraction * PARTS as f64) as usize, PARTS);
+            // A turn that was interrupted continues with the tree and the counts that it has.
+            let turn = context.timed(|progress| tuning.turn(progress))?;
+            if let Some(Turn::Timed(place)) = turn {
+                let row = tuning.rows()[place].clone();
+                context.send(Tried { place, row });
+            }
+        }
+        Ok(tuning.into_result())
+    }
+}
+
+fn stage(upcoming: &Upcoming<'_>) -> String {
+    let Setup { build, .. } = upcoming.candidate;
+    let round = upcoming.round + 1;
+    match upcoming.phase {
+        Phase::Methods => format!(
+            "all methods, round {round} of {ROUNDS}: {}",
+            build.method.name
+        ),
+        Phase::Refinement => format!(
+            "depth and leaf size, round {round} of {ROUNDS}: {}, D_MAX {}, N_OILF {}",
+            build.method.name, build.d_max, build.n_oilf
+        ),
+    }
+}

@@ -1,0 +1,98 @@
+//! What is measured of one candidate.
+
+use super::phase::Phase;
+use super::ranking::{Score, Spread};
+use crate::measure::Measurement;
+use crate::setup::Setup;
+use crate::structure::split::Structure;
+use crate::trace::TimedRender;
+
+/// A candidate that was measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// What was asked for, with the structure of this candidate. The size of the picture is the
+    /// user's.
+    pub setup: Setup,
+    /// The phase in which it was first timed.
+    pub phase: Phase,
+    /// All counts of the small picture, the tree, its build time, and as rendering time the median.
+    pub measurement: Measurement,
+    /// The rendering of every round, by ascending CPU time; at least one.
+    times: Vec<TimedRender>,
+}
+
+impl Row {
+    /// Creates the row of a candidate after it was counted and timed once.
+    pub(super) fn new(
+        setup: Setup,
+        phase: Phase,
+        measurement: Measurement,
+        time: TimedRender,
+    ) -> Row {
+        let mut row = Row {
+            setup,
+            phase,
+            measurement,
+            times: Vec::new(),
+        };
+        row.add(time);
+        row
+    }
+
+    /// Adds the time of another round.
+    pub(super) fn add(&mut self, time: TimedRender) {
+        let place = self.times.partition_point(|t| t.cpu < time.cpu);
+        self.times.insert(place, time);
+        self.measurement.rendering = Some(self.times[(self.times.len() - 1) / 2]);
+    }
+
+    /// Returns the CPU times of all rounds in seconds, in ascending order.
+    pub fn seconds(&self) -> Vec<f64> {
+        self.times.iter().map(|t| t.cpu.as_secs_f64()).collect()
+    }
+
+    /// Returns the least, the median and the greatest CPU time. For an even number of rounds, the
+    /// median is the lower of the two middle values.
+    pub fn spread(&self) -> Spread {
+        let seconds = self.seconds();
+        let last = seconds.len() - 1;
+        Spread {
+            least: seconds[0],
+            median: seconds[last / 2],
+            most: seconds[last],
+        }
+    }
+
+    /// Returns how often it was timed.
+    pub fn rounds(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Returns what it is ranked by.
+    pub fn score(&self) -> Score {
+        Score {
+            seconds: self.spread(),
+            bytes: self.bytes(),
+        }
+    }
+
+    /// Returns the intersection tests per ray, over rays of all kinds.
+    pub fn tests_per_ray(&self) -> Option<f64> {
+        let tally = self.measurement.all_rays()?;
+        (tally.rays > 0).then(|| tally.tests as f64 / tally.rays as f64)
+    }
+
+    /// Returns the number of nodes; of a grid, the number of voxels.
+    pub fn nodes(&self) -> u64 {
+        let tree = &self.measurement.tree;
+        match self.setup.build.method.structure {
+            Structure::Grid => tree.leaves,
+            Structure::Bintree | Structure::Octree => tree.inner_nodes + tree.leaves,
+        }
+    }
+
+    /// Returns the memory of nodes and references, `M_TREE`.
+    pub fn bytes(&self) -> u64 {
+        self.measurement.tree.bytes
+    }
+}

@@ -1,0 +1,67 @@
+//! What is searched for, and what is found.
+
+use super::goal::Goal;
+use super::phase::Phase;
+use super::ranking::{Rank, best, rank};
+use super::row::Row;
+use crate::setup::Setup;
+use crate::structure::{BuildError, Method};
+use crate::trace::RenderSettings;
+use std::time::Duration;
+
+/// What is searched for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Search {
+    /// The scene, the picture and the camera; of its structure, what applies to every method.
+    pub setup: Setup,
+    pub goal: Goal,
+    /// Time for the measurements. When it is spent, no further turn begins, except that every method
+    /// is timed at least once.
+    pub budget: Duration,
+}
+
+/// What was not measured, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LeftOut {
+    /// A method that is not tried in a scene with so many objects.
+    Method { method: Method, objects: usize },
+    /// A tree that could not be built.
+    Refused { setup: Setup, why: BuildError },
+    /// Settings with which a method builds the same tree as with others that are measured.
+    SameTree { setup: Setup },
+    /// The budget was spent after so many whole rounds of a phase.
+    Rounds { phase: Phase, whole: usize },
+    /// The budget was spent before so many settings of the refinement were tried.
+    Untried { settings: usize },
+}
+
+/// The result of a search.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tuned {
+    pub search: Search,
+    /// How the small picture was rendered.
+    pub render: RenderSettings,
+    /// In the order in which they were first measured; at least one.
+    pub rows: Vec<Row>,
+    pub left_out: Vec<LeftOut>,
+    /// Time that the measurements took.
+    pub spent: Duration,
+}
+
+impl Tuned {
+    /// Ranks the rows by the goal of the search, the best first.
+    pub fn ranking(&self) -> Vec<Rank> {
+        let scores: Vec<_> = self.rows.iter().map(Row::score).collect();
+        rank(&scores, self.search.goal)
+    }
+
+    /// Returns the index of the row that is recommended, and the row.
+    ///
+    /// # Panics
+    /// If there are no rows.
+    pub fn recommended(&self) -> (usize, &Row) {
+        let scores: Vec<_> = self.rows.iter().map(Row::score).collect();
+        let place = best(&scores, self.search.goal)[0];
+        (place, &self.rows[place])
+    }
+}

@@ -1,0 +1,366 @@
+//! The search for the best tree, turn by turn.
+
+use super::candidates::{
+    MOST_REFINEMENTS, REFINED, all_methods, has_limits, is_tried, refinements,
+};
+use super::phase::Phase;
+use super::ranking::best;
+use super::row::Row;
+use super::search::{LeftOut, Search, Tuned};
+use crate::measure::{MeasureError, Measurement, Times};
+use crate::progress::Progress;
+use crate::scene::Scene;
+use crate::setup::Setup;
+use crate::structure::{BuildError, Method, Tree, build};
+use crate::trace::{RenderSettings, render_counted, render_timed, thread_pool};
+use rayon::ThreadPool;
+use std::time::{Duration, Instant};
+
+/// Rounds of each phase.
+pub const ROUNDS: usize = 3;
+
+/// Width of the picture that is timed; narrower pictures are timed as they are.
+const WIDTH: u32 = 128;
+
+/// The most bytes that the trees between two rounds may take. Trees beyond this are built again in
+/// every round.
+const MOST_KEPT: usize = 1 << 30;
+
+/// What a turn will do.
+pub struct Upcoming<'a> {
+    pub phase: Phase,
+    /// From 0.
+    pub round: usize,
+    pub candidate: &'a Setup,
+    /// How much of the whole search is done, 0 to 1: of its turns or of its budget, whichever is
+    /// more.
+    pub fraction: f64,
+}
+
+/// The result of a turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turn {
+    /// The row at this index has another time; in the first round of a phase, it can be new.
+    Timed(usize),
+    /// The candidate is not measured; [`Tuned::left_out`] says why.
+    LeftOut,
+}
+
+/// A search that runs turn by turn. A turn times one candidate once; in its first, the candidate is
+/// also built and counted. A cancelled turn can be run again, and continues after what was complete.
+pub struct Tuning<'a> {
+    scene: &'a Scene,
+    search: Search,
+    render: RenderSettings,
+    pool: ThreadPool,
+    phase: Phase,
+    /// Completed rounds of the phase.
+    round: usize,
+    /// Index of the next candidate of the round.
+    next: usize,
+    candidates: Vec<Candidate>,
+    rows: Vec<Row>,
+    left_out: Vec<LeftOut>,
+    turns_done: usize,
+    spent: Duration,
+    has_ended: bool,
+}
+
+/// A candidate of the current phase.
+struct Candidate {
+    setup: Setup,
+    /// Index of its row, once it was timed.
+    row: Option<usize>,
+    tree: Option<Tree>,
+    /// With counts, once they are known.
+    known: Option<Measurement>,
+}
+
+impl Candidate {
+    fn new(setup: Setup) -> Self {
+        Candidate {
+            setup,
+            row: None,
+            tree: None,
+            known: None,
+        }
+    }
+}
+
+/// Returns the settings of the small picture: the user's, at most [`WIDTH`] pixels wide, with the
+/// same ratio of width to height.
+fn small(render: &RenderSettings) -> RenderSettings {
+    let width = render.width.min(WIDTH);
+    let height = f64::from(render.height) * f64::from(width) / f64::from(render.width.max(1));
+    RenderSettings {
+        width,
+        height: (height.round() as u32).max(1),
+        samples: 1,
+        ..*render
+    }
+}
+
+impl<'a> Tuning<'a> {
+    /// Creates a search in the scene that its setup describes. Measures nothing yet.
+    ///
+    /// # Errors
+    /// The picture has no view, settings are out of range, or the threads cannot be created.
+    pub fn new(scene: &'a Scene, search: Search) -> Result<Self, MeasureError> {
+        let objects = scene.objects().len();
+        let render = small(&search.setup.render);
+        search.setup.render.view(scene)?;
+        let candidates = all_methods(&search.setup, objects);
+        for candidate in &candidates {
+            candidate.build.check().map_err(BuildError::from)?;
+        }
+        let untried = Method::all().filter(|method| !is_tried(*method, objects));
+        Ok(Tuning {
+            scene,
+            pool: thread_pool(render.threads)?,
+            search,
+            render,
+            phase: Phase::Methods,
+            round: 0,
+            next: 0,
+            candidates: candidates.into_iter().map(Candidate::new).collect(),
+            rows: Vec::new(),
+            left_out: untried
+                .map(|method| LeftOut::Method { method, objects })
+                .collect(),
+            turns_done: 0,
+            spent: Duration::ZERO,
+            has_ended: false,
+        })
+    }
+
+    /// Returns the rows so far.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Returns the result, for now or at the end.
+    pub fn into_result(self) -> Tuned {
+        Tuned {
+            search: self.search,
+            render: self.render,
+            rows: self.rows,
+            left_out: self.left_out,
+            spent: self.spent,
+        }
+    }
+
+    /// Returns what the next turn will do; `None` if the search has ended.
+    pub fn upcoming(&mut self) -> Option<Upcoming<'_>> {
+        self.advance();
+        if self.has_ended {
+            return None;
+        }
+        Some(Upcoming {
+            phase: self.phase,
+            round: self.round,
+            candidate: &self.candidates[self.next].setup,
+            fraction: self.fraction(),
+        })
+    }
+
+    /// Runs the next turn. Returns `None` if the search has ended.
+    ///
+    /// # Errors
+    /// No tree at all could be built, or cancellation.
+    pub fn turn(&mut self, progress: &Progress) -> Result<Option<Turn>, MeasureError> {
+        self.advance();
+        if self.has_ended {
+            return Ok(None);
+        }
+        let start = Instant::now();
+        let result = self.measure(progress);
+        self.spent += start.elapsed();
+        match result {
+            Ok(turn) => {
+                self.turns_done += 1;
+                match turn {
+                    Turn::Timed(_) => self.next += 1,
+                    Turn::LeftOut => drop(self.candidates.remove(self.next)),
+                }
+                Ok(Some(turn))
+            }
+            Err(MeasureError::Build(why @ BuildError::MemoryLimit { .. }))
+                if self.candidates.len() > 1 || !self.rows.is_empty() =>
+            {
+                let setup = self.candidates.remove(self.next).setup;
+                self.left_out.push(LeftOut::Refused { setup, why });
+                Ok(Some(Turn::LeftOut))
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Goes to the next candidate, round or phase, and ends the search after the last one or when
+    /// the budget is spent.
+    fn advance(&mut self) {
+        while !self.has_ended && self.next >= self.candidates.len() {
+            self.next = 0;
+            self.round += 1;
+            if self.round < ROUNDS && !self.candidates.is_empty() {
+                continue;
+            }
+            match self.phase {
+                Phase::Methods => self.begin_refinement(),
+                Phase::Refinement => self.has_ended = true,
+            }
+        }
+        let is_due = self.phase == Phase::Methods && self.round == 0;
+        if !self.has_ended && !is_due && self.spent >= self.search.budget {
+            self.has_ended = true;
+            self.note_what_is_missing();
+        }
+    }
+
+    fn begin_refinement(&mut self) {
+        let bases = self.to_refine();
+        let before = std::mem::take(&mut self.candidates);
+        self.candidates = refinements(&bases, self.scene.objects().len())
+            .into_iter()
+            .map(Candidate::new)
+            .collect();
+        for old in before {
+            let mut same = self.candidates.iter_mut();
+            if let Some(new) = same.find(|new| new.setup == old.setup) {
+                *new = old;
+            }
+        }
+        self.phase = Phase::Refinement;
+        self.round = 0;
+        self.has_ended = self.candidates.is_empty();
+    }
+
+    /// Returns the setups of the best two methods whose trees depend on depth and leaf size.
+    fn to_refine(&self) -> Vec<Setup> {
+        let scores: Vec<_> = self.rows.iter().map(Row::score).collect();
+        let setups = best(&scores, self.search.goal)
+            .into_iter()
+            .map(|place| &self.rows[place].setup);
+        setups
+            .filter(|setup| has_limits(setup.build.method))
+            .take(REFINED)
+            .cloned()
+            .collect()
+    }
+
+    fn note_what_is_missing(&mut self) {
+        let whole = self.round;
+        let (untried, has_begun) = match self.phase {
+            Phase::Methods => {
+                let bases = self.to_refine();
+                let all = refinements(&bases, self.scene.objects().len());
+                (all.len() - bases.len(), true)
+            }
+            Phase::Refinement => {
+                let untried = self.candidates.iter().filter(|c| c.row.is_none());
+                (untried.count(), self.round > 0 || self.next > 0)
+            }
+        };
+        if has_begun {
+            let phase = self.phase;
+            self.left_out.push(LeftOut::Rounds { phase, whole });
+        }
+        if untried > 0 {
+            self.left_out.push(LeftOut::Untried { settings: untried });
+        }
+    }
+
+    fn fraction(&self) -> f64 {
+        let later = match self.phase {
+            Phase::Methods => ROUNDS * MOST_REFINEMENTS,
+            Phase::Refinement => 0,
+        };
+        let left = (ROUNDS - self.round) * self.candidates.len() - self.next + later;
+        let of_turns = self.turns_done as f64 / (self.turns_done + left) as f64;
+        let of_budget = self.spent.as_secs_f64() / self.search.budget.as_secs_f64();
+        // Without a budget there is only the round that it does not limit.
+        if of_budget.is_finite() {
+            of_turns.max(of_budget).min(1.0)
+        } else {
+            of_turns
+        }
+    }
+
+    /// Measures the next candidate once more.
+    fn measure(&mut self, progress: &Progress) -> Result<Turn, MeasureError> {
+        let (scene, render, pool) = (self.scene, &self.render, &self.pool);
+        let kept = self.candidates.iter().filter_map(|c| c.tree.as_ref());
+        let kept: usize = kept.map(Tree::bytes).sum();
+        let candidate = &mut self.candidates[self.next];
+        if candidate.tree.is_none() {
+            let part = progress.part(0.0, 0.4);
+            let (tree, time) = Times::of(pool, || build(scene, &candidate.setup.build, &part));
+            let tree = tree?;
+            if candidate.known.is_none() {
+                let known = Measurement::of_tree(scene, &tree, time, render);
+                let is_same = |row: &Row| {
+                    row.setup.build.method == candidate.setup.build.method
+                        && row.measurement.tree == known.tree
+                };
+                if self.rows.iter().any(is_same) {
+                    let setup = candidate.setup.clone();
+                    self.left_out.push(LeftOut::SameTree { setup });
+                    return Ok(Turn::LeftOut);
+                }
+                candidate.known = Some(known);
+            }
+            candidate.tree = Some(tree);
+        }
+        let (Some(tree), Some(known)) = (&candidate.tree, &mut candidate.known) else {
+            unreachable!("both were made above");
+        };
+        if known.counted.is_none() {
+            let part = progress.part(0.4, 0.8);
+            let counted = render_counted(scene, tree, render, pool, &part, |_| ())?;
+            known.counted = Some(counted);
+        }
+        let untimed = progress.part(0.8, 0.9);
+        render_timed(scene, tree, render, 0, pool, &untimed, |_, _| ())?;
+        let timed = progress.part(0.9, 1.0);
+        let time = render_timed(scene, tree, render, 0, pool, &timed, |_, _| ())?;
+        let place = match candidate.row {
+            Some(place) => {
+                self.rows[place].add(time);
+                place
+            }
+            None => {
+                let row = Row::new(candidate.setup.clone(), self.phase, known.clone(), time);
+                self.rows.push(row);
+                self.rows.len() - 1
+            }
+        };
+        candidate.row = Some(place);
+        if kept > MOST_KEPT {
+            candidate.tree = None;
+        }
+        Ok(Turn::Timed(place))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_small_picture_has_the_shape_of_the_large_one() {
+        let of = |width, height| {
+            let render = RenderSettings {
+                width,
+                height,
+                samples: 8,
+                ..RenderSettings::default()
+            };
+            let small = small(&render);
+            assert_eq!(small.samples, 1);
+            [small.width, small.height]
+        };
+        assert_eq!(of(512, 512), [128, 128]);
+        assert_eq!(of(1920, 1080), [128, 72]);
+        assert_eq!(of(1000, 1), [128, 1]);
+        assert_eq!(of(64, 48), [64, 48]);
+    }
+}

@@ -1,0 +1,87 @@
+//! The search as JSON: the paper's symbols as keys, times in seconds.
+
+use super::content::TuneReport;
+use super::words::{command, left_out, recommendation};
+use crate::measure::parameter;
+use crate::measure::tune::{Phase, Rank, Row, has_limits};
+use crate::present::report::exact::exact_value;
+use serde_json::{Map, Value, json};
+use std::io::{Result, Write};
+
+/// The parameters of every candidate.
+const PARAMETERS: [&str; 9] = [
+    "N_RPRT",
+    "N_AT",
+    "N_LS",
+    "N_RO",
+    "D_REACH",
+    "T_TR",
+    "T_CB",
+    "T_CB_WALL",
+    "M_TREE",
+];
+
+/// Writes the search as one JSON document. Candidates are in the order of the ranking.
+pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
+    let tuned = &report.tuned;
+    let (place, recommended) = tuned.recommended();
+    let ranking = tuned.ranking();
+    let candidates: Vec<_> = ranking
+        .iter()
+        .map(|rank| candidate(rank, &tuned.rows[rank.place], rank.place == place))
+        .collect();
+    let render = &tuned.render;
+    let document = json!({
+        "scene": report.scene,
+        "for": tuned.search.goal.name(),
+        "resolution": [render.width, render.height],
+        "d_arec": render.d_arec,
+        "precision": tuned.rows[0].measurement.precision.precision.name(),
+        "kernel": render.kernel.description(),
+        "threads": tuned.rows[0].measurement.building.threads,
+        "budget": tuned.search.budget.as_secs_f64(),
+        "spent": tuned.spent.as_secs_f64(),
+        "candidates": candidates,
+        "recommended": {
+            "method": recommended.setup.build.method.name,
+            "d_max": recommended.setup.build.d_max,
+            "n_oilf": recommended.setup.build.n_oilf,
+            "reason": recommendation(tuned),
+            "command": command(recommended),
+        },
+        "left_out": left_out(tuned),
+    });
+    serde_json::to_writer_pretty(&mut *out, &document)?;
+    writeln!(out)
+}
+
+fn candidate(rank: &Rank, row: &Row, is_recommended: bool) -> Value {
+    let (build, spread) = (&row.setup.build, row.spread());
+    let parameters: Map<_, _> = PARAMETERS
+        .into_iter()
+        .map(|symbol| {
+            let value = exact_value(parameter(symbol), &row.measurement);
+            (symbol.into(), value)
+        })
+        .collect();
+    let applies = has_limits(build.method);
+    json!({
+        "rank": rank.rank,
+        "tied": rank.is_tied,
+        "recommended": is_recommended,
+        "phase": match row.phase {
+            Phase::Methods => "methods",
+            Phase::Refinement => "refinement",
+        },
+        "method": build.method.name,
+        "d_max": applies.then_some(build.d_max),
+        "depth_limit": applies.then_some(row.measurement.depth_limit),
+        "n_oilf": applies.then_some(build.n_oilf),
+        "seconds": row.seconds(),
+        "time": {"least": spread.least, "median": spread.median, "most": spread.most},
+        "tests_per_ray": row.tests_per_ray(),
+        "nodes": row.nodes(),
+        "parameters": parameters,
+        "command": command(row),
+    })
+}

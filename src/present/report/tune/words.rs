@@ -1,0 +1,150 @@
+//! The sentences of a search for the best tree.
+
+use crate::measure::tune::{
+    Goal, LeftOut, MOST_SLOWDOWN, NAIVE_LIMIT, Phase, ROUNDS, Row, Tuned, has_limits,
+};
+use crate::present::number::{Digits, NO_VALUE, counted, grouped};
+use crate::setup::measure_command;
+
+/// Formats a time with its unit.
+pub fn time(seconds: f64) -> String {
+    Digits::Four.seconds(seconds)
+}
+
+/// Formats the memory of a tree with its unit.
+pub fn memory(row: &Row) -> String {
+    Digits::Four.bytes(row.bytes() as f64)
+}
+
+/// Returns `D_MAX` and `N_OILF` of a row; a dash where they do not apply.
+pub fn limits(row: &Row) -> [String; 2] {
+    let build = &row.setup.build;
+    if has_limits(build.method) {
+        [row.measurement.depth_in_words(), build.n_oilf.to_string()]
+    } else {
+        [NO_VALUE.into(), NO_VALUE.into()]
+    }
+}
+
+/// Returns a method with its depth and leaf size, such as `sah, D_MAX 16, N_OILF 2`.
+fn candidate(row: &Row) -> String {
+    let [depth, leaf_size] = limits(row);
+    let method = row.setup.build.method;
+    if has_limits(method) {
+        format!("{}, D_MAX {depth}, N_OILF {leaf_size}", method.name)
+    } else {
+        method.name.into()
+    }
+}
+
+/// Returns the conditions under which all candidates were measured.
+pub fn conditions(scene: &str, tuned: &Tuned) -> String {
+    let render = &tuned.render;
+    let threads = tuned.rows[0].measurement.building.threads;
+    format!(
+        "Scene {scene}. All candidates: {} × {} pixels, D_AREC {}, {}, kernel {}, {}. Times are CPU \
+         times, the median of interleaved rounds. Candidates whose ranges overlap share a rank.",
+        render.width,
+        render.height,
+        render.d_arec,
+        tuned.rows[0].measurement.precision.precision.name(),
+        render.kernel.description(),
+        counted(threads, "thread")
+    )
+}
+
+/// Returns which settings are recommended and why.
+pub fn recommendation(tuned: &Tuned) -> String {
+    let (place, row) = tuned.recommended();
+    let spread = row.spread();
+    let mut text = format!(
+        "Best for {}: {}. The picture takes {}",
+        tuned.search.goal.name(),
+        candidate(row),
+        time(spread.median)
+    );
+    if row.rounds() > 1 {
+        text += &format!(
+            " ({} to {} in {} rounds)",
+            time(spread.least),
+            time(spread.most),
+            row.rounds()
+        );
+    }
+    text += &format!(" and the tree {}.", memory(row));
+    if tuned.search.goal == Goal::Memory {
+        text += &format!(
+            " It is the smallest tree whose picture takes at most {MOST_SLOWDOWN} times as long as \
+             that of the fastest."
+        );
+        return text;
+    }
+    let ranking = tuned.ranking();
+    let rank = |of: usize| ranking.iter().find(|r| r.place == of).map(|r| r.rank);
+    let ties = ranking.iter().filter(|r| Some(r.rank) == rank(place));
+    match ties.count() - 1 {
+        0 => {}
+        1 => text += " 1 other candidate is as fast within the spread.",
+        n => text += &format!(" {n} other candidates are as fast within the spread."),
+    }
+    text
+}
+
+/// Returns the command that measures the recommended settings.
+pub fn command(row: &Row) -> String {
+    measure_command(&row.setup)
+}
+
+/// Describes what was left out, one sentence per line.
+pub fn left_out(tuned: &Tuned) -> Vec<String> {
+    let budget = format!("budget of {} s", tuned.search.budget.as_secs_f64());
+    let mut lines = Vec::new();
+    let mut same = 0;
+    for left_out in &tuned.left_out {
+        match left_out {
+            LeftOut::Method { method, objects } => lines.push(format!(
+                "Method {} was left out: the scene has {} objects; it is only tried with at most {} objects.",
+                method.name,
+                grouped(*objects as f64),
+                grouped(NAIVE_LIMIT as f64)
+            )),
+            LeftOut::Refused { setup, why } => {
+                let build = &setup.build;
+                lines.push(format!(
+                    "Method {} with D_MAX {} and N_OILF {} was left out: {why}.",
+                    build.method.name, build.d_max, build.n_oilf
+                ));
+            }
+            LeftOut::SameTree { .. } => same += 1,
+            LeftOut::Rounds { phase, whole } => {
+                let of = match phase {
+                    Phase::Methods => "all methods",
+                    Phase::Refinement => "depths and leaf sizes",
+                };
+                let round = whole + 1;
+                lines.push(format!(
+                    "The {budget} was spent before the end of round {round} of {ROUNDS} of {of}."
+                ));
+            }
+            LeftOut::Untried { settings } => {
+                let verb = if *settings == 1 { "was" } else { "were" };
+                lines.push(format!(
+                    "{} of depth and leaf size {verb} not tried: the {budget} was spent.",
+                    counted(*settings, "combination")
+                ));
+            }
+        }
+    }
+    if same > 0 {
+        let (verb, article) = if same == 1 {
+            ("builds", "It is")
+        } else {
+            ("build", "They are")
+        };
+        lines.push(format!(
+            "{} of depth and leaf size {verb} the same tree as another one. {article} not listed.",
+            counted(same, "combination")
+        ));
+    }
+    lines
+}

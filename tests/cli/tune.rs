@@ -1,0 +1,143 @@
+//! `bspscope tune`, as a user meets it.
+
+use crate::support::program::Program;
+use bspscope::structure::Method;
+use serde_json::{Value, json};
+
+/// One round of all methods.
+const QUICK: &str = "tune tetra:3 --resolution 24x16 --budget 0";
+
+#[test]
+fn the_answer_is_a_setup_with_its_command() {
+    let program = Program::new();
+    let tune = "tune balls:2 --resolution 24x16 --kernel stream --format json";
+    let report = program.json(tune);
+    assert_eq!(report["for"], "time");
+    assert_eq!(report["resolution"], json!([24, 16]));
+    let candidates = report["candidates"].as_array().unwrap();
+    for method in Method::all() {
+        let is_it = |c: &Value| c["method"] == method.name;
+        assert!(candidates.iter().any(is_it), "{}", method.name);
+    }
+    assert_eq!(candidates[0]["rank"], 1);
+    assert_eq!(candidates[0]["recommended"], true);
+    for key in ["method", "d_max", "n_oilf", "command"] {
+        assert_eq!(candidates[0][key], report["recommended"][key], "{key}");
+    }
+    for candidate in candidates {
+        let time = &candidate["time"];
+        let [least, median, most] = ["least", "median", "most"].map(|key| time[key].as_f64());
+        assert!(least <= median && median <= most, "{candidate}");
+        assert_eq!(candidate["parameters"]["T_TR"].as_f64(), median);
+        assert!(candidate["parameters"]["M_TREE"].as_u64() > Some(0));
+        assert!(candidate["tests_per_ray"].as_f64() > Some(0.0));
+        assert!(candidate["nodes"].as_u64() > Some(0));
+        let is_grid = candidate["method"] == "grid";
+        assert_eq!(
+            candidate["d_max"].is_null(),
+            is_grid || candidate["method"] == "none"
+        );
+    }
+    // The command measures what is recommended, with the settings that were given.
+    let command = report["recommended"]["command"].as_str().unwrap();
+    let command = command.strip_prefix("bspscope ").unwrap();
+    let measured = program.json(&format!("{command} --format json"));
+    let run = &measured["runs"][0];
+    assert_eq!(run["method"], report["recommended"]["method"]);
+    assert_eq!(run["settings"]["kernel"]["asked"], "stream");
+    assert_eq!(run["parameters"]["N_X"], 24);
+    assert_eq!(
+        run["parameters"]["M_TREE"],
+        candidates[0]["parameters"]["M_TREE"]
+    );
+}
+
+#[test]
+fn what_a_budget_leaves_out_is_stated() {
+    let program = Program::new();
+    let text = program.done(QUICK);
+    for part in [
+        "Scene tetra:3. All candidates: 24 × 16 pixels",
+        "The budget of 0 s was spent before the end of round 2 of 3 of all methods.",
+        "38 combinations of depth and leaf size were not tried",
+        "Best for time: ",
+        "\nbspscope measure tetra:3 --method ",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    let report = program.json(&format!("{QUICK} --format json"));
+    assert_eq!(report["left_out"].as_array().map(Vec::len), Some(2));
+    assert_eq!(report["budget"], 0.0);
+    let candidates = report["candidates"].as_array().unwrap();
+    assert_eq!(candidates.len(), Method::all().count());
+    for candidate in candidates {
+        assert_eq!(candidate["seconds"].as_array().map(Vec::len), Some(1));
+    }
+    let large = program.done("tune balls:4 --resolution 8x8 --budget 0");
+    let left_out = "Method none was left out: the scene has 7\u{a0}382 objects";
+    assert!(large.contains(left_out), "{large}");
+}
+
+#[test]
+fn every_form_has_a_line_per_candidate() {
+    let program = Program::new();
+    program.done(&format!("{QUICK} --for memory -o trees.csv"));
+    let mut reader = csv::Reader::from_path(program.file("trees.csv")).unwrap();
+    let titles = reader.headers().unwrap().clone();
+    assert_eq!(
+        titles.iter().collect::<Vec<_>>(),
+        [
+            "scene",
+            "rank",
+            "tied",
+            "recommended",
+            "method",
+            "d_max",
+            "depth_limit",
+            "n_oilf",
+            "rounds",
+            "T_TR",
+            "T_TR_least",
+            "T_TR_most",
+            "tests_per_ray",
+            "nodes",
+            "T_CB",
+            "M_TREE",
+        ]
+    );
+    let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), Method::all().count());
+    let bytes: Vec<u64> = rows.iter().map(|row| row[15].parse().unwrap()).collect();
+    assert!(bytes.is_sorted(), "{bytes:?}");
+    assert_eq!(&rows[0][4], "none");
+    let recommended: Vec<_> = rows.iter().filter(|row| &row[3] == "true").collect();
+    assert_eq!(recommended.len(), 1);
+    for (form, part) in [
+        ("markdown", "## Trees by memory"),
+        ("latex", "\\begin{tabular}"),
+        ("text", "Best for memory: "),
+    ] {
+        let text = program.done(&format!("{QUICK} --for memory --format {form}"));
+        assert!(text.contains(part), "{form}: {text}");
+        for method in Method::all() {
+            assert!(text.contains(method.name), "{form}: {text}");
+        }
+    }
+}
+
+#[test]
+fn wrong_goals_budgets_and_settings_are_refused() {
+    let program = Program::new();
+    for (option, part) in [
+        ("--for beauty", "[possible values: time, memory]"),
+        ("--budget -1", "a number of seconds"),
+        ("--budget soon", "a number of seconds"),
+        ("--method sah", "--method"),
+        ("--set gap-fraction=0.1", "--set"),
+    ] {
+        let errors = program.refused(&format!("tune tetra:3 {option}"));
+        assert!(errors.contains(part), "{option}: {errors}");
+    }
+    let errors = program.refused_in_a_line("tune tetra:3 --resolution 0x16");
+    assert!(errors.contains("at least 1 pixel"), "{errors}");
+}

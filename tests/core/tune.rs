@@ -1,0 +1,256 @@
+//! Finding the best tree: what is tried, how often, and what is left out.
+
+use crate::support::scenes::scene;
+use bspscope::jobs::{End, FindBestTree, Handle, News, Scheduler};
+use bspscope::measure::tune::{
+    Goal, LeftOut, NAIVE_LIMIT, Phase, ROUNDS, Row, Search, Tuned, Tuning, Turn, has_limits,
+};
+use bspscope::measure::{measure, parameter};
+use bspscope::progress::Progress;
+use bspscope::scene::SceneRequest;
+use bspscope::setup::Setup;
+use bspscope::structure::{MaxDepth, Method};
+use bspscope::trace::RenderSettings;
+use std::collections::HashSet;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// More than any of these searches takes.
+const ENOUGH: Duration = Duration::from_secs(100_000);
+
+fn search(source: &str, budget: Duration) -> Search {
+    let render = RenderSettings {
+        width: 24,
+        height: 16,
+        samples: 4,
+        ..RenderSettings::default()
+    };
+    Search {
+        setup: Setup {
+            render,
+            ..Setup::new(SceneRequest::parse(source))
+        },
+        goal: Goal::Time,
+        budget,
+    }
+}
+
+fn start(scheduler: &Scheduler, search: Search) -> Handle<FindBestTree> {
+    let scene = Arc::new(scene(&search.setup.scene.source.to_string()));
+    scheduler.start(FindBestTree { scene, search })
+}
+
+/// What a search sends: its rows as they become known, and its end.
+fn found(search: Search) -> (Vec<Row>, End<Tuned>) {
+    let scheduler = Scheduler::new(|| ());
+    let job = start(&scheduler, search);
+    assert!(scheduler.wait());
+    let News { partials, end } = job.receive();
+    let mut rows = Vec::new();
+    for tried in partials {
+        if tried.place == rows.len() {
+            rows.push(tried.row);
+        } else {
+            rows[tried.place] = tried.row;
+        }
+    }
+    (rows, end.expect("it has ended"))
+}
+
+fn tuned(search: Search) -> Tuned {
+    let (rows, end) = found(search);
+    match end {
+        End::Done(tuned) => {
+            assert_eq!(rows, tuned.rows, "the partial results are the whole result");
+            tuned
+        }
+        end => panic!("{end:?}"),
+    }
+}
+
+fn methods(rows: &[Row]) -> Vec<&'static str> {
+    rows.iter().map(|row| row.setup.build.method.name).collect()
+}
+
+#[test]
+fn all_methods_are_measured_and_the_best_two_refined() {
+    let search = search("balls:2", ENOUGH);
+    let tuned = tuned(search.clone());
+    let all: Vec<_> = Method::all().map(|m| m.name).collect();
+    let (first, refined): (Vec<_>, Vec<_>) =
+        (tuned.rows.iter().cloned()).partition(|row| row.phase == Phase::Methods);
+    assert_eq!(methods(&first), all);
+    let two: HashSet<_> = methods(&refined).into_iter().collect();
+    assert_eq!(two.len(), 2);
+    let is_base = |row: &&Row| two.contains(row.setup.build.method.name);
+    for row in &first {
+        let expected = if is_base(&row) { 2 * ROUNDS } else { ROUNDS };
+        assert_eq!(row.rounds(), expected, "{:?}", row.setup.build);
+        assert_eq!(row.setup.build.d_max, MaxDepth::Automatic);
+    }
+    // Every combination is measured, or builds the tree of one that is.
+    let same = tuned.left_out.iter();
+    let same: Vec<_> = same
+        .map(|left_out| match left_out {
+            LeftOut::SameTree { setup } => setup,
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    let setups = refined.iter().map(|row| &row.setup);
+    let bases = first.iter().filter(is_base).map(|row| &row.setup);
+    let mut combinations: Vec<_> = setups
+        .chain(bases)
+        .chain(same)
+        .map(|setup| {
+            let build = &setup.build;
+            (build.method.name, build.d_max.to_string(), build.n_oilf)
+        })
+        .collect();
+    combinations.sort();
+    combinations.dedup();
+    assert_eq!(combinations.len(), 2 * 5 * 4);
+    for (i, row) in tuned.rows.iter().enumerate() {
+        assert!(row.phase == Phase::Methods || row.rounds() == ROUNDS);
+        assert!(row.seconds().is_sorted() && row.seconds()[0] > 0.0);
+        let is_same = |other: &Row| {
+            other.setup.build.method == row.setup.build.method
+                && other.measurement.tree == row.measurement.tree
+        };
+        assert!(!tuned.rows[..i].iter().any(is_same), "{:?}", row.setup);
+        // What is recommended is the user's setup with another structure, whatever was measured.
+        let setup = Setup {
+            build: search.setup.build.clone(),
+            ..row.setup.clone()
+        };
+        assert_eq!(setup, search.setup);
+    }
+    let (place, recommended) = tuned.recommended();
+    assert_eq!(&tuned.rows[place], recommended);
+    let least = tuned.rows.iter().map(|row| row.spread().median);
+    assert_eq!(recommended.spread().median, least.fold(f64::MAX, f64::min));
+    assert_eq!(tuned.ranking()[0].place, place);
+}
+
+#[test]
+fn rows_have_the_counts_of_a_measurement() {
+    let mut search = search("balls:2", Duration::ZERO);
+    search.setup.render.width = 256;
+    search.setup.render.height = 128;
+    let tuned = tuned(search.clone());
+    assert_eq!([tuned.render.width, tuned.render.height], [128, 64]);
+    let scene = scene("balls:2");
+    for row in &tuned.rows {
+        let build = &row.setup.build;
+        let expected = measure(&scene, build, &tuned.render, &Progress::new()).unwrap();
+        for symbol in ["N_RPRT", "N_AT", "N_LS", "N_IN", "M_TREE"] {
+            let of = |measurement| parameter(symbol).value(measurement);
+            let value = of(&row.measurement);
+            assert_eq!(value, of(&expected.measurement), "{symbol} {build:?}");
+        }
+        let rays = expected.measurement.all_rays().unwrap();
+        let tests = rays.tests as f64 / rays.rays as f64;
+        assert_eq!(row.tests_per_ray(), Some(tests));
+        assert_eq!(
+            parameter("T_TR").value(&row.measurement),
+            Some(row.spread().median)
+        );
+        if has_limits(build.method) {
+            assert_eq!(row.nodes(), expected.tree.nodes().len() as u64);
+        }
+    }
+}
+
+#[test]
+fn without_a_budget_every_method_is_timed_once_and_the_rest_is_left_out() {
+    let tuned = tuned(search("tetra:3", Duration::ZERO));
+    let all: Vec<_> = Method::all().map(|m| m.name).collect();
+    assert_eq!(methods(&tuned.rows), all);
+    assert!(tuned.rows.iter().all(|row| row.rounds() == 1));
+    let rounds = LeftOut::Rounds {
+        phase: Phase::Methods,
+        whole: 1,
+    };
+    assert_eq!(tuned.left_out, [rounds, LeftOut::Untried { settings: 38 }]);
+}
+
+#[test]
+fn testing_every_object_is_left_out_of_large_scenes() {
+    let tuned = tuned(search("balls:4", Duration::ZERO));
+    let objects = scene("balls:4").objects().len();
+    assert!(objects > NAIVE_LIMIT);
+    let all = Method::all().map(|m| m.name);
+    let all: Vec<_> = all.filter(|name| *name != "none").collect();
+    assert_eq!(methods(&tuned.rows), all);
+    let method = Method::named("none").unwrap();
+    assert_eq!(tuned.left_out[0], LeftOut::Method { method, objects });
+}
+
+#[test]
+fn trees_beyond_the_memory_limit_are_left_out() {
+    let mut search = search("tetra:6", Duration::ZERO);
+    search.setup.build.memory_limit = 1 << 20;
+    let tuned = tuned(search.clone());
+    let refused: Vec<_> = (tuned.left_out.iter())
+        .filter_map(|left_out| match left_out {
+            LeftOut::Refused { setup, .. } => Some(setup.build.method.name),
+            _ => None,
+        })
+        .collect();
+    assert!(refused.contains(&"midpoint"), "{refused:?}");
+    let mut both = [methods(&tuned.rows), refused].concat();
+    assert!(methods(&tuned.rows).contains(&"none"));
+    both.sort_unstable();
+    let mut all: Vec<_> = Method::all().map(|m| m.name).collect();
+    all.sort_unstable();
+    assert_eq!(both, all);
+
+    search.setup.build.memory_limit = 1 << 10;
+    match found(search).1 {
+        End::Failed(why) => assert!(why.contains("memory limit"), "{why}"),
+        end => panic!("{end:?}"),
+    }
+}
+
+#[test]
+fn a_cancelled_search_leaves_nothing_running_and_keeps_its_rows() {
+    let scheduler = Scheduler::new(|| ());
+    let mut long = search("balls:3", ENOUGH);
+    [long.setup.render.width, long.setup.render.height] = [128, 128];
+    let job = start(&scheduler, long);
+    let mut tried = 0;
+    while tried < 3 {
+        tried += job.receive().partials.len();
+        assert!(job.is_live());
+        std::thread::yield_now();
+    }
+    let jobs = scheduler.jobs();
+    assert_eq!(jobs[0].slot, FindBestTree::SLOT);
+    let stage = &jobs[0].stage;
+    assert!(stage.starts_with("all methods, round "), "{stage}");
+    job.cancel();
+    assert!(scheduler.wait());
+    assert_eq!(scheduler.threads(), 0);
+    assert!(matches!(job.receive().end, Some(End::Cancelled)));
+}
+
+#[test]
+fn a_cancelled_turn_can_be_run_again() {
+    let scene = scene("balls:2");
+    let mut tuning = Tuning::new(&scene, search("balls:2", ENOUGH)).unwrap();
+    let stopped = Progress::new();
+    stopped.cancel();
+    assert!(tuning.turn(&stopped).unwrap_err().is_cancelled());
+    assert_eq!(tuning.rows(), []);
+    let turn = |tuning: &mut Tuning<'_>| tuning.turn(&Progress::new()).unwrap();
+    assert_eq!(turn(&mut tuning), Some(Turn::Timed(0)));
+    assert_eq!(turn(&mut tuning), Some(Turn::Timed(1)));
+    assert_eq!(tuning.upcoming().map(|next| next.round), Some(0));
+    let mut last = 0.0;
+    while let Some(next) = tuning.upcoming() {
+        assert!((0.0..1.0).contains(&next.fraction));
+        last = next.fraction;
+        turn(&mut tuning);
+    }
+    assert!(last > 0.9, "{last}");
+    assert_eq!(turn(&mut tuning), None);
+}
