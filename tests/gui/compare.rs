@@ -95,6 +95,27 @@ fn three_columns_have_the_librarys_figures() {
 }
 
 #[test]
+fn b_begins_with_another_method_and_is_remembered() {
+    let mut start = small(SCENE);
+    let sah_cut = Method::named("sah-cut").unwrap();
+    start.setup.build.set_method(sah_cut);
+    let mut window = open(start);
+    finish(&mut window);
+    press(&mut window, Modifiers::COMMAND, Key::Num3);
+    wait_for(&mut window, "Fair comparison");
+    assert_eq!(methods(&window), ["sah-cut", "midpoint"]);
+    click(&mut window, "Build method of B");
+    click(&mut window, "object-median");
+    finish(&mut window);
+    press(&mut window, Modifiers::COMMAND, Key::Num1);
+    finish(&mut window);
+    assert!(!has(&window, "Build method of B"));
+    press(&mut window, Modifiers::COMMAND, Key::Num3);
+    finish(&mut window);
+    assert_eq!(methods(&window), ["sah-cut", "object-median"]);
+}
+
+#[test]
 fn either_tree_comes_to_the_front_and_the_pixel_stays_picked() {
     let mut window = comparing(false);
     click(&mut window, "Wipe");

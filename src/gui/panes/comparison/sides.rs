@@ -74,8 +74,8 @@ fn method(ui: &mut egui::Ui, doc: &Document, which: Which, setup: &Setup, edits:
             }
         })
         .response
-        .accessible_name(format!("Build method of {}", which.name()))
-        .on_hover_text(method.about);
+        .on_hover_text(method.about)
+        .accessible_name(format!("Build method of {}", which.name()));
 }
 
 /// The settings in which a setup differs from another one, besides the method.
