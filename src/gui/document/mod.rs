@@ -20,6 +20,8 @@ mod stepping;
 pub mod study;
 pub mod tasks;
 mod tiles;
+mod tune;
+pub mod tuning;
 pub mod visits;
 pub mod walk;
 
@@ -42,6 +44,7 @@ use notices::Notices;
 use restoring::Restoring;
 pub use result::Current;
 use std::sync::Arc;
+use tuning::Tuning;
 use walk::Walking;
 
 /// What is wanted, what is shown, and the jobs that lead from one to the other.
@@ -102,6 +105,8 @@ pub struct Document {
     pub pinned: Vec<[u32; 2]>,
     /// What is to be selected again, until it is.
     pub restoring: Option<Restoring>,
+    /// The search for the best tree.
+    pub tuning: Tuning,
     /// What was done, for a moment.
     pub notices: Notices,
 }
@@ -183,6 +188,7 @@ impl Document {
             notes: String::new(),
             pinned: Vec::new(),
             restoring: None,
+            tuning: Tuning::default(),
             notices: Notices::default(),
         }
     }
@@ -431,6 +437,7 @@ impl Document {
     /// Receives what the jobs have sent. Returns the scenes that came into view.
     pub fn receive(&mut self) -> Vec<SceneSource> {
         let mut opened = Vec::new();
+        self.tuning.receive();
         let Some(work) = &mut self.work else {
             return opened;
         };
@@ -605,6 +612,13 @@ impl Document {
     pub fn pick(&mut self, pixel: [u32; 2]) {
         if let Some(current) = &mut self.current {
             current.pick(pixel);
+        }
+    }
+
+    /// Selects a node of the tree on view.
+    pub fn select_node(&mut self, node: Option<u32>) {
+        if let Some(current) = &mut self.current {
+            current.selection.node = node;
         }
     }
 
