@@ -60,11 +60,10 @@ fn comparing(graphics: bool) -> Window<'static> {
 /// The build methods of A and B.
 fn methods(window: &Window<'_>) -> [&'static str; 2] {
     ["A", "B"].map(|side| {
-        let label = format!("Build method of {side}");
-        let list = window.get_by_label(&label);
-        let title = list.accesskit_node().value().expect("a method");
-        let method = Method::all().find(|method| method.name == title);
-        method.expect("a known method").name
+        let name = format!("Build method of {side}");
+        let list = window.get_by_label(&name);
+        let name = list.accesskit_node().value().expect("a method");
+        Method::named(&name).expect("a known method").name
     })
 }
 
@@ -96,11 +95,32 @@ fn three_columns_have_the_librarys_figures() {
 }
 
 #[test]
+fn b_begins_with_another_method_and_is_remembered() {
+    let mut start = small(SCENE);
+    let sah_cut = Method::named("sah-cut").unwrap();
+    start.setup.build.set_method(sah_cut);
+    let mut window = open(start);
+    finish(&mut window);
+    press(&mut window, Modifiers::COMMAND, Key::Num3);
+    wait_for(&mut window, "Fair comparison");
+    assert_eq!(methods(&window), ["sah-cut", "midpoint"]);
+    click(&mut window, "Build method of B");
+    click(&mut window, "object-median");
+    finish(&mut window);
+    press(&mut window, Modifiers::COMMAND, Key::Num1);
+    finish(&mut window);
+    assert!(!has(&window, "Build method of B"));
+    press(&mut window, Modifiers::COMMAND, Key::Num3);
+    finish(&mut window);
+    assert_eq!(methods(&window), ["sah-cut", "object-median"]);
+}
+
+#[test]
 fn either_tree_comes_to_the_front_and_the_pixel_stays_picked() {
     let mut window = comparing(false);
     click(&mut window, "Wipe");
     window.get_by_label("Traced picture").click();
-    click(&mut window, "Rays of a pixel");
+    click(&mut window, "Rays of the pixel");
     wait_for(&mut window, "Pixel 24, 24 (");
     assert!(described(&window).starts_with("balls:1 · sah-cut"));
     press(&mut window, Modifiers::NONE, Key::J);

@@ -60,7 +60,10 @@ fn method(ui: &mut egui::Ui, doc: &Document, which: Which, setup: &Setup, edits:
         .show_ui(ui, |ui| {
             for other in Method::all() {
                 let item = ui.selectable_label(other == method, other.name);
-                let item = item.on_hover_text(format!("{}\nSource: {}", other.about, other.source));
+                let item = item.on_hover_text(format!(
+                    "{}\n{}\nSource: {}",
+                    other.summary, other.about, other.source
+                ));
                 if item.clicked() {
                     edits.add(move |doc| {
                         let behind = doc.other.as_mut().filter(|_| !is_in_front);
@@ -71,8 +74,8 @@ fn method(ui: &mut egui::Ui, doc: &Document, which: Which, setup: &Setup, edits:
             }
         })
         .response
-        .accessible_name(format!("Build method of {}", which.name()))
-        .on_hover_text(method.about);
+        .on_hover_text(method.about)
+        .accessible_name(format!("Build method of {}", which.name()));
 }
 
 /// The settings in which a setup differs from another one, besides the method.

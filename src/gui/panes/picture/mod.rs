@@ -4,6 +4,7 @@
 mod export;
 mod heat;
 mod marks;
+mod parts;
 mod place;
 mod region;
 mod row;
@@ -12,15 +13,17 @@ mod upload;
 
 use crate::gui::action::{Gesture, actions};
 use crate::gui::document::Document;
-use crate::gui::document::comparing::{Verdict, View, Which};
+use crate::gui::document::comparing::{Verdict, View};
 use crate::gui::edits::{Edits, Request};
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::measure::heat::heatmaps;
 use crate::workspace;
-use egui::{Color32, ColorImage, Pos2, Rect, TextureHandle, TextureOptions, Vec2, pos2, vec2};
+use egui::{Color32, ColorImage, Pos2, Rect, TextureHandle, TextureOptions, Vec2, pos2};
 use heat::{HeatView, legend, next_heatmap};
 use marks::PictureMarks;
+use parts::{Part, parts, room_below, size_of};
 use place::Place;
+use row::Row;
 use std::sync::Arc;
 use upload::Uploaded;
 
@@ -36,23 +39,10 @@ pub struct PicturePane {
     flips: bool,
     /// Where a region is being dragged from.
     region_from: Option<Pos2>,
-    /// Since when a picture is being rendered, in seconds.
-    busy_since: Option<f64>,
+    row: Row,
     heat: HeatView,
     marks: PictureMarks,
 }
-
-/// One picture's share of the pane.
-struct Part {
-    which: Which,
-    /// What the picture is fitted into.
-    pane: Rect,
-    /// What is seen of it.
-    clip: Rect,
-}
-
-/// Half the space between two pictures.
-const GAP: f32 = 1.0;
 
 /// How far a key moves the line of the wipe, as a share of the picture's width.
 const WIPE_STEP: f32 = 0.05;
@@ -124,7 +114,8 @@ impl Pane for PicturePane {
         let doc: &Document = cx.doc;
         let verdict = doc.other.as_ref().and_then(|_| doc.verdict(cx.ctx));
         let edits = &mut *cx.edits;
-        row::show(ui, self, doc, verdict.as_deref(), edits);
+        let shown = (&mut self.heat, &mut self.marks);
+        self.row.show(ui, shown, doc, verdict.as_deref(), edits);
         self.heat.update(ui.ctx(), doc);
         let rest = crate::gui::widgets::common::rest_of(ui);
         let room = room_below(rest, doc);
@@ -194,7 +185,7 @@ impl PicturePane {
             }
         }
         let flipped = std::mem::take(&mut self.flips);
-        let parts = self.parts(pane, doc, flipped);
+        let parts = parts(&self.place, pane, doc, flipped);
         self.steer(ui, &response, &parts, doc, edits);
         if let Some(pixel) = self.heat.costly_pixel(doc, ui.ctx())
             && let Some(picture) = size_of(doc, doc.which)
@@ -226,51 +217,6 @@ impl PicturePane {
             ui.ctx().request_repaint();
         }
         response.hover_pos().and_then(under)
-    }
-
-    /// How the pictures share the pane: the one in front alone, or A before B.
-    fn parts(&self, pane: Rect, doc: &Document, flipped: bool) -> Vec<Part> {
-        let alone = |which| {
-            vec![Part {
-                which,
-                pane,
-                clip: pane,
-            }]
-        };
-        if doc.other.is_none() {
-            return alone(doc.which);
-        }
-        let [first, second] = match flipped {
-            false => [Which::A, Which::B],
-            true => [Which::B, Which::A],
-        };
-        match doc.comparing.view {
-            View::Difference => alone(doc.which),
-            View::One if flipped => alone(doc.which.other()),
-            View::One => alone(doc.which),
-            View::Wipe => {
-                let picture = size_of(doc, doc.which);
-                let rect = picture.map_or(pane, |picture| self.place.rect(pane, picture));
-                let x = egui::lerp(rect.x_range(), doc.comparing.split);
-                let (left, right) = pane.split_left_right_at_x(x.clamp(pane.left(), pane.right()));
-                [(first, left), (second, right)]
-                    .map(|(which, clip)| Part { which, pane, clip })
-                    .into()
-            }
-            View::Beside => {
-                let (left, right) = pane.split_left_right_at_fraction(0.5);
-                [(first, left), (second, right)]
-                    .map(|(which, half)| {
-                        let half = half.shrink2(vec2(GAP, 0.0));
-                        Part {
-                            which,
-                            pane: half,
-                            clip: half,
-                        }
-                    })
-                    .into()
-            }
-        }
     }
 
     /// One picture with its heatmap and marks.
@@ -409,24 +355,6 @@ impl PicturePane {
             self.place.zoom_at(pane, picture, pointer, wheel);
         }
     }
-}
-
-/// Returns the size of the picture of a tree in pixels; `None` while there is none.
-fn size_of(doc: &Document, which: Which) -> Option<[u32; 2]> {
-    let picture = &doc.both()[which as usize]?.shown.picture;
-    Some([picture.width, picture.height])
-}
-
-/// Returns the height that is left below a picture that is as wide as its part of the pane.
-fn room_below(pane: Vec2, doc: &Document) -> f32 {
-    let [width, height] = size_of(doc, doc.which).unwrap_or([1, 1]);
-    let beside = doc.other.is_some() && doc.comparing.view == View::Beside;
-    let of_one = if beside {
-        pane.x / 2.0 - 2.0 * GAP
-    } else {
-        pane.x
-    };
-    pane.y - of_one * height as f32 / width as f32
 }
 
 /// Moves the picked pixel by one; without one, the picture's center is picked.

@@ -1,8 +1,8 @@
 //! The row above the picture: what is shown, how two pictures are arranged, the way to the costliest
 //! pixels, and how far the rendering is.
 
-use super::PicturePane;
-use super::heat::menu;
+use super::heat::{HeatView, menu};
+use super::marks::PictureMarks;
 use crate::gui::action::tip;
 use crate::gui::document::Document;
 use crate::gui::document::comparing::{Verdict, View};
@@ -20,42 +20,86 @@ const PATIENCE: f64 = 0.3;
 /// Below this width, in points, the arrangements are a menu.
 const NARROW: f32 = 620.0;
 
-/// Shows the row.
-pub fn show(
-    ui: &mut egui::Ui,
-    pane: &mut PicturePane,
-    doc: &Document,
-    verdict: Option<&Verdict>,
-    edits: &mut Edits,
-) {
-    let size = egui::vec2(ui.available_width(), ROW);
-    let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
-    let layout = egui::Layout::left_to_right(egui::Align::Center);
-    let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(layout));
-    let narrow = rect.width() < NARROW;
-    what(&mut ui, pane, doc, edits);
-    if doc.other.is_some() {
-        if narrow {
-            let title = sentence(doc.comparing.view.name());
-            ui.menu_button(title, |ui| arrangements(ui, doc, edits));
-        } else {
-            arrangements(&mut ui, doc, edits);
+/// What the row keeps from frame to frame.
+#[derive(Default)]
+pub struct Row {
+    /// Since when a picture is being rendered, in seconds.
+    busy_since: Option<f64>,
+}
+
+impl Row {
+    /// Shows the row.
+    pub fn show(
+        &mut self,
+        ui: &mut egui::Ui,
+        (heat, marks): (&mut HeatView, &mut PictureMarks),
+        doc: &Document,
+        verdict: Option<&Verdict>,
+        edits: &mut Edits,
+    ) {
+        let size = egui::vec2(ui.available_width(), ROW);
+        let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+        let layout = egui::Layout::left_to_right(egui::Align::Center);
+        let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(layout));
+        let narrow = rect.width() < NARROW;
+        what(&mut ui, heat, marks, doc, edits);
+        if doc.other.is_some() {
+            if narrow {
+                let title = sentence(doc.comparing.view.name());
+                ui.menu_button(title, |ui| arrangements(ui, doc, edits));
+            } else {
+                arrangements(&mut ui, doc, edits);
+            }
+            view3d(&mut ui, edits);
+            of_view(&mut ui, doc, verdict, edits);
         }
-        view3d(&mut ui, edits);
-        of_view(&mut ui, doc, verdict, edits);
+        let to_the_left = egui::Layout::right_to_left(egui::Align::Center);
+        ui.with_layout(to_the_left, |ui| {
+            self.ring(ui, doc);
+            if doc.heatmap.is_some() {
+                costliest(ui, heat, narrow);
+            }
+            ui.with_layout(layout, |ui| marks.note(ui, doc));
+        });
     }
-    let to_the_left = egui::Layout::right_to_left(egui::Align::Center);
-    ui.with_layout(to_the_left, |ui| {
-        ring(ui, pane, doc);
-        if doc.heatmap.is_some() {
-            costliest(ui, pane, narrow);
+
+    /// How much of the picture is done, once that takes a while. An empty slot before, so that nothing
+    /// moves.
+    fn ring(&mut self, ui: &mut egui::Ui, doc: &Document) {
+        let now = ui.input(|i| i.time);
+        let Some((work, status)) = doc.work.as_ref().and_then(|w| Some((w, w.status()?))) else {
+            self.busy_since = None;
+            ui.add_space(ROW);
+            return;
+        };
+        let since = *self.busy_since.get_or_insert(now);
+        if now - since < PATIENCE {
+            ui.add_space(ROW);
+            let left = since + PATIENCE - now;
+            ui.ctx().request_repaint_after_secs(left as f32);
+            return;
         }
-        ui.with_layout(layout, |ui| pane.marks.note(ui, doc));
-    });
+        let which = match &doc.other {
+            Some(_) => format!(" {}", work.which.name()),
+            None => String::new(),
+        };
+        let percent = status.fraction * 100.0;
+        let about = format!(
+            "Tracing{which}: {}, {percent:.0} %. Esc stops it.",
+            status.stage
+        );
+        progress_ring(ui, status.fraction, &about);
+    }
 }
 
 /// The menu of the picture and its heatmaps.
-fn what(ui: &mut egui::Ui, pane: &mut PicturePane, doc: &Document, edits: &mut Edits) {
+fn what(
+    ui: &mut egui::Ui,
+    heat: &mut HeatView,
+    marks: &mut PictureMarks,
+    doc: &Document,
+    edits: &mut Edits,
+) {
     let config = MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
     let title = format!("{} {}", menu::title(doc), icons::CARET_DOWN);
     let (button, _) = MenuButton::new(title).config(config).ui(ui, |ui| {
@@ -65,11 +109,11 @@ fn what(ui: &mut egui::Ui, pane: &mut PicturePane, doc: &Document, edits: &mut E
             ui.vertical(|ui| {
                 menu::list(ui, doc, edits);
                 ui.separator();
-                pane.marks.outline_switch(ui);
+                marks.outline_switch(ui);
             });
             if doc.heatmap.is_some() {
                 ui.separator();
-                ui.vertical(|ui| pane.heat.options(ui, doc));
+                ui.vertical(|ui| heat.options(ui, doc));
             }
         });
     });
@@ -127,7 +171,7 @@ fn of_view(ui: &mut egui::Ui, doc: &Document, verdict: Option<&Verdict>, edits: 
 }
 
 /// Buttons to the pixels in the order of their values; added from the right.
-fn costliest(ui: &mut egui::Ui, pane: &mut PicturePane, narrow: bool) {
+fn costliest(ui: &mut egui::Ui, heat: &mut HeatView, narrow: bool) {
     for (icon, by, action, name) in [
         (
             icons::NEXT,
@@ -144,7 +188,7 @@ fn costliest(ui: &mut egui::Ui, pane: &mut PicturePane, narrow: bool) {
     ] {
         let about = tip(name, action);
         if ui.add(IconButton::new(icon, name).tip(&about)).clicked() {
-            pane.heat.step_by_cost(by);
+            heat.step_by_cost(by);
         }
     }
     ui.label(if narrow {
@@ -153,32 +197,4 @@ fn costliest(ui: &mut egui::Ui, pane: &mut PicturePane, narrow: bool) {
         "Costliest pixels"
     })
     .on_hover_text("Pixels in the order of the values shown, from the highest.");
-}
-
-/// How much of the picture is done, once that takes a while. An empty slot before, so that nothing
-/// moves.
-fn ring(ui: &mut egui::Ui, pane: &mut PicturePane, doc: &Document) {
-    let now = ui.input(|i| i.time);
-    let Some((work, status)) = doc.work.as_ref().and_then(|w| Some((w, w.status()?))) else {
-        pane.busy_since = None;
-        ui.add_space(ROW);
-        return;
-    };
-    let since = *pane.busy_since.get_or_insert(now);
-    if now - since < PATIENCE {
-        ui.add_space(ROW);
-        let left = (since + PATIENCE - now).max(0.0);
-        ui.ctx().request_repaint_after_secs(left as f32);
-        return;
-    }
-    let which = match &doc.other {
-        Some(_) => format!(" {}", work.which.name()),
-        None => String::new(),
-    };
-    let percent = status.fraction * 100.0;
-    let about = format!(
-        "Tracing{which}: {}, {percent:.0} %. Esc stops it.",
-        status.stage
-    );
-    progress_ring(ui, status.fraction, &about);
 }
