@@ -3,6 +3,7 @@
 pub mod color_text;
 pub mod coloring_bar;
 pub mod common;
+pub mod linear_axis;
 pub mod log_axis;
 pub mod rounded;
 pub mod rows;
