@@ -88,8 +88,9 @@ impl Settings {
         self.coloring = &COLORINGS[(at.unwrap_or(0) + 1) % COLORINGS.len()];
     }
 
-    /// Returns the filter of what is drawn. Filters are about leaves: with one, leaves are drawn rather
-    /// than the cells above them.
+    /// Returns the filter of the boxes that are drawn; those of a ray need none. Filters are about leaves:
+    /// with one, leaves are drawn rather than the cells above them. Without a ray, there are no leaves
+    /// that it visited: cells are drawn as at first.
     pub fn drawn(&self) -> Filter {
         let all = Filter {
             moment: self.filter.moment,
@@ -97,6 +98,7 @@ impl Settings {
         };
         let to_depth = match self.cells {
             Cells::ToDepth(depth) if self.filter == all => Some(depth),
+            Cells::Visited if self.filter == all => Some(FIRST_DEPTH),
             _ => None,
         };
         Filter {
@@ -113,6 +115,8 @@ mod tests {
     #[test]
     fn a_filter_of_leaves_shows_leaves() {
         let mut settings = Settings::default();
+        assert_eq!(settings.drawn().to_depth, Some(FIRST_DEPTH));
+        settings.cells = Cells::Visited;
         assert_eq!(settings.drawn().to_depth, Some(FIRST_DEPTH));
         settings.filter.empty = false;
         assert_eq!(settings.drawn().to_depth, None);
