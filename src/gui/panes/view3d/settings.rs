@@ -18,18 +18,6 @@ pub enum Cells {
     Visited,
 }
 
-impl Cells {
-    /// Returns the name in menus.
-    pub fn title(self) -> String {
-        match self {
-            Cells::None => "none".to_owned(),
-            Cells::ToDepth(depth) => format!("to depth {depth}"),
-            Cells::All => "all".to_owned(),
-            Cells::Visited => "visited".to_owned(),
-        }
-    }
-}
-
 /// What the 3D view shows.
 #[derive(Clone, Copy)]
 pub struct Settings {
@@ -77,6 +65,17 @@ impl Settings {
         };
     }
 
+    /// Returns which cells are shown, in a few words.
+    pub fn cells_in_words(&self) -> String {
+        match (self.cells, self.drawn().to_depth) {
+            (Cells::None, _) => "none".to_owned(),
+            (Cells::ToDepth(_), Some(depth)) => format!("to depth {depth}"),
+            (Cells::ToDepth(_), None) => "filtered".to_owned(),
+            (Cells::All, _) => "all".to_owned(),
+            (Cells::Visited, _) => "visited".to_owned(),
+        }
+    }
+
     pub fn next_visited(&mut self) {
         let visited = &mut self.filter.visited;
         let at = Visited::ALL.iter().position(|v| v == visited);
@@ -118,8 +117,11 @@ mod tests {
         assert_eq!(settings.drawn().to_depth, Some(FIRST_DEPTH));
         settings.cells = Cells::Visited;
         assert_eq!(settings.drawn().to_depth, Some(FIRST_DEPTH));
+        settings.cells = Cells::ToDepth(3);
+        assert_eq!(settings.cells_in_words(), "to depth 3");
         settings.filter.empty = false;
         assert_eq!(settings.drawn().to_depth, None);
+        assert_eq!(settings.cells_in_words(), "filtered");
     }
 
     #[test]
