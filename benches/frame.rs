@@ -34,7 +34,7 @@ fn main() {
             text.starts_with("counting") || text.starts_with("visits:")
         })
     };
-    while window.query_by_label("finished").is_none() || is_counting(&window) {
+    while !window.state().is_finished() || is_counting(&window) {
         window.run_steps(2);
         std::thread::sleep(Duration::from_millis(5));
     }
@@ -80,7 +80,7 @@ fn main() {
     window.drop_at(view.center());
     window.run_steps(2);
 
-    window.get_by_label("Build steps").click();
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::G);
     window.run_steps(6);
     // Near the finished tree, where there is most to make.
     let moments = window

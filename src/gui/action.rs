@@ -97,6 +97,7 @@ fn key_name(key: Key) -> &'static str {
         Key::OpenBracket => "[",
         Key::CloseBracket => "]",
         Key::Escape => "Esc",
+        Key::Questionmark => "?",
         Key::PageUp => "Page up",
         Key::PageDown => "Page down",
         key => key.name(),

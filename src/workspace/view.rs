@@ -286,11 +286,15 @@ pub struct View3dSettings {
     pub greatest_depth: Option<u32>,
     /// Show only leaves that the selected ray visited.
     pub only_visited: bool,
+    /// Depth at which cells stand in for the leaves below; `None` for leaves alone.
+    pub cells_to_depth: Option<u32>,
     /// Show all rays of the selected pixel instead of only the selected one.
     pub all_rays: bool,
     pub orthographic: bool,
     /// The camera of the view; `None` for the camera of the picture.
     pub camera: Option<Camera>,
+    /// Whether moving the view moves the picture's camera.
+    pub same_camera: bool,
     pub cut: CutSettings,
 }
 
@@ -306,9 +310,11 @@ impl Default for View3dSettings {
             least_depth: 0,
             greatest_depth: None,
             only_visited: false,
+            cells_to_depth: None,
             all_rays: true,
             orthographic: false,
             camera: None,
+            same_camera: false,
             cut: CutSettings::default(),
         }
     }

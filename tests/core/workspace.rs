@@ -102,9 +102,11 @@ fn changed() -> Workspace {
             least_depth: 3,
             greatest_depth: Some(9),
             only_visited: true,
+            cells_to_depth: Some(4),
             all_rays: false,
             orthographic: true,
             camera: Some(CAMERA),
+            same_camera: true,
             cut: CutSettings {
                 on: true,
                 axis: Axis::Z,

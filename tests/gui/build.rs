@@ -1,4 +1,4 @@
-//! The build of the tree gone through step by step, and the cut through the 3D view, found by labels.
+//! The build of the tree step by step, and the cut through the 3D view, found by labels.
 
 use crate::harness::{Window, click, finish, grouped, has, open_sized, press, small, wait};
 use bspscope::progress::Progress;
@@ -20,6 +20,11 @@ fn expected() -> (Tree, TreeIndex) {
 fn open<'a>() -> Window<'a> {
     let mut window = open_sized(small("balls:1"), [1600.0, 1100.0], true);
     finish(&mut window);
+    // All leaves, of the finished tree, too.
+    let view = window.get_by_label("3D view of scene and tree").rect();
+    window.hover_at(view.right_top() + egui::vec2(-20.0, 20.0));
+    window.run_steps(2);
+    press(&mut window, Modifiers::NONE, Key::X);
     window
 }
 
@@ -38,8 +43,8 @@ fn check_boxes(window: &mut Window<'_>, tree: &Tree, moment: Moment) {
 fn every_step_of_the_build_shows_the_node_that_is_decided() {
     let (tree, index) = expected();
     let mut window = open();
-    assert!(!has(&window, "Play build"));
-    click(&mut window, "Build steps");
+    press(&mut window, Modifiers::COMMAND, Key::G);
+    window.run_steps(2);
     for node in 0..6 {
         let nodes = grouped(tree.nodes().len());
         let says = match tree.kind(node) {
@@ -59,13 +64,6 @@ fn every_step_of_the_build_shows_the_node_that_is_decided() {
         assert!(has(&window, &says), "{says}");
         assert!(has(&window, &format!("thick box: selected node {node}, ")));
         check_boxes(&mut window, &tree, Moment::Node(node));
-        // What comes later is not in the outline.
-        let row = |w: &Window<'_>, node: u32| w.query_by_label(&format!("node {node}")).is_some();
-        assert!(row(&window, node));
-        assert!(has(&window, "not decided yet"));
-        if let NodeKind::Inner { below, .. } = tree.kind(node) {
-            assert!(!row(&window, below));
-        }
         press(&mut window, Modifiers::ALT, Key::ArrowRight);
     }
     press(&mut window, Modifiers::ALT, Key::ArrowLeft);
@@ -81,8 +79,30 @@ fn every_step_of_the_build_shows_the_node_that_is_decided() {
     check_boxes(&mut window, &tree, Moment::Depth(u32::MAX));
     click(&mut window, "First moment");
     check_boxes(&mut window, &tree, Moment::Node(0));
-    click(&mut window, "Build steps");
+    click(&mut window, "Step through the build");
     check_boxes(&mut window, &tree, Moment::Depth(u32::MAX));
+    assert!(!has(&window, "Play build"));
+}
+
+#[test]
+fn the_outline_has_no_nodes_of_later_steps() {
+    let (tree, _) = expected();
+    let mut window = open();
+    press(&mut window, Modifiers::COMMAND, Key::G);
+    window.run_steps(2);
+    click(&mut window, "Outline");
+    let row = |w: &Window<'_>, node: u32| w.query_by_label(&format!("node {node}")).is_some();
+    let mut inner = 0;
+    for node in 0..6 {
+        wait(&mut window, "the node", |w| row(w, node));
+        assert!(has(&window, "not decided yet"));
+        if let NodeKind::Inner { below, .. } = tree.kind(node) {
+            assert!(!row(&window, below));
+            inner += 1;
+        }
+        press(&mut window, Modifiers::ALT, Key::ArrowRight);
+    }
+    assert!(inner > 0);
 }
 
 #[test]
@@ -90,6 +110,7 @@ fn the_build_goes_on_depth_by_depth_to_the_finished_tree() {
     let (tree, _) = expected();
     let mut window = open();
     press(&mut window, Modifiers::COMMAND, Key::G);
+    window.run_steps(2);
     click(&mut window, "By depth");
     let reached = tree.depth_reached();
     for depth in 0..=reached {
@@ -102,7 +123,7 @@ fn the_build_goes_on_depth_by_depth_to_the_finished_tree() {
     }
     assert!(
         window
-            .get_by_label("Step on")
+            .get_by_label("Step forward")
             .accesskit_node()
             .is_disabled()
     );
@@ -112,7 +133,8 @@ fn the_build_goes_on_depth_by_depth_to_the_finished_tree() {
 fn the_build_plays_to_its_end_and_stops() {
     let (tree, _) = expected();
     let mut window = open();
-    click(&mut window, "Build steps");
+    press(&mut window, Modifiers::COMMAND, Key::G);
+    window.run_steps(2);
     click(&mut window, "By depth");
     click(&mut window, "Play build");
     assert!(has(&window, "Pause build"));
@@ -149,7 +171,11 @@ fn a_cut_hides_one_side_of_the_view() {
     window.key_press(Key::Y);
     window.run_steps(3);
     assert!(has(&window, "cut at y = "));
+    click(&mut window, "More about the 3D view");
     assert!(window.query_by_label("Place of the cut").is_some());
+    click(&mut window, "More about the 3D view");
+    window.hover_at(view.right_top() + egui::vec2(-20.0, 20.0));
+    window.run_steps(2);
     let before = cut_text(&window);
     window.key_press(Key::CloseBracket);
     window.run_steps(3);
@@ -180,7 +206,9 @@ fn the_icicle_shows_the_nodes_of_the_moment() {
     };
     wait(&mut window, "the icicle", |w| drawn(w).is_some());
     assert!(drawn(&window) > Some(3));
-    click(&mut window, "Build steps");
+    press(&mut window, Modifiers::COMMAND, Key::G);
+    window.run_steps(2);
+    click(&mut window, "Icicle");
     assert_eq!(drawn(&window), Some(1));
     press(&mut window, Modifiers::ALT, Key::ArrowRight);
     window.run_steps(2);

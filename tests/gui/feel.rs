@@ -1,9 +1,7 @@
 //! What makes the window good to work with: a layout that is remembered, the command palette, names
 //! for screen readers.
 
-use crate::harness::{
-    Window, click, has, open, open_sized, open_with_graphics, press, small, wait,
-};
+use crate::harness::{Window, has, open, open_sized, open_with_graphics, press, small, wait};
 use bspscope::gui::StartOptions;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{By, NodeT as _, Queryable as _};

@@ -82,9 +82,7 @@ pub fn has(window: &Window<'_>, text: &str) -> bool {
 
 /// Whether what is asked for is on view, with final figures.
 pub fn is_finished(window: &Window<'_>) -> bool {
-    window.query_by_label("finished").is_some()
-        && window.query_all_by_label("complete").count() == 2
-        && !has(window, "previous settings")
+    window.state().is_finished()
         && !has(window, "visits: counted when")
         && !has(window, "counting visits")
 }

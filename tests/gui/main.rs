@@ -4,6 +4,7 @@ mod harness;
 #[path = "../support/mod.rs"]
 mod support;
 
+mod acceptance;
 mod accuracy;
 mod build;
 mod compare;
@@ -21,5 +22,7 @@ mod process;
 mod rays;
 mod settings;
 mod sweep;
+mod theme;
 mod tree;
+mod view3d;
 mod window;

@@ -26,7 +26,7 @@ fn picture_and_3d_view_stand_over_four_figures() {
     assert!(tree.left() > picture.right());
     assert!((picture.width() - tree.width()).abs() < 1.0);
     assert!(picture.width() + tree.width() > 0.97 * all.width());
-    assert!(picture.height() > before.height());
+    assert!(picture.width() > before.width());
     for words in ["tests per hit", "nodes per ray", "leaves", "rendering time"] {
         let rect = window.get_by_label(words).rect();
         assert!(rect.top() > picture.bottom(), "{words} {rect:?}");

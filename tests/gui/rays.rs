@@ -1,4 +1,4 @@
-//! The rays of a picked pixel and the stepping through their walks, found by their labels.
+//! The task *Ray*: the rays of a picked pixel, and the steps of their traversal, found by their labels.
 
 use crate::harness::{SIZE, Window, click, finish, has, open_sized, press, wait};
 use bspscope::progress::Progress;
@@ -32,20 +32,23 @@ fn expected() -> PixelRecord {
 /// A window in which the pixel in the middle is picked.
 fn picked<'a>(graphics: bool) -> Window<'a> {
     // High enough that the lists need not be scrolled to.
-    let mut window = open_sized(start(), [1500.0, 1500.0], graphics);
+    picked_at([1500.0, 1500.0], graphics)
+}
+
+fn picked_at<'a>(size: [f32; 2], graphics: bool) -> Window<'a> {
+    let mut window = open_sized(start(), size, graphics);
     finish(&mut window);
-    assert!(has(&window, "step – of –"));
+    press(&mut window, Modifiers::COMMAND, Key::Num2);
+    assert!(has(&window, "– of –"));
     window.get_by_label("Traced picture").click();
     let rays = expected().rays.len();
-    let text = format!("ray 1 of {rays} of pixel {MIDDLE}, {MIDDLE}: primary ray");
+    let text = format!("Ray 1 of {rays}: primary ray");
     wait(&mut window, "the rays", |w| has(w, &text));
     window
 }
 
 fn at_step(window: &Window<'_>, step: usize, of: usize) -> bool {
-    window
-        .query_by_label(&format!("step {step} of {of}"))
-        .is_some()
+    window.query_by_label(&format!("{step} of {of}")).is_some()
 }
 
 fn is_disabled(window: &Window<'_>, label: &str) -> bool {
@@ -82,7 +85,7 @@ fn picking_shows_every_ray_and_what_they_sum_to() {
             assert!(label.contains(end) || label.contains("polygon"), "{label}");
             press(&mut window, Modifiers::NONE, Key::PageDown);
         }
-        assert!(has(&window, "sums as in the counted pass"));
+        assert!(has(&window, "sums equal those of the counting kernel"));
         for (kind, t) in RayKind::ALL.into_iter().zip(record.tallies()) {
             assert!(has(
                 &window,
@@ -111,7 +114,7 @@ fn grouped(node: u32) -> String {
 }
 
 #[test]
-fn a_shadow_ray_shows_its_own_walk() {
+fn a_shadow_ray_shows_its_own_steps() {
     let mut window = picked(false);
     let record = expected();
     let shadow = record
@@ -126,7 +129,7 @@ fn a_shadow_ray_shows_its_own_walk() {
     let path = &record.rays[shadow].path;
     assert_ne!(path.steps.len(), before);
     assert!(at_step(&window, 1, path.steps.len()));
-    assert!(has(&window, &format!("ray {} of", shadow + 1)));
+    assert!(has(&window, &format!("Ray {} of", shadow + 1)));
     assert!(has(&window, "The shadow ray visits"));
     // Its list has its nodes.
     for (i, step) in path.steps.iter().enumerate().take(5) {
@@ -153,13 +156,13 @@ fn buttons_and_keys_step_to_the_end_and_back() {
             press(&mut window, Modifiers::NONE, Key::Period);
         }
         assert!(at_step(&window, step, n), "step {step}");
-        // The current step is told, and its row is the one that is selected.
+        // The current step is named, and its row is the one that is selected.
         let selected = window
             .query_all_by_label_contains(&format!("Step {step}: "))
             .any(|node| node.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True));
         assert!(selected, "row of step {step}");
-        let waiting = path.pending(step - 1).len();
-        assert!(has(&window, &format!("Stack: {waiting} node")));
+        let pending = path.pending(step - 1).len();
+        assert!(has(&window, &format!("Stack: {pending} node")));
     }
     assert!(is_disabled(&window, "Next") && is_disabled(&window, "Last"));
     press(&mut window, Modifiers::NONE, Key::Period);
@@ -184,18 +187,19 @@ fn leaves_only_passes_over_inner_nodes() {
     let record = expected();
     let path = &record.rays[0].path;
     let (n, leaves) = (path.steps.len(), path.leaves().count());
+    click(&mut window, "Options of the steps");
     click(&mut window, "Leaves only");
     let first = path
         .steps
         .iter()
         .position(|step| matches!(step, Step::Leaf(_)))
         .expect("a leaf");
-    let text = format!("step {} of {n} (leaf 1 of {leaves})", first + 1);
+    let text = format!("{} of {n} (leaf 1 of {leaves})", first + 1);
     assert!(has(&window, &text), "{text}");
     for _ in 1..leaves {
         click(&mut window, "Next");
     }
-    let text = format!("step {n} of {n} (leaf {leaves} of {leaves})");
+    let text = format!("{n} of {n} (leaf {leaves} of {leaves})");
     assert!(has(&window, &text), "{text}");
     assert!(is_disabled(&window, "Next"));
     press(&mut window, Modifiers::NONE, Key::K);
@@ -234,7 +238,114 @@ fn a_pixel_keeps_its_ray_in_another_tree() {
     let rays = expected().rays.len();
     press(&mut window, Modifiers::NONE, Key::PageDown);
     press(&mut window, Modifiers::COMMAND, Key::M);
-    wait(&mut window, "the method", |w| has(w, "balls:1 · sah-cut"));
-    let text = format!("ray 2 of {rays} of pixel {MIDDLE}, {MIDDLE}");
+    window.run_steps(2);
+    finish(&mut window);
+    let text = format!("Ray 2 of {rays}");
     wait(&mut window, "the ray", |w| has(w, &text));
+}
+
+/// The rows of the list of steps that are in view, and which of them is selected.
+fn rows(window: &Window<'_>) -> (usize, Option<egui::Rect>) {
+    let is_row = |node: &egui_kittest::Node<'_>| {
+        let node = node.accesskit_node();
+        node.toggled().is_some()
+            && node.label().is_some_and(|label| {
+                label.starts_with("Step ")
+                    && (label.contains(": leaf") || label.contains(": inner"))
+            })
+    };
+    let rows: Vec<_> = window
+        .query_all_by_label_contains("Step ")
+        .filter(is_row)
+        .collect();
+    let selected = rows
+        .iter()
+        .find(|row| row.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True));
+    (rows.len(), selected.map(|row| row.rect()))
+}
+
+#[test]
+fn the_row_of_the_current_step_is_always_in_view() {
+    for (size, least) in [([1600.0, 1000.0], 6), ([1280.0, 720.0], 4)] {
+        let mut window = picked_at(size, false);
+        let n = expected().rays[0].path.steps.len();
+        assert!(n > least, "{n} steps");
+        let strip = window.get_by_label("Steps along the ray").rect();
+        let picture = window.get_by_label("Traced picture").rect();
+        assert!(strip.left() >= picture.right(), "{strip} beside {picture}");
+        assert!(strip.width() > 0.9 * (size[0] - picture.right()));
+        for step in 1..=n {
+            assert!(at_step(&window, step, n));
+            let (count, selected) = rows(&window);
+            assert!(count >= least, "{count} rows at {size:?}");
+            let selected = selected.expect("the row of the current step");
+            assert!(selected.top() > strip.bottom(), "{selected} below {strip}");
+            // Above the tabs at the bottom.
+            assert!(
+                selected.bottom() <= size[1] - 30.0,
+                "{selected} at {size:?}"
+            );
+            if step < n {
+                click(&mut window, "Next");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_click_on_the_strip_goes_to_the_step() {
+    let mut window = picked(false);
+    let path = &expected().rays[0].path;
+    let n = path.steps.len();
+    let strip = window.get_by_label("Steps along the ray").rect();
+    let at = |window: &mut Window<'_>, x: f32| {
+        let place = egui::pos2(x, strip.center().y - 2.0);
+        window.drag_at(place);
+        window.drop_at(place);
+        window.run_steps(3);
+    };
+    at(&mut window, strip.right() - 12.0);
+    let leaf = |step: &Step| matches!(step, Step::Leaf(_));
+    let last = path.steps.iter().rposition(leaf).expect("a leaf");
+    assert!(at_step(&window, last + 1, n));
+    at(&mut window, strip.left() + 9.0);
+    let first = path.steps.iter().position(leaf).expect("a leaf");
+    assert!(at_step(&window, first + 1, n));
+}
+
+/// What the 3D view shows, without what lies under the pointer.
+fn view(window: &mut Window<'_>) -> image::RgbaImage {
+    window.remove_cursor();
+    window.run_steps(3);
+    let rect = window.get_by_label("3D view of scene and tree").rect();
+    let image = window.render().unwrap();
+    let [left, top] = [rect.left(), rect.top()].map(|at| at as u32);
+    let [width, height] = [rect.width(), rect.height()].map(|length| length as u32);
+    image::imageops::crop_imm(&image, left, top, width, height).to_image()
+}
+
+#[test]
+fn leaving_the_task_restores_the_view_and_nothing_renders_the_picture_again() {
+    let mut window = picked_at([1500.0, 1000.0], true);
+    let beside = view(&mut window);
+    press(&mut window, Modifiers::COMMAND, Key::Num1);
+    let before = view(&mut window);
+    assert!(before != beside);
+    press(&mut window, Modifiers::COMMAND, Key::Num2);
+    window.run_steps(3);
+    assert!(view(&mut window) == beside, "the same ray, the same side");
+    let rect = window.get_by_label("3D view of scene and tree").rect();
+    window.drag_at(rect.center());
+    window.run_steps(2);
+    window.hover_at(rect.center() + egui::vec2(90.0, 20.0));
+    window.run_steps(2);
+    window.drop_at(rect.center() + egui::vec2(90.0, 20.0));
+    window.run_steps(2);
+    assert!(window.state().is_finished(), "orbiting renders nothing");
+    assert!(view(&mut window) != beside);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    window.run_steps(2);
+    assert!(window.query_by_label("Steps along the ray").is_none());
+    assert!(view(&mut window) == before, "camera and settings as before");
+    assert!(window.state().is_finished());
 }

@@ -1,8 +1,7 @@
 //! The window without a window: widgets found by their labels, pictures through a software adapter.
 
 use crate::harness::{
-    PATIENCE, Window, click, finish, has, is_finished, open, open_sized, open_with_graphics, press,
-    small, wait,
+    PATIENCE, Window, click, finish, has, is_finished, open, open_with_graphics, press, small, wait,
 };
 use egui_kittest::SnapshotOptions;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -287,65 +286,6 @@ fn cancelling_stops_and_resuming_finishes() {
 }
 
 #[test]
-fn filters_say_how_many_leaves_are_shown() {
-    let mut window = open_with_graphics(small("balls:1"));
-    finish(&mut window);
-    let leaves = figure(&window, "leaves");
-    assert!(has(&window, &format!("{leaves} of {leaves} leaves shown")));
-    click(&mut window, "Show …");
-    window.get_by_label("Empty (dashed)").click();
-    window.run_steps(3);
-    assert!(!has(&window, &format!("{leaves} of {leaves} leaves shown")));
-    assert!(has(&window, &format!("of {leaves} leaves shown")));
-    window.get_by_label("Full (solid)").click();
-    window.run_steps(3);
-    assert!(has(&window, &format!("0 of {leaves} leaves shown")));
-    window.get_by_label("Leaf boxes").click();
-    window.run_steps(3);
-    assert!(has(&window, "Leaf boxes are not shown"));
-}
-
-#[test]
-fn in_a_small_view_the_legend_is_folded_until_it_is_asked_for() {
-    let mut window = open_sized(small("balls:1"), [1280.0, 720.0], true);
-    finish(&mut window);
-    window.get_by_label("Traced picture").click();
-    wait(&mut window, "the colours", |w| has(w, "Depth (levels"));
-    let unfolded = |w: &Window<'_>| has(w, "leaves shown") && has(w, "Lines of the rays");
-    assert!(!unfolded(&window));
-    click(&mut window, "Unfold the legend");
-    assert!(unfolded(&window));
-    let view = window.get_by_label("3D view of scene and tree").rect();
-    let top = window.get_by_label("Fold the legend").rect();
-    assert!(view.contains_rect(top), "{top} in {view}");
-    // Beside the legend.
-    window.hover_at(view.right_top() + egui::vec2(-4.0, 4.0));
-    window.run_steps(2);
-    press(&mut window, egui::Modifiers::NONE, egui::Key::I);
-    assert!(!unfolded(&window) && has(&window, "Depth (levels"));
-}
-
-#[test]
-fn orbiting_moves_the_linked_pictures_camera() {
-    let mut window = open_with_graphics(small("balls:1"));
-    finish(&mut window);
-    let view = window.get_by_label("3D view of scene and tree").rect();
-    window.drag_at(view.center());
-    window.run_steps(2);
-    window.hover_at(view.center() + egui::vec2(60.0, 10.0));
-    window.run_steps(2);
-    window.drop_at(view.center() + egui::vec2(60.0, 10.0));
-    finish(&mut window);
-    // Only a camera of its own can be given back.
-    let button = window.get_by_label("Scene's own camera");
-    assert!(!button.accesskit_node().is_disabled());
-    button.click();
-    finish(&mut window);
-    let button = window.get_by_label("Scene's own camera");
-    assert!(button.accesskit_node().is_disabled());
-}
-
-#[test]
 fn without_graphics_all_but_the_3d_view_works() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
@@ -369,12 +309,11 @@ fn keys_of_the_3d_view_count_while_the_pointer_is_over_it() {
     assert!(has(&window, "Objects (objects in a leaf)"));
     press(&mut window, egui::Modifiers::NONE, egui::Key::C);
     assert!(has(&window, "Leaves by emptiness"));
-    press(&mut window, egui::Modifiers::NONE, egui::Key::L);
-    assert!(has(&window, "the picture's camera"));
     for key in [egui::Key::Num7, egui::Key::Num5, egui::Key::Home] {
         press(&mut window, egui::Modifiers::NONE, key);
     }
-    // Unlinked, the picture stays as it is.
+    assert!(has(&window, "the picture's camera"));
+    // The view has a camera of its own: the picture stays as it is.
     assert!(is_finished(&window));
     wait(&mut window, "the judge", |w| {
         has(w, "faults") && !has(w, "of the sample")

@@ -3,7 +3,7 @@
 use crate::structure::{Moment, Tree};
 use std::ops::RangeInclusive;
 
-/// The speeds that can be chosen, in steps a second.
+/// The speeds that can be chosen, in steps per second.
 pub const RATES: RangeInclusive<f64> = 0.5..=100_000.0;
 
 /// Which moment of the build is shown.
@@ -15,9 +15,9 @@ pub struct BuildView {
     /// The node that is decided next; as many as there are nodes once all are decided.
     pub node: u32,
     pub depth: u32,
-    /// When the last step was taken while the build plays, in seconds.
+    /// When the last step was taken, in seconds, while the build is played.
     pub playing: Option<f64>,
-    /// Steps a second.
+    /// Steps per second.
     pub rate: f64,
 }
 

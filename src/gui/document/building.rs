@@ -35,13 +35,13 @@ impl Document {
         }
     }
 
-    /// Goes some steps on, or back.
+    /// Goes some steps forward, or back.
     pub fn step_build(&mut self, by: i64) {
         let position = i64::from(self.inspect.build.position()) + by;
         self.go_in_build(position.clamp(0, i64::from(u32::MAX)) as u32);
     }
 
-    /// Lets the build go on by itself from where it is, from the beginning if it is over; or stops.
+    /// Plays the build from where it stands, from the beginning if it is over; or pauses.
     pub fn play_build(&mut self, now: f64) {
         let Some(current) = &self.current else {
             return;
@@ -57,7 +57,7 @@ impl Document {
         }
     }
 
-    /// Takes the steps that are due while the build plays; once a frame.
+    /// Takes the steps that are due while the build is played; once per frame.
     pub fn play_build_on(&mut self, ctx: &egui::Context) {
         let (Some(then), Some(current)) = (self.inspect.build.playing, &self.current) else {
             return;

@@ -43,7 +43,7 @@ impl Default for Comparing {
 pub struct Verdict {
     /// What keeps them from it; nothing if they may.
     pub reasons: Vec<Unequal>,
-    /// The pixels whose colours differ, row by row; none of pictures of different sizes.
+    /// The pixels whose colors differ, row by row; none of pictures of different sizes.
     pub pixels: Vec<u32>,
 }
 

@@ -3,7 +3,7 @@
 use crate::trace::{PixelRecord, RayPath, Step};
 use std::sync::Arc;
 
-/// A pixel whose rays are to be followed.
+/// A pixel whose rays are to be recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wish {
     pub pixel: [u32; 2],
@@ -11,13 +11,13 @@ pub struct Wish {
     pub ray: usize,
 }
 
-/// A pixel whose rays were followed.
+/// A pixel whose rays were recorded.
 pub struct Picked {
     pub pixel: [u32; 2],
     pub record: Arc<PixelRecord>,
     /// The selected ray, by its place in the record.
     pub ray: usize,
-    /// The current step of its walk; 0 where it has none.
+    /// Its current step; 0 where it has none.
     pub step: usize,
 }
 

@@ -6,7 +6,7 @@ use super::walk::{Go, listed, target};
 use crate::trace::Step;
 
 impl Document {
-    /// Follows the rays of the pixel that is wished for, and plays the walk; once a frame.
+    /// Records the rays of a pixel that was picked, and plays their steps; once per frame.
     pub fn follow_rays(&mut self, ctx: &egui::Context) {
         if let Some(current) = &mut self.current {
             self.walking.grant(current, ctx);
@@ -14,12 +14,12 @@ impl Document {
         self.play_on(ctx);
     }
 
-    /// Whether the walk goes on by itself.
+    /// Returns whether steps are played.
     pub fn is_playing(&self) -> bool {
         self.walking.playing.is_some()
     }
 
-    /// Lets the walk go on by itself from where it is, from the beginning if it is over; or stops.
+    /// Plays the steps from the current one, from the first if it is the last; or pauses.
     pub fn play_or_pause(&mut self, now: f64) {
         if self.walking.playing.take().is_some() {
             return;
@@ -32,14 +32,14 @@ impl Document {
         }
     }
 
-    /// Where a move leads; `None` where it leads nowhere.
+    /// Returns where a move leads; `None` where it leads nowhere.
     pub fn step_to(&self, go: Go) -> Option<usize> {
         let picked = self.current.as_ref()?.picked.as_ref()?;
         let listed = listed(picked.path(), self.walking.leaves_only);
         target(&listed, picked.step, go)
     }
 
-    /// Goes there.
+    /// Makes a move.
     pub fn go(&mut self, go: Go) {
         if let (Some(step), Some(current)) = (self.step_to(go), &mut self.current) {
             current.go_to_step(step);
@@ -56,7 +56,7 @@ impl Document {
         }
     }
 
-    /// Passes over inner nodes, or not. The current step is then a leaf: the next one, if any.
+    /// Skips inner nodes, or not. The current step is then a leaf: the next one, if any.
     pub fn set_leaves_only(&mut self, only: bool) {
         self.walking.leaves_only = only;
         let picked = self.current.as_ref().and_then(|c| c.picked.as_ref());

@@ -1,5 +1,4 @@
-//! The picked pixel: its rays, which of them is selected, and the step its walk has been followed
-//! to; by hand or by itself.
+//! The rays of the picked pixel: recorded when a pixel is picked; and how their steps are gone through.
 
 use super::picked::Picked;
 use super::result::Current;
@@ -8,16 +7,16 @@ use crate::trace::{PixelRecord, RayPath, Step, record_pixel_within};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The most steps and tests of a pixel's rays that are kept: some 100 MiB.
+/// The most steps and tests of a pixel's rays that are kept: about 100 MiB.
 const MOST_RECORDED: usize = 1_000_000;
 
-/// How long a frame waits for a record, rather than to show the pixel a frame later.
+/// How long a frame waits for a record, so that most pixels are shown without a delay of a frame.
 const PATIENCE: Duration = Duration::from_millis(2);
 
-/// The speeds that can be chosen, in steps a second.
+/// The speeds that can be chosen, in steps per second.
 pub const RATES: std::ops::RangeInclusive<f64> = 0.5..=60.0;
 
-/// Where to go in a walk.
+/// Where to go among the steps of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Go {
     First,
@@ -26,14 +25,14 @@ pub enum Go {
     Last,
 }
 
-/// How walks are followed.
+/// How the steps of rays are gone through.
 pub struct Walking {
     records: Latest<(u64, [u32; 2]), PixelRecord>,
-    /// When the last step was taken while the walk plays, in seconds; `None` while it does not.
+    /// When the last step was taken, in seconds, while steps are played; `None` while they are not.
     pub playing: Option<f64>,
-    /// Steps a second.
+    /// Steps per second.
     pub rate: f64,
-    /// Inner nodes are passed over.
+    /// Whether inner nodes are skipped.
     pub leaves_only: bool,
 }
 
@@ -49,7 +48,7 @@ impl Default for Walking {
 }
 
 impl Walking {
-    /// Records the rays of the pixel that is wished for, if there is one.
+    /// Records the rays of the pixel that was picked, if there is a new one.
     pub fn grant(&mut self, current: &mut Current, ctx: &egui::Context) {
         let Some(wish) = current.wish else {
             return;
@@ -89,7 +88,7 @@ impl Walking {
     }
 }
 
-/// The steps that are shown, by their places: all or the leaves.
+/// Returns the indices of the steps that are listed: all, or those of leaves.
 pub fn listed(path: &RayPath, leaves_only: bool) -> Vec<usize> {
     let shown = |step: &Step| !leaves_only || matches!(step, Step::Leaf(_));
     let steps = path.steps.iter().enumerate();
@@ -98,7 +97,7 @@ pub fn listed(path: &RayPath, leaves_only: bool) -> Vec<usize> {
         .collect()
 }
 
-/// Where a move leads in a list of steps; `None` where it leads nowhere.
+/// Returns where a move leads in a list of steps; `None` where it leads nowhere.
 pub fn target(listed: &[usize], step: usize, go: Go) -> Option<usize> {
     let to = match go {
         Go::First => listed.first(),

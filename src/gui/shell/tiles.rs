@@ -20,10 +20,18 @@ impl App {
 
     /// Draws the row below.
     pub(super) fn row_below(&mut self, ui: &mut egui::Ui, row: &Column) {
+        // Its panes divide the height among themselves.
+        let frame = egui::Frame::new().fill(ui.visuals().panel_fill);
+        let frame = frame.inner_margin(egui::Margin::symmetric(8, 0));
         egui::Panel::bottom("row below")
             .exact_size(row.size(ui.ctx().content_rect().size()))
             .resizable(false)
-            .show(ui, |ui| self.column(ui, row.panes));
+            .frame(frame)
+            .show(ui, |ui| {
+                for pane in row.panes.iter().filter_map(|id| layout::pane(id)) {
+                    self.pane(ui, pane);
+                }
+            });
     }
 
     /// Draws the tiles of the current task in what is left.
@@ -94,6 +102,10 @@ impl egui_tiles::Behavior<PaneId> for Behavior<'_> {
             }
             self.app.controls(ui, pane);
         }
+    }
+
+    fn tab_bar_color(&self, visuals: &egui::Visuals) -> egui::Color32 {
+        visuals.extreme_bg_color
     }
 
     fn tab_bar_height(&self, _: &egui::Style) -> f32 {

@@ -1,10 +1,10 @@
-//! The look of the window: [`tokens`] are its colors, [`text`] its fonts and text styles, [`style`]
-//! gives both to egui together with sizes and distances, and [`widgets`] are the few widgets that
-//! egui lacks.
+//! The look of the window. [`tokens`] has the colors, [`text`] the fonts and text styles. [`style`]
+//! turns both, with sizes and distances, into the style that egui draws its widgets with. [`widgets`]
+//! adds the few widgets that egui lacks.
 //!
-//! Text that egui draws with `ui.label` has the color [`Tokens::label`], `ui.strong` and the contents
-//! of controls have [`Tokens::text`], and `ui.weak` has [`Tokens::hint`]. Colors of data, such as those
-//! of heatmaps, tree cells and curves, are no part of the theme.
+//! `ui.label` draws text in [`Tokens::label`], `ui.strong` and all controls in [`Tokens::text`], and
+//! `ui.weak` in [`Tokens::hint`]. The theme does not include colors of data, such as those of heatmaps,
+//! cells of the tree and curves.
 
 mod style;
 mod text;
@@ -18,7 +18,7 @@ pub use text::{
 pub use tokens::Tokens;
 pub use widgets::{IconButton, card, chip};
 
-/// Gives the window its fonts and, in both themes, its colors, text styles and distances.
+/// Installs the fonts, and the style of both themes.
 pub fn install(ctx: &egui::Context) {
     ctx.set_fonts(text::fonts());
     for theme in [egui::Theme::Dark, egui::Theme::Light] {

@@ -1,4 +1,4 @@
-//! The theme as egui's style: what color, size and distance each widget has.
+//! The theme as egui's style: color, size and distances of every widget.
 
 use super::text::text_styles;
 use super::tokens::Tokens;
@@ -45,7 +45,7 @@ fn visuals(theme: Theme) -> Visuals {
     Visuals {
         weak_text_color: Some(t.hint),
         widgets: widgets(t),
-        // Its stroke is the text of what is selected and the ring around the field that is typed in.
+        // The stroke is the color of selected text, and the focus ring of text fields.
         selection: Selection {
             bg_fill: t.selected,
             stroke: Stroke::new(2.0, t.text),

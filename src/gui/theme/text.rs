@@ -1,15 +1,15 @@
 //! Fonts and text styles.
 //!
-//! Text is set in Inter, whose subsets in `assets/fonts` have digits of equal width: a changing number
-//! moves nothing. Paths and code are set in Hack. Every family ends with the fonts that come with egui,
-//! for characters that are rare.
+//! Text is set in Inter. Its subsets in `assets/fonts` have digits of equal width, so that a number that
+//! changes moves nothing. Paths and code are set in Hack. The fonts that come with egui supply rare
+//! characters.
 
 use eframe::epaint::text::{FontData, FontDefinitions};
 use egui::{FontFamily, FontId, RichText, TextStyle};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The text style of what can be left unread.
+/// The text style of secondary text and of tables.
 pub const HINT: &str = "hint";
 /// The text style of a lesson's text.
 pub const LESSON: &str = "lesson";
@@ -28,33 +28,33 @@ pub fn semibold() -> FontFamily {
     FontFamily::Name("semibold".into())
 }
 
-/// Text that can be left unread.
+/// Returns secondary text, such as an explanation or a unit.
 pub fn hint(text: impl Into<String>) -> RichText {
     RichText::new(text).text_style(named(HINT)).weak()
 }
 
-/// Emphasized text in the size of its surroundings.
+/// Returns emphasized text in the size of its surroundings.
 pub fn strong(text: impl Into<String>) -> RichText {
     RichText::new(text).family(semibold()).strong()
 }
 
-/// The title of a card, pane or section.
+/// Returns the title of a card, pane or section.
 pub fn heading(text: impl Into<String>) -> RichText {
     RichText::new(text).heading().strong()
 }
 
-/// The text of a lesson.
+/// Returns text of a lesson.
 pub fn lesson(text: impl Into<String>) -> RichText {
     let text = RichText::new(text).text_style(named(LESSON)).strong();
     text.line_height(Some(26.0))
 }
 
-/// The value on a card.
+/// Returns the value on a card.
 pub fn figure(text: impl Into<String>) -> RichText {
     RichText::new(text).text_style(named(FIGURE)).strong()
 }
 
-/// A title that fills a screen.
+/// Returns a title that fills a screen.
 pub fn display(text: impl Into<String>) -> RichText {
     RichText::new(text).text_style(named(DISPLAY)).strong()
 }
@@ -75,7 +75,8 @@ pub(super) fn text_styles() -> BTreeMap<TextStyle, FontId> {
     .into()
 }
 
-/// Returns the fonts: in every family its own, then the icons, then the fonts that come with egui.
+/// Returns the fonts. Every family has its own font, then the icons, then the fonts that come with
+/// egui.
 pub(super) fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
     for (name, data) in [
@@ -107,7 +108,7 @@ pub(super) fn fonts() -> FontDefinitions {
         (FontFamily::Monospace, "Hack", [&monospace, &proportional]),
     ] {
         let mut chain = vec![own.to_owned(), "Phosphor".to_owned()];
-        // The icons come before fonts that have glyphs of their own for the same codes.
+        // Other fonts have glyphs of their own for the codes of some icons.
         for name in rare.into_iter().flatten() {
             if !chain.contains(name) {
                 chain.push(name.clone());

@@ -1,12 +1,12 @@
 //! The colors, by their role.
 //!
-//! The tests below state how well each can be read: contrasts as WCAG 2 defines them.
+//! The tests below check that each can be read, with the contrast ratio of WCAG 2.
 
 use egui::{Color32, Theme};
 
 /// The colors of one theme. Surfaces come first, from the back to the front.
 pub struct Tokens {
-    /// Behind the panels and in the fields that text is entered in.
+    /// Behind the panels, and in text fields.
     pub ground: Color32,
     pub panel: Color32,
     /// Cards, menus, windows and tooltips.
@@ -15,9 +15,9 @@ pub struct Tokens {
     pub control: Color32,
     /// A control under the pointer.
     pub hover: Color32,
-    /// What is selected; only [`Tokens::text`] can be read on it.
+    /// Selected items; text on it must have the color [`Tokens::text`].
     pub selected: Color32,
-    /// Lines that separate.
+    /// Lines between parts of the window.
     pub divider: Color32,
     /// Outlines of controls, and of the widget with the focus.
     pub border: Color32,
@@ -25,7 +25,7 @@ pub struct Tokens {
     pub text: Color32,
     /// The names of values, and sentences.
     pub label: Color32,
-    /// What can be left unread.
+    /// Secondary text, such as explanations and units.
     pub hint: Color32,
     /// Links, the main button, progress.
     pub accent: Color32,

@@ -69,8 +69,8 @@ impl Widget for IconButton<'_> {
             .selected(self.selected)
             .min_size(vec2(ROW, ROW));
         ui.scope(|ui| {
-            // The icon alone is 18 wide: whatever the padding, the button stays square.
-            ui.spacing_mut().button_padding.x = 4.0;
+            // With the padding of text, the button would be higher than a row.
+            ui.spacing_mut().button_padding = vec2(4.0, 2.0);
             ui.add(button)
         })
         .inner

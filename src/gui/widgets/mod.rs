@@ -12,5 +12,6 @@ pub mod scale_bar;
 pub mod setting_widget;
 pub mod step_text;
 pub mod symbol;
+pub mod transport;
 pub mod tree_rows;
 pub mod visits_note;

@@ -2,7 +2,7 @@
 
 use crate::gui::theme;
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Align2, Color32, FontId, Painter, Rect, Sense, TextStyle, pos2, vec2};
+use egui::{Align2, Color32, FontId, Painter, Rect, Sense, pos2, vec2};
 
 /// A column of a [`List`].
 pub struct Column {
@@ -30,11 +30,13 @@ pub struct List<'a> {
     pub selected: Option<usize>,
     /// The most rows in view.
     pub most: usize,
+    /// The height of a row in points.
+    pub row: f32,
 }
 
 impl List<'_> {
-    /// Shows the list; gives the row that was clicked. `mark` paints into a row's first column, in
-    /// the rectangle and with the colour of text that it is given.
+    /// Shows the list; returns the row that was clicked. `mark` paints into a row's first column, in
+    /// the rectangle and with the color of text that it is given.
     pub fn show(
         self,
         ui: &mut egui::Ui,
@@ -43,7 +45,7 @@ impl List<'_> {
     ) -> Option<usize> {
         ui.push_id(self.name, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            let height = ui.text_style_height(&TextStyle::Body) + 2.0;
+            let height = self.row;
             self.header(ui, height);
             self.body(ui, height, row, mark)
         })
@@ -165,7 +167,7 @@ fn text(ui: &egui::Ui, rect: Rect, text: String, color: Color32) {
     ui.painter().galley(at.min, galley, color);
 }
 
-/// A letter on a dark ground: bright colours can be read in both themes.
+/// A letter on a dark ground: bright colors can be read in both themes.
 pub fn chip(painter: &Painter, at: Rect, letter: &str, [r, g, b]: [u8; 3]) {
     painter.rect_filled(at, 3.0, Color32::from_gray(24));
     let font = FontId::monospace(at.height() - 2.0);

@@ -1,4 +1,4 @@
-//! Rays and the steps of their walks in words.
+//! Rays and the steps of their traversal in words.
 
 use crate::primitive::Primitive;
 use crate::scene::Scene;
@@ -60,7 +60,7 @@ pub fn count(n: u32, one: &str, many: &str) -> String {
     )
 }
 
-/// Why the walk took the way it took at an inner node.
+/// Why the traversal visits the children that it visits at an inner node.
 pub fn why(step: &InnerStep) -> String {
     let (axis, plane) = (step.axis.name(), short(step.plane));
     let (near, far) = (grouped(step.near as usize), grouped(step.far as usize));
@@ -76,7 +76,7 @@ pub fn why(step: &InnerStep) -> String {
             "the ray runs along the plane {axis} = {plane}, on its near side: only node {near}"
         ),
         (Children::Far, Some(t)) => format!(
-            "the plane {axis} = {plane} lies at t = {} units, before the interval's begin {}: only \
+            "the plane {axis} = {plane} lies at t = {} units, before the interval's start {}: only \
              the far child, node {far}",
             short(t),
             short(step.t_enter)
@@ -86,12 +86,12 @@ pub fn why(step: &InnerStep) -> String {
         ),
         (Children::Both, Some(t)) => format!(
             "the plane {axis} = {plane} lies at t = {} units, inside the interval {between}: the \
-             near child, node {near}, first; the far child, node {far}, waits",
+             near child, node {near}, first; the far child, node {far}, is pending",
             short(t)
         ),
         (Children::Both, None) => format!(
             "the ray runs inside the plane {axis} = {plane}: both children, node {near} first; \
-             node {far} waits"
+             node {far} is pending"
         ),
     }
 }
@@ -114,9 +114,9 @@ pub fn in_leaf(scene: &Scene, leaf: &LeafStep) -> String {
         })
         .collect();
     let hits = if hits.is_empty() {
-        "nothing new hit".to_owned()
+        "no closer hit".to_owned()
     } else {
-        format!("hit {}", hits.join(", then nearer "))
+        format!("hit {}", hits.join(", then closer "))
     };
     format!(
         "{}, {}: {hits}; {}",
@@ -137,7 +137,7 @@ pub fn test(scene: &Scene, kind: RayKind, test: &TestStep) -> String {
         Some(t) if kind == RayKind::Shadow => {
             format!("{object}: hit at t = {} units, before the light", short(t))
         }
-        Some(t) => format!("{object}: hit at t = {} units, nearest so far", short(t)),
+        Some(t) => format!("{object}: hit at t = {} units, closest so far", short(t)),
         None => format!("{object}: miss"),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Coloring, Leaf, Ranges, in_ranges, ranges_need_visits};
 use crate::geometry::Vec3;
-use crate::structure::{Moment, Tree};
+use crate::structure::{CellOfNode, Moment, NodeKind, Tree};
 use crate::trace::Visits;
 use serde::{Deserialize, Serialize};
 
@@ -52,6 +52,9 @@ pub struct Filter {
     pub visited: Visited,
     /// The step of the build to show; `None` for the finished tree.
     pub moment: Option<Moment>,
+    /// Of a finished tree, the depth at which cells stand in for the leaves below; `None` for leaves
+    /// alone.
+    pub to_depth: Option<u32>,
     /// Ranges of the histograms.
     pub ranges: Ranges,
 }
@@ -65,6 +68,7 @@ impl Default for Filter {
             full: true,
             visited: Visited::default(),
             moment: None,
+            to_depth: None,
             ranges: Ranges::default(),
         }
     }
@@ -113,6 +117,8 @@ pub struct LeafBoxes {
     pub leaves: usize,
     /// Number of boxes of undecided cells.
     pub undecided: usize,
+    /// Number of boxes of cells that stand in for the leaves below.
+    pub coarse: usize,
     /// Least and greatest value of the legend.
     pub range: [f64; 2],
 }
@@ -122,7 +128,7 @@ pub struct LeafBoxes {
 /// Boxes are relative to `center`, which keeps them precise in `f32`. The legend spans all leaves
 /// of the tree, so a filter changes no color. A filter or coloring by visits needs `visits`;
 /// without them, no leaf passes or has a color. At a step of the build, undecided cells are
-/// filtered by depth only.
+/// filtered by depth only. A cell that stands in for the leaves below has the sum of their references.
 pub fn leaf_boxes(
     tree: &Tree,
     filter: &Filter,
@@ -141,7 +147,9 @@ pub fn leaf_boxes(
     };
     boxes.leaves = leaves().count();
     // At the greatest depth, the tree is finished.
-    let moment = filter.moment.unwrap_or(Moment::Depth(u32::MAX));
+    let to_depth = filter.to_depth.filter(|_| filter.moment.is_none());
+    let end = Moment::Depth(to_depth.unwrap_or(u32::MAX));
+    let moment = filter.moment.unwrap_or(end);
     for (cell, decided) in tree.cells_at(moment) {
         let mut add = |[r, g, b]: [u8; 3], edges: u8| {
             boxes.instances.push(Instance {
@@ -151,14 +159,20 @@ pub fn leaf_boxes(
             });
         };
         let [lowest, highest] = filter.depth;
-        if !decided {
+        if !decided && to_depth.is_none() {
             if (lowest..=highest).contains(&cell.depth) {
                 add(UNDECIDED_COLOR, 128);
                 boxes.undecided += 1;
             }
             continue;
         }
-        if let Some(leaf) = Leaf::of(tree, &cell, visits)
+        let leaf = if decided {
+            Leaf::of(tree, &cell, visits)
+        } else {
+            boxes.coarse += 1;
+            Some(below(tree, &cell, visits))
+        };
+        if let Some(leaf) = leaf
             && let Some(value) = coloring.value(&leaf)
             && filter.passes(&leaf)
         {
@@ -167,6 +181,24 @@ pub fn leaf_boxes(
         }
     }
     boxes
+}
+
+/// Returns the cell of an inner node as if it were a leaf.
+fn below(tree: &Tree, cell: &CellOfNode, visits: Option<&Visits>) -> Leaf {
+    let mut objects = 0;
+    let mut nodes = vec![cell.node];
+    while let Some(node) = nodes.pop() {
+        match tree.kind(node) {
+            NodeKind::Leaf { count, .. } => objects += count,
+            NodeKind::Inner { below, above, .. } => nodes.extend([below, above]),
+        }
+    }
+    Leaf {
+        depth: cell.depth,
+        objects,
+        volume: cell.bounds.volume(),
+        visits: visits.map(|visits| visits.by_node[cell.node as usize]),
+    }
 }
 
 #[cfg(test)]
@@ -211,6 +243,36 @@ mod tests {
         assert!(only(Visited::Yes).passes(&visited) && !only(Visited::Yes).passes(&unvisited));
         assert!(!only(Visited::Never).passes(&visited) && only(Visited::Never).passes(&unvisited));
         assert!(!only(Visited::Yes).passes(&full) && !only(Visited::Never).passes(&full));
+    }
+
+    #[test]
+    fn cells_at_a_depth_fill_the_root_cell_and_none_is_undecided() {
+        use crate::progress::Progress;
+        use crate::scene::{SceneRequest, load};
+        use crate::structure::{BuildSettings, build};
+        let progress = Progress::new();
+        let scene = load(&SceneRequest::parse("balls:2"), &progress).unwrap();
+        let tree = build(&scene, &BuildSettings::default(), &progress).unwrap();
+        assert!(tree.depth_reached() > 6);
+        let filter = Filter {
+            to_depth: Some(6),
+            ..Filter::default()
+        };
+        let depth = coloring("depth").unwrap();
+        let boxes = leaf_boxes(&tree, &filter, depth, None, Vec3::ZERO);
+        assert!(boxes.coarse > 0 && boxes.instances.len() <= 64);
+        assert_eq!(boxes.undecided, 0);
+        assert!(boxes.instances.iter().all(|cell| cell.color[3] != 128));
+        let volume: f64 = boxes
+            .instances
+            .iter()
+            .map(|cell| {
+                let sides = (0..3).map(|k| f64::from(cell.hi[k] - cell.lo[k]));
+                sides.product::<f64>()
+            })
+            .sum();
+        let root = tree.root_cell().volume();
+        assert!((volume - root).abs() < 1e-4 * root, "{volume} of {root}");
     }
 
     #[test]

@@ -24,6 +24,6 @@ pub use legend::{Captions, HeatPicture, with_legend};
 pub use lines::{BOX_EDGES, Line, box_lines, frustum_lines, order_color};
 pub use rays::{RayStyle, RaysShown, ray_lines, ray_style};
 pub use selection::{
-    CELL_COLOR, FaceCorner, PLANE_COLOR, REFERRING_COLOR, cell_faces, cell_lines, leaves_along,
+    CELL_COLOR, FaceCorner, PLANE_COLOR, REFERRING_COLOR, cell_faces, cell_lines, cells_along,
 };
 pub use walk::{INTERVAL, WAITING, step_lines, visited_lines};

@@ -60,22 +60,37 @@ impl RaysShown {
     pub const MOST: usize = 1000;
 }
 
+/// Width of the selected ray and of the others, in points.
+const WIDTHS: [f32; 2] = [6.0, 1.5];
+
+/// Width of the outline on either side of the selected ray, in points.
+const OUTLINE: f32 = 1.5;
+
+/// Color of the outline: dark, so that the ray stands out from bright objects.
+const OUTLINE_COLOR: [u8; 4] = [12, 14, 18, 255];
+
 /// The most repetitions of the dash pattern along one ray.
 const MOST_STROKES: f64 = 80.0;
 
-/// Returns the rays of a pixel as lines, the selected ray last. A cross marks a hit. A star marks a
-/// light that the ray reaches.
+/// Returns the rays of a pixel as lines, the selected ray last, thick and outlined. A cross marks a hit. A
+/// star marks a light that the ray reaches.
 pub fn ray_lines(record: &PixelRecord, shown: &RaysShown, center: Vec3) -> Vec<Line> {
     let mut lines = Vec::new();
     let others = (0..record.rays.len().min(RaysShown::MOST))
         .filter(|&place| shown.others && place != shown.selected);
-    for (place, width) in others
-        .map(|place| (place, 1.5))
-        .chain([(shown.selected, 4.0)])
-    {
-        if let Some(ray) = record.rays.get(place) {
-            one_ray(&ray.path, shown, width, center, &mut lines);
-        }
+    let [thick, thin] = WIDTHS;
+    for place in others {
+        one_ray(&record.rays[place].path, shown, thin, center, &mut lines);
+    }
+    if let Some(ray) = record.rays.get(shown.selected) {
+        let mut selected = Vec::new();
+        one_ray(&ray.path, shown, thick, center, &mut selected);
+        lines.extend(selected.iter().map(|line| Line {
+            color: OUTLINE_COLOR,
+            width: line.width + 2.0 * OUTLINE,
+            ..*line
+        }));
+        lines.extend(selected);
     }
     lines
 }

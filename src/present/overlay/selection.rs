@@ -3,7 +3,7 @@
 
 use super::lines::{Line, box_lines};
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
-use crate::structure::{CellOfNode, NodeKind, Tree};
+use crate::structure::{CellOfNode, Tree};
 
 /// A vertex of a translucent triangle, relative to a center.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -75,19 +75,19 @@ fn quad(cell: &Aabb, axis: Axis, at: f64) -> [Vec3; 4] {
     })
 }
 
-/// Returns the leaves that a ray passes through, nearest first. Objects do not stop the ray. The
-/// leaf in which the ray starts is not included.
-pub fn leaves_along(tree: &Tree, ray: &Ray) -> Vec<CellOfNode> {
+/// Returns the leaves that a ray passes through, nearest first; below a depth, the cells at that depth.
+/// Objects do not stop the ray. The cell in which the ray starts is not included.
+pub fn cells_along(tree: &Tree, ray: &Ray, depth: u32) -> Vec<CellOfNode> {
     let mut found: Vec<(f64, CellOfNode)> = Vec::new();
     let mut stack = vec![tree.root()];
     while let Some(cell) = stack.pop() {
         let Some(enter) = entry(&cell.bounds, ray) else {
             continue;
         };
-        if let Some(children) = tree.children(&cell) {
-            stack.extend(children);
-        } else if enter > ray.t_min && matches!(tree.kind(cell.node), NodeKind::Leaf { .. }) {
-            found.push((enter, cell));
+        match tree.children(&cell) {
+            Some(children) if cell.depth < depth => stack.extend(children),
+            _ if enter > ray.t_min => found.push((enter, cell)),
+            _ => {}
         }
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -129,14 +129,14 @@ mod tests {
         let root = tree.root_cell();
         let direction = Vec3::new(0.31, 0.84, -0.05).normalize();
         let ray = Ray::new(root.center() - direction * root.size().length(), direction);
-        let leaves = leaves_along(&tree, &ray);
+        let leaves = cells_along(&tree, &ray, u32::MAX);
         assert!(leaves.len() > 2);
         for pair in leaves.windows(2) {
             let gap = pair[0].bounds.intersection(&pair[1].bounds);
             assert!(gap.lo.cmple(gap.hi + 1e-9).all());
         }
         let away = Ray::new(ray.origin, -direction);
-        assert!(leaves_along(&tree, &away).is_empty());
+        assert!(cells_along(&tree, &away, u32::MAX).is_empty());
     }
 
     #[test]

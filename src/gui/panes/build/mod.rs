@@ -1,12 +1,13 @@
-//! The bar that goes through the build of the tree, and says what the current step does.
+//! The build of the tree, step by step: buttons, and a sentence about the current step.
 
 use crate::gui::action::{actions, tip};
 use crate::gui::document::Document;
 use crate::gui::document::RATES;
-use crate::gui::edits::Request;
+use crate::gui::edits::{Edits, Request};
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::name_widget;
 use crate::gui::widgets::symbol::grouped;
+use crate::gui::widgets::transport::{self, Button, Transport};
 use crate::structure::{Moment, NodeKind};
 
 /// The build of the tree on view.
@@ -20,61 +21,68 @@ impl Pane for BuildPane {
     const REVEALS: &'static [Fact] = &[Fact::Tree];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "build.show" Everywhere COMMAND [G] "Show the build of the tree step by step, or the finished tree" => |_, cx| {
-            cx.doc.toggle_build();
-            if cx.doc.inspect.build.on {
+            if !cx.doc.inspect.build.on {
                 cx.edits.request(Request::Show(Self::ID));
             }
+            cx.edits.add(Document::toggle_build);
         };
-        "build.first" Everywhere ALT [Home] "Go to the first moment of the build" => |_, cx| cx.doc.go_in_build(0);
-        "build.previous" Everywhere ALT [ArrowLeft] "Go one step of the build back" => |_, cx| cx.doc.step_build(-1);
-        "build.next" Everywhere ALT [ArrowRight] "Go one step of the build forward" => |_, cx| cx.doc.step_build(1);
-        "build.last" Everywhere ALT [End] "Go to the finished tree" => |_, cx| cx.doc.go_in_build(u32::MAX);
-        "build.play" Everywhere ALT [P] "Play the build, or pause" => |_, cx| cx.doc.play_build(cx.ctx.input(|i| i.time));
-        "build.by-node" Everywhere ALT [N] "Step through the build by nodes or by depths" => |_, cx| cx.doc.set_build_by_node(!cx.doc.inspect.build.by_node);
+        "build.first" Everywhere ALT [Home] "Go to the first moment of the build" => |_, cx| cx.edits.add(|doc| doc.go_in_build(0));
+        "build.previous" Everywhere ALT [ArrowLeft] "Go one step of the build back" => |_, cx| cx.edits.add(|doc| doc.step_build(-1));
+        "build.next" Everywhere ALT [ArrowRight] "Go one step of the build forward" => |_, cx| cx.edits.add(|doc| doc.step_build(1));
+        "build.last" Everywhere ALT [End] "Go to the finished tree" => |_, cx| cx.edits.add(|doc| doc.go_in_build(u32::MAX));
+        "build.play" Everywhere ALT [P] "Play the build, or pause" => |_, cx| {
+            let now = cx.ctx.input(|i| i.time);
+            cx.edits.add(move |doc| doc.play_build(now));
+        };
+        "build.by-node" Everywhere ALT [N] "Step through the build by nodes or by depths" => |_, cx| cx.edits.add(|doc| doc.set_build_by_node(!doc.inspect.build.by_node));
     };
 
     fn update(&mut self, cx: &mut Cx<'_>) {
-        cx.doc.play_build_on(cx.ctx);
+        if cx.doc.inspect.build.is_playing() {
+            let ctx = cx.ctx.clone();
+            cx.edits.add(move |doc| doc.play_build_on(&ctx));
+        }
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        ui.horizontal_wrapped(|ui| {
-            let doc = &mut *cx.doc;
+        let doc: &Document = cx.doc;
+        ui.horizontal(|ui| {
+            ui.set_min_height(transport::HEIGHT);
             let mut on = doc.inspect.build.on;
-            ui.checkbox(&mut on, "Build steps").on_hover_text(tip(
+            let check = ui.checkbox(&mut on, "Step through the build").on_hover_text(tip(
                 "Show the tree as it stood at a moment of its build, in 3D, outline and icicle.",
                 "build.show",
             ));
-            if on != doc.inspect.build.on {
-                doc.toggle_build();
+            if check.changed() {
+                cx.edits.add(Document::toggle_build);
             }
-            if !doc.inspect.build.on || doc.current.is_none() {
+            let Some(current) = &doc.current else {
+                return;
+            };
+            let build = &doc.inspect.build;
+            if !build.on {
                 return;
             }
-            by(ui, doc);
-            ui.separator();
-            moves(ui, cx);
-            let doc = &mut *cx.doc;
-            slider(ui, doc);
-            let speed = egui::DragValue::new(&mut doc.inspect.build.rate)
-                .range(RATES)
-                .speed(0.5)
-                .max_decimals(1)
-                .suffix(" steps/s");
-            let speed = ui
-                .add(speed)
-                .on_hover_text("How fast the build plays, in steps per second.");
-            name_widget(ui, &speed, "Speed of the build");
-            ui.separator();
+            by(ui, doc, cx.edits);
+            let (at, last) = (build.position(), build.last(&current.shown.tree));
+            ui.scope(|ui| {
+                if let Some(action) = moves(build.is_playing(), at, last).show(ui) {
+                    cx.edits.request(Request::Run(action));
+                }
+            });
+            slider(ui, at, last, cx.edits);
+            speed(ui, build.rate, cx.edits);
+        });
+        if doc.inspect.build.on {
             let text = sentence(doc, ui.ctx());
             ui.add(egui::Label::new(&text).truncate())
                 .on_hover_text(&text);
-        });
+        }
     }
 }
 
 /// By nodes or by depths.
-fn by(ui: &mut egui::Ui, doc: &mut Document) {
+fn by(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
     for (by_node, name, about) in [
         (
             true,
@@ -87,71 +95,55 @@ fn by(ui: &mut egui::Ui, doc: &mut Document) {
             "Depth by depth, as if all cells of a level had been split together.",
         ),
     ] {
-        let chosen = doc.inspect.build.by_node == by_node;
-        let label = ui.selectable_label(chosen, name);
-        if label.on_hover_text(tip(about, "build.by-node")).clicked() && !chosen {
-            doc.set_build_by_node(by_node);
+        let is_chosen = doc.inspect.build.by_node == by_node;
+        let label = ui.selectable_label(is_chosen, name);
+        if label.on_hover_text(tip(about, "build.by-node")).clicked() && !is_chosen {
+            edits.add(move |doc| doc.set_build_by_node(by_node));
         }
     }
 }
 
-fn moves(ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-    let doc = &*cx.doc;
-    let Some(current) = &doc.current else {
-        return;
-    };
-    let build = &doc.inspect.build;
-    let (at, last) = (build.position(), build.last(&current.shown.tree));
-    let play = if build.is_playing() {
-        "Pause build"
-    } else {
-        "Play build"
-    };
-    for (name, about, enabled, action) in [
-        (
-            "First moment",
-            "Back to the root cell alone.",
-            at > 0,
-            "build.first",
-        ),
-        (
-            "Step back",
-            "One step of the build back.",
-            at > 0,
-            "build.previous",
-        ),
-        (
-            "Step on",
-            "One step of the build on.",
-            at < last,
-            "build.next",
-        ),
-        (
-            "Last moment",
-            "On to the finished tree.",
-            at < last,
-            "build.last",
-        ),
-        (
-            play,
-            "Let the build go on by itself, or stop it.",
-            last > 0,
-            "build.play",
-        ),
-    ] {
-        let button = ui.add_enabled(enabled, egui::Button::new(name));
-        if button.on_hover_text(tip(about, action)).clicked() {
-            cx.edits.request(Request::Run(action));
-        }
+fn moves(is_playing: bool, at: u32, last: u32) -> Transport {
+    Transport {
+        first: Button {
+            name: "First moment",
+            about: "Go back to the root cell alone.",
+            action: "build.first",
+            enabled: at > 0,
+        },
+        previous: Button {
+            name: "Step back",
+            about: "Go one step of the build back.",
+            action: "build.previous",
+            enabled: at > 0,
+        },
+        play: Button {
+            name: if is_playing {
+                "Pause build"
+            } else {
+                "Play build"
+            },
+            about: "Play the build, or pause.",
+            action: "build.play",
+            enabled: last > 0,
+        },
+        next: Button {
+            name: "Step forward",
+            about: "Go one step of the build forward.",
+            action: "build.next",
+            enabled: at < last,
+        },
+        last: Button {
+            name: "Last moment",
+            about: "Go to the finished tree.",
+            action: "build.last",
+            enabled: at < last,
+        },
+        is_playing,
     }
 }
 
-fn slider(ui: &mut egui::Ui, doc: &mut Document) {
-    let Some(current) = &doc.current else {
-        return;
-    };
-    let build = &doc.inspect.build;
-    let (at, last) = (build.position(), build.last(&current.shown.tree));
+fn slider(ui: &mut egui::Ui, at: u32, last: u32, edits: &mut Edits) {
     let mut to = at;
     ui.spacing_mut().slider_width = 200.0;
     let slider = egui::Slider::new(&mut to, 0..=last.max(1)).show_value(false);
@@ -160,12 +152,26 @@ fn slider(ui: &mut egui::Ui, doc: &mut Document) {
         .on_hover_text("Drag through the build.");
     name_widget(ui, &slider, "Moment of the build");
     if to != at {
-        doc.go_in_build(to);
+        edits.add(move |doc| doc.go_in_build(to));
+    }
+}
+
+fn speed(ui: &mut egui::Ui, rate: f64, edits: &mut Edits) {
+    let mut new = rate;
+    let speed = egui::DragValue::new(&mut new)
+        .range(RATES)
+        .speed(0.5)
+        .max_decimals(1)
+        .suffix(" steps per second");
+    let speed = ui.add(speed).on_hover_text("How fast the build is played.");
+    name_widget(ui, &speed, "Speed of the build");
+    if new != rate {
+        edits.add(move |doc| doc.inspect.build.rate = new);
     }
 }
 
 /// Where the build stands, and what happens next.
-fn sentence(doc: &mut Document, ctx: &egui::Context) -> String {
+fn sentence(doc: &Document, ctx: &egui::Context) -> String {
     let (Some(current), Some(moment)) = (&doc.current, doc.inspect.build.moment()) else {
         return String::new();
     };

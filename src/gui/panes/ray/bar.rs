@@ -1,145 +1,210 @@
-//! The bar that steps through the walk of the selected ray, and says what the current step does.
+//! The row of buttons that go through the steps, and the sentence about the current step.
 
-use crate::gui::action::tip;
+use super::details;
+use crate::gui::action::{shortcut, tip};
 use crate::gui::document::Document;
 use crate::gui::document::walk::{Go, RATES, listed};
+use crate::gui::edits::{Edits, Request};
+use crate::gui::icons;
+use crate::gui::theme::ROW;
 use crate::gui::widgets::step_text;
+use crate::gui::widgets::transport::{self, Button, Transport};
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{Align, Label, Layout, PopupCloseBehavior, Ui, vec2};
 
-/// Shows the bar; it is always there, so that nothing moves when a pixel is picked.
-pub fn show(ui: &mut egui::Ui, doc: &mut Document) {
-    ui.horizontal_wrapped(|ui| {
-        moves(ui, doc);
-        scrubber(ui, doc);
-        ui.separator();
-        ui.add(
-            egui::DragValue::new(&mut doc.walking.rate)
-                .range(RATES)
-                .speed(0.1)
-                .max_decimals(1)
-                .suffix(" steps/s"),
-        )
-        .accessible_name("Speed")
-        .on_hover_text("How fast the walk plays, in steps a second.");
-        let mut only = doc.walking.leaves_only;
-        ui.checkbox(&mut only, "Leaves only")
-            .on_hover_text(tip("Pass over inner nodes.", "ray.leaves-only"));
-        if only != doc.walking.leaves_only {
-            doc.set_leaves_only(only);
+/// The room for the number of the step, in points.
+const NUMBER: f32 = 120.0;
+/// The same where leaves are counted, too.
+const NUMBER_AND_LEAF: f32 = 190.0;
+/// The width of the list of rays, in points.
+const RAYS: f32 = 290.0;
+
+/// Shows the buttons; they are always there, so that nothing moves when a pixel is picked. `offers_details`
+/// where the details of the step are not beside the list.
+pub fn buttons(ui: &mut Ui, doc: &Document, edits: &mut Edits, offers_details: bool) {
+    let size = vec2(ui.available_width(), transport::HEIGHT);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+        ui.set_min_size(size);
+        if let Some(action) = moves(doc).show(ui) {
+            edits.request(Request::Run(action));
         }
-        ui.separator();
-        ui.add(egui::Label::new(ray_text(doc)).truncate());
+        ui.spacing_mut().item_spacing.x = 8.0;
+        number(ui, doc);
+        rays(ui, doc, edits);
+        options(ui, doc, edits);
+        if offers_details {
+            let button = MenuButton::new("Details").config(stays_open());
+            button.ui(ui, |ui| {
+                ui.set_width(380.0);
+                details::show(ui, doc, 220.0);
+            });
+        }
     });
-    let text = sentence(doc);
-    ui.add(egui::Label::new(text.as_str()).truncate())
-        .on_hover_text(text);
 }
 
-fn moves(ui: &mut egui::Ui, doc: &mut Document) {
-    let playing = doc.is_playing();
-    let mut button = |ui: &mut egui::Ui, name, about, go, action| {
-        let enabled = doc.step_to(go).is_some();
-        let button = egui::Button::new(name);
-        if ui
-            .add_enabled(enabled, button)
-            .on_hover_text(tip(about, action))
-            .clicked()
-        {
-            doc.go(go);
-        }
-    };
-    let first = "Back to the first step of the walk.";
-    button(ui, "First", first, Go::First, "ray.first-step");
-    let previous = "One step back.";
-    button(ui, "Previous", previous, Go::Previous, "ray.previous-step");
-    button(ui, "Next", "One step on.", Go::Next, "ray.next-step");
-    button(
-        ui,
-        "Last",
-        "On to the last step.",
-        Go::Last,
-        "ray.last-step",
-    );
-    let can_play = playing || doc.step_to(Go::Next).or(doc.step_to(Go::First)).is_some();
-    let name = if playing { "Pause" } else { "Play" };
-    // Both names take the same room.
-    let button = egui::Button::new(name).min_size(egui::vec2(52.0, 0.0));
-    let about = "Let the walk go on by itself, or stop it.";
-    if ui
-        .add_enabled(can_play, button)
-        .on_hover_text(tip(about, "ray.play"))
-        .clicked()
-    {
-        doc.play_or_pause(ui.input(|i| i.time));
+fn stays_open() -> MenuConfig {
+    MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+}
+
+fn moves(doc: &Document) -> Transport {
+    let leads = |go| doc.step_to(go).is_some();
+    let is_playing = doc.is_playing();
+    Transport {
+        first: Button {
+            name: "First",
+            about: "Go back to the first step of the ray.",
+            action: "ray.first-step",
+            enabled: leads(Go::First),
+        },
+        previous: Button {
+            name: "Previous",
+            about: "Go one step back.",
+            action: "ray.previous-step",
+            enabled: leads(Go::Previous),
+        },
+        play: Button {
+            name: if is_playing { "Pause" } else { "Play" },
+            about: "Play the steps, or pause.",
+            action: "ray.play",
+            enabled: is_playing || leads(Go::Next) || leads(Go::First),
+        },
+        next: Button {
+            name: "Next",
+            about: "Go one step forward.",
+            action: "ray.next-step",
+            enabled: leads(Go::Next),
+        },
+        last: Button {
+            name: "Last",
+            about: "Go to the last step.",
+            action: "ray.last-step",
+            enabled: leads(Go::Last),
+        },
+        is_playing,
     }
 }
 
-fn scrubber(ui: &mut egui::Ui, doc: &mut Document) {
-    const WIDTH: f32 = 150.0;
+/// The number of the step, in a place whose width does not depend on it.
+fn number(ui: &mut Ui, doc: &Document) {
     let picked = doc.current.as_ref().and_then(|c| c.picked.as_ref());
-    let listed = picked.map_or_else(Vec::new, |p| listed(p.path(), doc.walking.leaves_only));
-    let step = picked.map_or(0, |p| p.step);
+    let leaves_only = doc.walking.leaves_only;
     let all = picked.map_or(0, |p| p.path().steps.len());
-    let at = listed.partition_point(|&i| i < step);
-    let mut place = at + 1;
-    ui.spacing_mut().slider_width = WIDTH;
-    let slider = egui::Slider::new(&mut place, 1..=listed.len().max(1)).show_value(false);
-    ui.add_enabled(listed.len() > 1, slider)
-        .accessible_name("Step of the walk")
-        .on_hover_text("Drag through the steps of the walk.");
-    let text = match (all, doc.walking.leaves_only) {
-        (0, _) => "step – of –".to_owned(),
-        (_, false) => format!("step {} of {all}", step + 1),
-        (_, true) => format!(
-            "step {} of {all} (leaf {} of {})",
-            step + 1,
-            (at + 1).min(listed.len()),
-            listed.len()
-        ),
-    };
-    let room = if doc.walking.leaves_only {
-        200.0
-    } else {
-        110.0
-    };
-    let size = egui::vec2(room, ui.spacing().interact_size.y);
-    ui.add_sized(size, egui::Label::new(text).truncate());
-    if place != at + 1
-        && let (Some(&step), Some(current)) = (listed.get(place - 1), &mut doc.current)
-    {
-        current.go_to_step(step);
-    }
-}
-
-/// Which ray the walk is of.
-fn ray_text(doc: &Document) -> String {
-    let Some(current) = &doc.current else {
-        return String::new();
-    };
-    match &current.picked {
-        Some(picked) => {
-            let [x, y] = picked.pixel;
+    let step = picked.map_or(0, |p| p.step);
+    let text = match picked {
+        Some(picked) if all > 0 && leaves_only => {
+            let leaves = listed(picked.path(), true);
+            let leaf = leaves.partition_point(|&i| i < step) + 1;
             format!(
-                "ray {} of {} of pixel {x}, {y}: {} ray, {}",
-                picked.ray + 1,
-                picked.record.rays.len(),
-                picked.path().kind.name(),
-                step_text::outcome(&current.shown.scene, picked.path())
+                "{} of {all} (leaf {} of {})",
+                step + 1,
+                leaf.min(leaves.len()),
+                leaves.len()
             )
         }
-        None => "no ray".to_owned(),
-    }
+        _ if all > 0 => format!("{} of {all}", step + 1),
+        _ => "– of –".to_owned(),
+    };
+    let width = if leaves_only { NUMBER_AND_LEAF } else { NUMBER };
+    let label = Label::new(&text).truncate();
+    ui.add_sized(vec2(width, ROW), label)
+        .on_hover_text("The current step, and how many the ray has.");
 }
 
-fn sentence(doc: &Document) -> String {
+/// A list of the pixel's rays, with their kind and outcome.
+fn rays(ui: &mut Ui, doc: &Document, edits: &mut Edits) {
+    let current = doc.current.as_ref();
+    let Some((current, picked)) = current.and_then(|c| Some((c, c.picked.as_ref()?))) else {
+        ui.add_sized(vec2(RAYS, ROW), Label::new("No ray"));
+        return;
+    };
+    let rays = &picked.record.rays;
+    let name = |i: usize| {
+        let path = &rays[i].path;
+        let outcome = step_text::outcome(&current.shown.scene, path);
+        format!(
+            "Ray {} of {}: {} ray, {outcome}",
+            i + 1,
+            rays.len(),
+            path.kind.name()
+        )
+    };
+    let list = egui::ComboBox::from_id_salt("rays")
+        .width(RAYS)
+        .truncate()
+        .selected_text(name(picked.ray))
+        .show_ui(ui, |ui| {
+            for i in 0..rays.len() {
+                if ui.selectable_label(i == picked.ray, name(i)).clicked() {
+                    edits.add(move |doc| {
+                        if let Some(current) = &mut doc.current {
+                            current.select_ray(i);
+                        }
+                    });
+                }
+            }
+        });
+    let [x, y] = picked.pixel;
+    list.response
+        .on_hover_text(format!(
+            "The rays of pixel {x}, {y}.\nShortcuts: {} and {} select a ray",
+            shortcut("ray.previous-ray"),
+            shortcut("ray.next-ray")
+        ))
+        .accessible_name(name(picked.ray));
+}
+
+/// A menu with what is rarely changed.
+fn options(ui: &mut Ui, doc: &Document, edits: &mut Edits) {
+    let button = MenuButton::from_button(egui::Button::new(icons::DOTS)).config(stays_open());
+    let (response, _) = button.ui(ui, |ui| {
+        let mut rate = doc.walking.rate;
+        let speed = egui::DragValue::new(&mut rate)
+            .range(RATES)
+            .speed(0.1)
+            .max_decimals(1)
+            .suffix(" steps per second");
+        let speed = ui
+            .add(speed)
+            .accessible_name("Speed")
+            .on_hover_text("How fast the steps are played.");
+        if speed.changed() {
+            edits.add(move |doc| doc.walking.rate = rate);
+        }
+        let mut only = doc.walking.leaves_only;
+        let check = ui.checkbox(&mut only, "Leaves only");
+        if check
+            .on_hover_text(tip("Step through leaves only.", "ray.leaves-only"))
+            .changed()
+        {
+            edits.add(move |doc| doc.set_leaves_only(only));
+        }
+    });
+    response
+        .on_hover_text("How steps are played.")
+        .accessible_name("Options of the steps");
+}
+
+/// Shows the sentence about the current step, in one line.
+pub fn sentence(ui: &mut Ui, doc: &Document) {
+    let size = vec2(ui.available_width(), ROW);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+        ui.set_min_size(size);
+        let text = words(doc);
+        ui.add(Label::new(text.as_str()).truncate())
+            .on_hover_text(text);
+    });
+}
+
+fn words(doc: &Document) -> String {
     let Some(current) = &doc.current else {
         return "No picture yet".to_owned();
     };
     if let Some(wish) = current.wish {
         let [x, y] = wish.pixel;
-        return format!("Following the rays of pixel {x}, {y} …");
+        return format!("Recording the rays of pixel {x}, {y} …");
     }
     match &current.picked {
-        None => "Pick a pixel to step through the walks of its rays.".to_owned(),
+        None => "Pick a pixel in the picture to step through its rays.".to_owned(),
         Some(picked) => match picked.current() {
             Some(step) => step_text::step(&current.shown.scene, picked.step + 1, step),
             None => "This ray misses the root cell: it visits no node.".to_owned(),

@@ -4,6 +4,7 @@ mod pixel;
 
 use crate::gui::action::shortcut;
 use crate::gui::document::Document;
+use crate::gui::edits::Edits;
 use crate::gui::pane::{Cx, Fact, Pane};
 use crate::gui::widgets::rows::{Column, List, Row, chip};
 use crate::gui::widgets::step_text;
@@ -14,21 +15,22 @@ use crate::scene::Scene;
 use crate::trace::{RayKind, RecordedRay, Tally};
 use egui::{Rect, pos2, vec2};
 
+/// With less room, in points, nothing is shown.
+const LEAST_HEIGHT: f32 = 140.0;
+
+/// The height of a row in points.
+const ROW: f32 = 21.0;
+
 const COLUMNS: &[Column] = &[
     Column {
         title: "ray",
         about: "Indented below the ray from whose hit it starts",
-        width: 104.0,
-    },
-    Column {
-        title: "ends",
-        about: "What it hits, or where it goes",
-        width: 110.0,
+        width: 92.0,
     },
     Column {
         title: "nodes",
         about: "Inner nodes traversed",
-        width: 42.0,
+        width: 44.0,
     },
     Column {
         title: "leaves",
@@ -42,9 +44,15 @@ const COLUMNS: &[Column] = &[
     },
     Column {
         title: "weight",
-        about: "What its radiance counts for in the pixel's colour; for a shadow ray what the light \
+        about: "Its share of the pixel's color; for a shadow ray what the light \
                 adds if it is reached: the largest of red, green and blue",
-        width: 40.0,
+        width: 50.0,
+    },
+    Column {
+        title: "ends at",
+        about: "What it hits, or where it goes. A shadow ray ends at the object that blocks the light, \
+                or at the light",
+        width: 80.0,
     },
 ];
 
@@ -101,26 +109,29 @@ impl Pane for RaysPane {
     const REVEALS: &'static [Fact] = &[Fact::Rays, Fact::Steps];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        pixel::show(ui, cx.doc);
+        let doc: &Document = cx.doc;
+        // Below the picture there may be no room; *Steps of the ray* has a list of the rays, too.
+        if ui.clip_rect().bottom() - ui.cursor().top() < LEAST_HEIGHT {
+            return;
+        }
+        pixel::show(ui, doc);
         ui.add_space(8.0);
-        show(ui, cx.doc);
+        show(ui, doc, cx.edits);
     }
 }
 
-fn show(ui: &mut egui::Ui, doc: &mut Document) {
-    let Some(current) = &mut doc.current else {
-        ui.weak("No picture yet");
+fn show(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
+    let Some(current) = &doc.current else {
         return;
     };
     let Some(picked) = &current.picked else {
-        ui.weak("Pick a pixel to see all its rays.");
         return;
     };
     let (record, scene) = (&picked.record, &current.shown.scene);
     let n = record.rays.len();
     ui.horizontal(|ui| {
         ui.label(step_text::count(n as u32, "ray", "rays")).on_hover_text(format!(
-            "Of the pixel's first sample, down to D_AREC {}.\nShortcuts: {} and {} select a ray",
+            "Of the pixel's first sample, with up to {} bounces (D_AREC).\nShortcuts: {} and {} select a ray",
             current.shown.setup.render.d_arec,
             shortcut("ray.previous-ray"),
             shortcut("ray.next-ray")
@@ -132,9 +143,9 @@ fn show(ui: &mut egui::Ui, doc: &mut Document) {
             let [x, y] = picked.pixel;
             let place = y as usize * current.shown.setup.render.width as usize + x as usize;
             if counts.tally(place, RayFilter::All) == record.tallies().into_iter().sum() {
-                ui.weak("· sums as in the counted pass");
+                ui.weak("· sums equal those of the counting kernel");
             } else {
-                ui.strong("· sums differ from the counted pass");
+                ui.strong("· sums differ from those of the counting kernel");
             }
         }
     });
@@ -144,6 +155,7 @@ fn show(ui: &mut egui::Ui, doc: &mut Document) {
         rows: n,
         selected: Some(picked.ray),
         most: 8,
+        row: ROW,
     };
     let clicked = list.show(
         ui,
@@ -163,7 +175,11 @@ fn show(ui: &mut egui::Ui, doc: &mut Document) {
     );
     totals(ui, &record.tallies());
     if let Some(ray) = clicked {
-        current.select_ray(ray);
+        edits.add(move |doc| {
+            if let Some(current) = &mut doc.current {
+                current.select_ray(ray);
+            }
+        });
     }
 }
 
@@ -200,11 +216,15 @@ fn row(scene: &Scene, i: usize, ray: &RecordedRay) -> Row {
         ),
         cells: vec![
             String::new(),
-            outcome,
             grouped(counts.inner_nodes as usize),
             grouped(counts.leaves as usize),
             grouped(counts.tests as usize),
             weight,
+            match (path.kind, path.hit.is_hit()) {
+                (_, true) => step_text::object(scene, path.hit.object),
+                (RayKind::Shadow, false) => "light".to_owned(),
+                (_, false) => "background".to_owned(),
+            },
         ],
     }
 }
@@ -233,6 +253,7 @@ fn totals(ui: &mut egui::Ui, tallies: &[Tally<u32>; 4]) {
         rows: rows.len(),
         selected: None,
         most: rows.len(),
+        row: ROW,
     };
     list.show(
         ui,

@@ -1,6 +1,6 @@
 //! The 3D view as a picture of the screen, and its leaf boxes as a file.
 
-use super::View3d;
+use super::view::View3d;
 use crate::gui::document::Document;
 use crate::gui::edits::{Content, Export, MakeFile};
 use crate::present::export::{LEAF_WRITERS, LeafCells};
@@ -20,7 +20,7 @@ pub fn screen(view: &View3d, ctx: &egui::Context) -> Export {
 }
 
 /// The leaves that the filters let through.
-pub fn leaves(view: &View3d, doc: &mut Document) -> Export {
+pub fn leaves(view: &View3d, doc: &Document) -> Export {
     Export {
         name: "Leaf boxes",
         suffix: "-leaves",
@@ -32,7 +32,7 @@ pub fn leaves(view: &View3d, doc: &mut Document) -> Export {
     }
 }
 
-fn make(view: &View3d, doc: &mut Document) -> Result<MakeFile, String> {
+fn make(view: &View3d, doc: &Document) -> Result<MakeFile, String> {
     let filter = view.filter();
     let current = doc.current.as_ref().ok_or("there is no tree yet")?;
     let visits = if filter.needs_visits() {

@@ -1,8 +1,8 @@
 //! What the 3D view shows, to and from a workspace.
 
-use super::View3d;
-use super::controls::Settings;
 use super::cut::Cut;
+use super::settings::{Cells, Settings};
+use super::view::View3d;
 use crate::present::overlay::{self, Filter};
 use crate::workspace::View3dSettings;
 
@@ -12,30 +12,39 @@ impl View3d {
         if let Some(waiting) = &self.restoring {
             return waiting.clone();
         }
+        // In the task *Ray*, what returns with its end.
+        let (camera, settings, own) = match self.ray_task.before() {
+            Some(before) => (&before.camera, &before.settings, before.own),
+            None => (&self.camera, &self.settings, self.own),
+        };
         let Settings {
             scene,
-            boxes,
+            cells,
             coloring,
             filter,
             cut,
             linked,
-            only_visited,
             all_rays,
-        } = &self.settings;
+        } = settings;
         let [least_depth, greatest] = filter.depth;
         View3dSettings {
             objects: *scene,
-            leaf_boxes: *boxes,
+            leaf_boxes: *cells != Cells::None,
             coloring: coloring.name.to_owned(),
             full_leaves: filter.full,
             empty_leaves: filter.empty,
             visited: filter.visited,
             least_depth,
             greatest_depth: (greatest != u32::MAX).then_some(greatest),
-            only_visited: *only_visited,
+            only_visited: *cells == Cells::Visited,
+            cells_to_depth: match cells {
+                Cells::ToDepth(depth) => Some(*depth),
+                _ => None,
+            },
             all_rays: *all_rays,
-            orthographic: self.camera.orthographic,
-            camera: (!linked).then_some(self.camera.camera),
+            orthographic: camera.orthographic,
+            camera: own.then_some(camera.camera),
+            same_camera: *linked,
             cut: cut.kept(),
         }
     }
@@ -45,7 +54,12 @@ impl View3d {
         let all = Filter::default();
         self.settings = Settings {
             scene: kept.objects,
-            boxes: kept.leaf_boxes,
+            cells: match kept.cells_to_depth {
+                _ if !kept.leaf_boxes => Cells::None,
+                _ if kept.only_visited => Cells::Visited,
+                Some(depth) => Cells::ToDepth(depth),
+                None => Cells::All,
+            },
             coloring: overlay::coloring(&kept.coloring).unwrap_or(self.settings.coloring),
             filter: Filter {
                 depth: [kept.least_depth, kept.greatest_depth.unwrap_or(u32::MAX)],
@@ -55,10 +69,10 @@ impl View3d {
                 ..all
             },
             cut: Cut::of(&kept.cut),
-            linked: kept.camera.is_none(),
-            only_visited: kept.only_visited,
+            linked: kept.same_camera,
             all_rays: kept.all_rays,
         };
+        self.own = kept.camera.is_some();
         self.camera.orthographic = kept.orthographic;
         if let Some(camera) = kept.camera {
             self.camera.camera = camera;

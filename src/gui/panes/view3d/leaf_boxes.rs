@@ -13,7 +13,7 @@ struct Key {
     tree: Arc<Tree>,
     filter: Filter,
     coloring: &'static Coloring,
-    /// Of the picture, where filter or colouring need them.
+    /// Of the picture, where filter or coloring need them.
     visits: Option<Arc<PictureVisits>>,
 }
 
@@ -32,7 +32,7 @@ const NODES_AT_ONCE: usize = 30_000;
 /// Buffers may take 256 MiB, a box takes 28 bytes.
 const MOST_BOXES: usize = 9_000_000;
 
-/// The boxes of the latest tree, filter and colouring.
+/// The boxes of the latest tree, filter and coloring.
 #[derive(Default)]
 pub struct Boxes {
     made: Latest<Key, LeafBoxes>,

@@ -1,9 +1,10 @@
-//! What the colours and lines of the 3D view mean.
+//! What the colors and lines of the 3D view mean.
 
-use super::Settings;
+use super::settings::Settings;
 use crate::gui::action::tip;
 use crate::gui::document::picked::Picked;
 use crate::gui::widgets::coloring_bar::color_bar;
+use crate::gui::widgets::step_text;
 use crate::gui::widgets::symbol::grouped;
 use crate::present::overlay::{
     INTERVAL, LeafBoxes, RaysShown, Visited, WAITING, order_color, ray_style,
@@ -14,9 +15,25 @@ use egui::{Color32, Rect, vec2};
 /// In a view of this height, in points, the whole legend hides little.
 const ROOMY: f32 = 640.0;
 
+/// What the first line of a legend is about.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Headline {
+    /// No cells are drawn.
+    None,
+    /// Cells are being made.
+    Waiting,
+    /// Cells in the colors of a property.
+    Boxes,
+    /// The leaves of the selected ray.
+    OfRay,
+}
+
 /// What a legend tells.
 pub struct Legend<'a> {
     pub settings: &'a Settings,
+    pub headline: Headline,
+    /// Whether the picture's camera is drawn.
+    pub pyramid: bool,
     pub boxes: Option<&'a LeafBoxes>,
     /// What is to be done before there can be boxes.
     pub waits_for: Option<&'a str>,
@@ -27,7 +44,7 @@ pub struct Legend<'a> {
     pub marks: Vec<String>,
     /// Objects that were left out.
     pub left_out: usize,
-    /// Whether it is unfolded; folded, it tells what the colours mean.
+    /// Whether it is unfolded; folded, it tells what the colors mean.
     pub open: bool,
 }
 
@@ -77,36 +94,38 @@ pub fn show(legend: &Legend<'_>, ui: &mut egui::Ui, view: Rect) -> bool {
     shown.inner.inner
 }
 
-/// The whole legend, or its colours alone; whether the button that folds it was clicked. `roomy` where
+/// The whole legend, or its colors alone; whether the button that folds it was clicked. `roomy` where
 /// there is room for all of it without hiding the view.
 fn contents(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) -> bool {
     let coloring = legend.settings.coloring;
-    let boxes = legend.boxes.filter(|_| !legend.settings.only_visited);
     let folds = ui
         .horizontal(|ui| {
             let folds = fold_button(legend.open, ui);
-            match boxes {
-                Some(_) if coloring.unit.is_empty() => {
+            match legend.headline {
+                Headline::Boxes if coloring.unit.is_empty() => {
                     ui.strong(format!("Leaves by {}", coloring.title.to_lowercase()));
                 }
-                Some(_) => {
+                Headline::Boxes => {
                     ui.strong(format!("{} ({})", coloring.title, coloring.unit));
                 }
-                None if legend.settings.boxes && !legend.settings.only_visited => {
+                Headline::OfRay => {
+                    ui.strong("Leaves visited by the selected ray");
+                }
+                Headline::Waiting => {
                     ui.label(legend.waits_for.unwrap_or("Preparing the leaf boxes …"));
                 }
-                None => {
+                Headline::None => {
                     ui.label("Leaf boxes are not shown");
                 }
             }
             folds
         })
         .inner;
-    if let Some(boxes) = boxes {
+    if let Some(boxes) = legend.boxes {
         color_bar(coloring, boxes.range, ui);
     }
     if legend.open {
-        lines(legend, boxes, roomy, ui);
+        lines(legend, roomy, ui);
     }
     folds
 }
@@ -122,14 +141,14 @@ fn fold_button(open: bool, ui: &mut egui::Ui) -> bool {
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
     let icon = response.clone().with_new_rect(response.rect.shrink(2.0));
     egui::collapsing_header::paint_default_icon(ui, f32::from(u8::from(open)), &icon);
-    let about = "All that the colours, lines and boxes of the view mean, or the colours alone.";
+    let about = "All that the colors, lines and boxes of the view mean, or the colors alone.";
     let response = response.on_hover_text(tip(about, "view3d.fold-legend"));
     response.clicked()
 }
 
 /// What else there is to say of boxes, rays and marks.
-fn lines(legend: &Legend<'_>, boxes: Option<&LeafBoxes>, roomy: bool, ui: &mut egui::Ui) {
-    if let Some(boxes) = boxes {
+fn lines(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
+    if let Some(boxes) = legend.boxes {
         ui.label("solid edges: full leaf · dashed edges: empty leaf");
         let visited = legend.settings.filter.visited;
         if visited != Visited::Either {
@@ -141,12 +160,19 @@ fn lines(legend: &Legend<'_>, boxes: Option<&LeafBoxes>, roomy: bool, ui: &mut e
                 grouped(boxes.undecided)
             ));
         }
-        let shown = boxes.instances.len() - boxes.undecided;
-        ui.label(format!(
+        let shown = boxes.instances.len() - boxes.undecided - boxes.coarse;
+        let shown = format!(
             "{} of {} leaves shown",
             grouped(shown),
             grouped(boxes.leaves)
-        ));
+        );
+        ui.label(match (legend.settings.drawn().to_depth, boxes.coarse) {
+            (None, _) | (_, 0) => shown,
+            (Some(depth), cells) => format!(
+                "{} at depth {depth} that are split further, {shown}",
+                step_text::count(cells as u32, "cell", "cells")
+            ),
+        });
         if (legend.drawn as usize) < boxes.instances.len() {
             ui.label(format!(
                 "drawn by the processor: {} of them",
@@ -162,7 +188,7 @@ fn lines(legend: &Legend<'_>, boxes: Option<&LeafBoxes>, roomy: bool, ui: &mut e
     for line in &legend.marks {
         ui.label(line);
     }
-    if !legend.settings.linked {
+    if legend.pyramid {
         ui.label("white pyramid: the picture's camera");
     }
     if legend.left_out > 0 {
@@ -211,7 +237,7 @@ fn path_key(legend: &Legend<'_>, picked: &Picked, ui: &mut egui::Ui) {
             ui.spacing_mut().item_spacing.x = 5.0;
             for (color, strokes, what) in [
                 (INTERVAL, &[][..], "the ray in the current cell"),
-                (WAITING, &[1.0, 1.0], "cells that wait"),
+                (WAITING, &[1.0, 1.0], "pending cells"),
             ] {
                 sample(ui, color, strokes);
                 ui.label(what);

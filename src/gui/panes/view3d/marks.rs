@@ -1,15 +1,15 @@
 //! What is marked in the 3D view: the selected node's cell with its plane, and the leaves that refer
 //! to the selected object.
 
-use super::View3d;
-use super::controls::Settings;
-use crate::geometry::{Aabb, Axis, Vec3};
+use super::camera::ViewCamera;
+use super::settings::{Cells, Settings};
+use crate::geometry::{Aabb, Axis, Ray, Vec3};
 use crate::gui::document::Document;
 use crate::gui::widgets::symbol::grouped;
 use crate::present::overlay::Leaf;
 use crate::present::overlay::{
     CELL_COLOR, FaceCorner, Line, PLANE_COLOR, REFERRING_COLOR, box_lines, cell_faces, cell_lines,
-    leaves_along,
+    cells_along,
 };
 use crate::structure::CellOfNode;
 use egui::{Align2, Color32, Rect, vec2};
@@ -32,7 +32,7 @@ pub struct Marks {
 
 impl Marks {
     /// What the selection asks to mark.
-    pub fn of(doc: &mut Document, ctx: &egui::Context) -> Marks {
+    pub fn of(doc: &Document, ctx: &egui::Context) -> Marks {
         let Some(current) = &doc.current else {
             return Marks::default();
         };
@@ -46,7 +46,9 @@ impl Marks {
                 marks.is_what_if = true;
             }
         }
-        if let Some(object) = current.selection.object
+        // Beside a ray, only its own leaves are drawn.
+        let object = current.selection.object.filter(|_| doc.task != "ray");
+        if let Some(object) = object
             && let Some(index) = doc.inspect.index(current, ctx)
         {
             let leaves = index.leaves_of(object);
@@ -79,13 +81,13 @@ impl Marks {
     }
 
     /// Writes the node's name at its cell and the plane's place at the plane.
-    pub fn name(&self, view: &View3d, ui: &egui::Ui, rect: Rect) {
+    pub fn name(&self, camera: &ViewCamera, ui: &egui::Ui, rect: Rect) {
         let Some(cell) = &self.cell else {
             return;
         };
         let painter = ui.painter().with_clip_rect(rect);
         let on_screen = |point: &Vec3| {
-            let [x, y] = view.camera.place(*point)?;
+            let [x, y] = camera.place(*point)?;
             let at = rect.center() + vec2(x as f32, -y as f32) * rect.height() * 0.5;
             rect.shrink(8.0).contains(at).then_some(at)
         };
@@ -155,25 +157,39 @@ impl Marks {
     }
 }
 
-/// The leaf whose box is clicked: the nearest that is shown. A click where the selected leaf lies
-/// goes on to the next behind it.
-pub fn pick_leaf(doc: &Document, shown: &Settings, ray: &crate::geometry::Ray) -> Option<u32> {
+/// The cell whose box is clicked: the nearest that is shown. A click where the selected cell lies moves to
+/// the next behind it.
+pub fn pick_cell(doc: &Document, shown: &Settings, ray: &Ray) -> Option<u32> {
     let current = doc.current.as_ref()?;
     let tree = &current.shown.tree;
-    let Settings { filter, cut, .. } = shown;
-    let (visits, root) = (doc.inspect.visits.ready(), tree.root_cell());
-    let shown: Vec<u32> = leaves_along(tree, ray)
+    let (filter, root) = (shown.drawn(), tree.root_cell());
+    let visits = doc.inspect.visits.ready();
+    let passes =
+        |cell: &CellOfNode| match Leaf::of(tree, cell, visits.as_deref().map(|v| &v.visits)) {
+            Some(leaf) => filter.passes(&leaf),
+            None => true,
+        };
+    let cells = match shown.cells {
+        Cells::None => Vec::new(),
+        _ => cells_along(tree, ray, filter.to_depth.unwrap_or(u32::MAX)),
+    };
+    let of_ray = match &current.picked {
+        Some(picked) if shown.cells == Cells::Visited => Some(picked.path()),
+        _ => None,
+    };
+    let shown: Vec<u32> = cells
         .into_iter()
         .filter(|cell| {
-            let leaf = Leaf::of(tree, cell, visits.as_deref().map(|v| &v.visits));
-            !cut.hides(&cell.bounds, &root) && leaf.is_some_and(|leaf| filter.passes(&leaf))
+            let is_drawn = match of_ray {
+                Some(path) => path.leaves().any(|leaf| leaf.node == cell.node),
+                None => passes(cell),
+            };
+            is_drawn && !shown.cut.hides(&cell.bounds, &root)
         })
         .map(|cell| cell.node)
         .collect();
-    let at = current
-        .selection
-        .node
-        .and_then(|node| shown.iter().position(|&leaf| leaf == node));
+    let selected = current.selection.node;
+    let at = selected.and_then(|node| shown.iter().position(|&cell| cell == node));
     let next = at.map_or(0, |at| at + 1);
     shown.get(next).or(shown.first()).copied()
 }

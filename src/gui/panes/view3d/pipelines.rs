@@ -69,7 +69,7 @@ impl Pipelines {
             depth_write: true,
             depth_compare: CompareFunction::Less,
             blend: None,
-            alpha_covers: false,
+            alpha_covers: true,
         });
         let spheres = make(Kind {
             vertex: "sphere_vertex",

@@ -1,4 +1,4 @@
-//! Draws the 3D view into its own colour and depth target, and copies that into the window.
+//! Draws the 3D view into its own color and depth target, and copies that into the window.
 //!
 //! egui's own pass has no depth buffer, neither in the window nor in tests. A frame that would come
 //! out as the last one did is not drawn again: the window repaints for many other reasons.
@@ -19,7 +19,10 @@ pub struct Globals {
     pub right: [f32; 4],
     pub up: [f32; 4],
     pub cut: [f32; 4],
-    pub size: [f32; 4],
+    pub size: [f32; 2],
+    pub radius: f32,
+    /// Of objects, 0 to 1.
+    pub opacity: f32,
 }
 
 /// One frame of the 3D view.

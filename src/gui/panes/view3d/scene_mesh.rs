@@ -1,4 +1,4 @@
-//! A scene as triangles and spheres for the graphics card, relative to its centre.
+//! A scene as triangles and spheres for the graphics card, relative to its center.
 
 use crate::geometry::Vec3;
 use crate::primitive::{Cone, Primitive};
@@ -98,13 +98,13 @@ fn cone_triangles(cone: &Cone, center: Vec3, color: [u8; 4], out: &mut Vec<Verte
     }
 }
 
-/// A material's colour; black ones are lifted, or they could not be told from the ground.
+/// A material's color; black ones are lifted, or they could not be told from the ground.
 fn srgb8(linear: Vec3) -> [u8; 4] {
     let encode = |v: f64| egui::ecolor::gamma_u8_from_linear_f32(v.max(0.03) as f32);
     [encode(linear.x), encode(linear.y), encode(linear.z), 255]
 }
 
-/// The centre that a scene is drawn around.
+/// The center that a scene is drawn around.
 pub fn center_of(scene: &Scene) -> Vec3 {
     let bounds = scene.bounds();
     if bounds.is_empty() {

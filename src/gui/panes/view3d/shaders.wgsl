@@ -1,4 +1,4 @@
-// Scene, leaf boxes and lines of the 3D view; places are relative to a centre of the scene.
+// Scene, leaf boxes and lines of the 3D view; places are relative to a center of the scene.
 
 struct Globals {
     clip_from_scene: mat4x4f,
@@ -9,8 +9,12 @@ struct Globals {
     up: vec4f,
     // What lies further along xyz than w is hidden.
     cut: vec4f,
-    // Width and height of the target in points; z is the radius of what is shown.
-    size: vec4f,
+    // Width and height of the target in points.
+    size: vec2f,
+    // Of what is shown.
+    radius: f32,
+    // Of objects: the share of a pixel's samples that they cover.
+    opacity: f32,
 }
 
 @group(0) @binding(0) var<uniform> globals: Globals;
@@ -30,14 +34,14 @@ fn to_eye(place: vec3f) -> vec3f {
 fn nearer(place: vec3f) -> vec3f {
     const SHARE: f32 = 0.0005;
     if globals.eye.w > 0.5 {
-        return place - globals.forward.xyz * globals.size.z * SHARE;
+        return place - globals.forward.xyz * globals.radius * SHARE;
     }
     return mix(place, globals.eye.xyz, SHARE);
 }
 
 // Both sides of a surface are lit from the eye.
 fn shaded(color: vec3f, normal: vec3f, place: vec3f) -> vec4f {
-    return vec4f(color * (0.3 + 0.7 * abs(dot(normalize(normal), to_eye(place)))), 1.0);
+    return vec4f(color * (0.3 + 0.7 * abs(dot(normalize(normal), to_eye(place)))), globals.opacity);
 }
 
 // Triangles
@@ -125,7 +129,7 @@ fn sphere_fragment(in: SphereOut) -> SphereHit {
     }
     let clip = globals.clip_from_scene * vec4f(place, 1.0);
     let color = shaded(in.color, place - in.sphere.xyz, place);
-    return SphereHit(vec4f(color.rgb, cover), clamp(clip.z / clip.w, 0.0, 1.0));
+    return SphereHit(vec4f(color.rgb, cover * color.a), clamp(clip.z / clip.w, 0.0, 1.0));
 }
 
 // Leaf boxes: 24 vertices, two for each of 12 edges
@@ -204,7 +208,7 @@ fn line_vertex(@builtin(vertex_index) v: u32, @location(0) a: vec3f, @location(1
     } else if end.z < 0.0 && start.z > 0.0 {
         end = mix(end, first, end.z / (end.z - first.z) * 1.0001);
     }
-    let half = globals.size.xy * 0.5;
+    let half = globals.size * 0.5;
     let from_pixel = start.xy / start.w * half;
     let to_pixel = end.xy / end.w * half;
     var direction = to_pixel - from_pixel;
