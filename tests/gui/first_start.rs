@@ -3,8 +3,9 @@
 use crate::harness::{Window, click, has, open, open_sized, press, small, wait};
 use bspscope::gui::StartOptions;
 use bspscope::lesson::LESSONS;
+use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 const CARD: &str = "See how a kd-tree makes ray tracing fast";
 
