@@ -6,6 +6,7 @@ use super::{bar, output, resolve};
 use crate::jobs::FindBestTree;
 use crate::measure::tune::Search;
 use crate::present::report::tune::{TUNE_WRITERS, TuneReport};
+use crate::structure::Method;
 use anyhow::Result;
 use std::sync::Arc;
 
@@ -17,6 +18,7 @@ pub fn run(args: &TuneArgs) -> Result<Outcome> {
     let search = Search {
         setup,
         goal: args.goal,
+        methods: Method::all().collect(),
         budget: args.budget,
     };
     let tuned = bar::follow(FindBestTree { scene, search }, |_| Ok(()))?;

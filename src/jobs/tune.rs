@@ -63,7 +63,7 @@ fn stage(upcoming: &Upcoming<'_>) -> String {
             build.method.name
         ),
         Phase::Refinement => format!(
-            "depth and leaf size, round {round} of {ROUNDS}: {}, D_MAX {}, N_OILF {}",
+            "depth and leaf size, round {round} of {ROUNDS}: {}, depth {}, leaf size {}",
             build.method.name, build.d_max, build.n_oilf
         ),
     }

@@ -143,7 +143,7 @@ mod tests {
             ("D_MAX", "d-max"),
             ("d_max", "d-max"),
             ("thrads", "threads"),
-            ("Maximum depth", "d-max"),
+            ("Leaf size", "n-oilf"),
             ("cutoff", "min-contribution"),
             ("gap-fracton", "gap-fraction"),
         ] {

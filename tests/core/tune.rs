@@ -31,6 +31,7 @@ fn search(source: &str, budget: Duration) -> Search {
             ..Setup::new(SceneRequest::parse(source))
         },
         goal: Goal::Time,
+        methods: Method::all().collect(),
         budget,
     }
 }

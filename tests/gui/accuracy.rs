@@ -1,7 +1,9 @@
-//! The trade in the window: taken in the background, plotted, listed, loaded and looked at pixel by
+//! Speed and error in the window: measured in the background, plotted, listed, loaded and shown pixel by
 //! pixel.
 
-use crate::harness::{Window, click, finish, has, open, press, small, text_with, wait};
+use crate::harness::{
+    Window, click, finish, has, open, open_pane, open_sized, press, small, text_with, wait,
+};
 use bspscope::measure::accuracy::{choices, reference};
 use bspscope::progress::Progress;
 use bspscope::scene::load;
@@ -9,23 +11,27 @@ use bspscope::setup::Setup;
 use bspscope::trace::{PrecisionChoice, RenderSettings};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
+/// The button that starts the study.
+const RUN: &str = "Measure speed and error";
+
 /// A window on the pane, with a finished picture.
-fn on_trade<'a>(scene: &str, size: u32) -> Window<'a> {
+fn on_study<'a>(scene: &str, size: u32) -> Window<'a> {
     let mut start = small(scene);
     start.setup.render.width = size;
     start.setup.render.height = size;
-    let mut window = open(start);
+    // There is room for the table or for the error map.
+    let mut window = open_sized(start, [960.0, 1200.0], false);
     finish(&mut window);
-    click(&mut window, "Trade");
+    open_pane(&mut window, "Speed and error");
     window
 }
 
-fn take(window: &mut Window<'_>) {
-    click(window, "Run trade");
-    wait(window, "the end of the trade", |w| has(w, "Run trade"));
+fn measure(window: &mut Window<'_>) {
+    click(window, RUN);
+    wait(window, "the end", |w| has(w, RUN));
 }
 
-/// Turns taken and turns in all.
+/// Turns done and turns in all.
 fn turns(window: &Window<'_>) -> [usize; 2] {
     let text = text_with(window, " turns");
     let words = text.split(" · ").find(|part| part.ends_with(" turns"));
@@ -34,9 +40,9 @@ fn turns(window: &Window<'_>) -> [usize; 2] {
 }
 
 #[test]
-fn a_trade_is_plotted_and_listed_with_every_choice() {
-    let mut window = on_trade("teaching", 24);
-    take(&mut window);
+fn every_choice_is_plotted_and_listed() {
+    let mut window = on_study("teaching", 24);
+    measure(&mut window);
     let start = small("teaching");
     let scene = load(&start.setup.scene, &Progress::new()).unwrap();
     let render = RenderSettings {
@@ -78,9 +84,11 @@ fn a_trade_is_plotted_and_listed_with_every_choice() {
 
 #[test]
 fn a_row_or_a_point_loads_its_settings_and_undo_takes_them_back() {
-    let mut window = on_trade("teaching", 24);
-    take(&mut window);
-    let used = |w: &Window<'_>, depth: u32| has(w, &format!("· D_AREC {depth} · 24 × 24 pixels"));
+    let mut window = on_study("teaching", 24);
+    measure(&mut window);
+    let used = |w: &Window<'_>, depth: u32| {
+        w.state().is_finished() && w.state().setup().render.d_arec == depth
+    };
     assert!(used(&window, 4));
     click(&mut window, "Load D_AREC 1");
     wait(&mut window, "the row's settings", |w| used(w, 1));
@@ -98,8 +106,8 @@ fn a_row_or_a_point_loads_its_settings_and_undo_takes_them_back() {
 
 #[test]
 fn the_chosen_outcomes_error_is_mapped_pixel_by_pixel() {
-    let mut window = on_trade("teaching", 24);
-    take(&mut window);
+    let mut window = on_study("teaching", 24);
+    measure(&mut window);
     click(&mut window, "Error map");
     assert!(has(&window, "Choose an outcome"));
     let point = text_with(&window, "D_AREC 0: ");
@@ -116,22 +124,25 @@ fn the_chosen_outcomes_error_is_mapped_pixel_by_pixel() {
     assert!(has(&window, "pixel 6, 10: ") && !has(&window, "Pixel 6, 10 (from"));
     window.drag_at(at);
     window.drop_at(at);
-    wait(&mut window, "the pixel", |w| has(w, "Pixel 6, 10 (from"));
+    // Back in the task Explore, the settings of the next choice are loaded.
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Num2);
+    wait(&mut window, "the pixel", |w| has(w, "Pixel 6, 10"));
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Num1);
     let point = text_with(&window, "method sah-cut: ");
     click(&mut window, &point);
     wait(&mut window, "no error", |w| has(w, "No pixel differs"));
 }
 
 #[test]
-fn a_cancelled_trade_keeps_what_was_found() {
-    let mut window = on_trade("balls:2", 256);
-    click(&mut window, "Run trade");
+fn a_cancelled_study_keeps_what_was_measured() {
+    let mut window = on_study("balls:2", 256);
+    click(&mut window, RUN);
     wait(&mut window, "some outcomes", |w| {
         has(w, "Plot of RMSE") && turns(w)[0] >= 2
     });
     press(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
     wait(&mut window, "the end", |w| {
-        has(w, "cancelled: what was found stays")
+        has(w, "cancelled: what was measured stays")
     });
     let [taken, of] = turns(&window);
     assert!(taken >= 2 && taken < of, "{taken} of {of}");
@@ -148,7 +159,9 @@ fn the_precision_that_auto_takes_is_told_with_the_reason() {
     start.setup.render.precision = PrecisionChoice::Auto;
     let mut window = open(start);
     finish(&mut window);
-    window.get_by_label("took f32").hover();
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::I);
+    window.run_steps(5);
+    window.get_by_label("used f32").hover();
     wait(&mut window, "the reason", |w| {
         has(w, "Used: f32, every object and every pixel is wide enough")
     });

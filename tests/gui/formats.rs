@@ -1,6 +1,6 @@
 //! Scene files of every format in the window, and what the reader says of them.
 
-use crate::harness::{finish, has, open, small, wait};
+use crate::harness::{click, finish, has, open, press, small, wait};
 use crate::support::scenes::asset;
 use bspscope::scene::format::FORMATS;
 use egui_kittest::kittest::Queryable as _;
@@ -9,23 +9,27 @@ use std::path::Path;
 #[test]
 fn files_of_every_format_are_opened_by_the_path_field() {
     let mut window = open(small("balls:1"));
+    click(&mut window, "Scene");
     finish(&mut window);
     for (name, title, kinds) in [
-        ("trimesh.glb", "trimesh · ", "triangles: 92"),
-        ("meshio.obj", "meshio · ", "polygons: 5"),
-        ("trimesh.stl", "trimesh · ", "triangles: 92"),
-        ("meshio-text.ply", "meshio-text · ", "triangles: 6"),
-        ("polygons.nff", "polygons · ", "polygons: 5"),
+        ("trimesh.glb", "trimesh", "triangles: 92"),
+        ("meshio.obj", "meshio", "polygons: 5"),
+        ("trimesh.stl", "trimesh", "triangles: 92"),
+        ("meshio-text.ply", "meshio-text", "triangles: 6"),
+        ("polygons.nff", "polygons", "polygons: 5"),
     ] {
-        let field = window.get_by_label("Path of a scene");
-        field.click();
+        press(&mut window, egui::Modifiers::COMMAND, egui::Key::L);
+        window.run_steps(3);
+        window.get_by_label("Path of a scene").focus();
         window.run_steps(2);
         window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
         let field = window.get_by_label("Path of a scene");
         field.type_text(asset(name).to_str().unwrap());
         window.run_steps(2);
         window.key_press(egui::Key::Enter);
-        wait(&mut window, name, |w| has(w, title) && has(w, kinds));
+        wait(&mut window, name, |w| {
+            w.query_by_label(title).is_some() && has(w, kinds)
+        });
         finish(&mut window);
         let extension = Path::new(name).extension().unwrap().to_str().unwrap();
         let format = FORMATS.iter().find(|f| f.extensions.contains(&extension));
@@ -41,6 +45,7 @@ fn the_load_report_says_what_was_read_skipped_and_defaulted() {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\nl 1 2\nf 1 2 3\nf 2 2 3\n";
     std::fs::write(&file, text).unwrap();
     let mut window = open(small(file.to_str().unwrap()));
+    click(&mut window, "Scene");
     finish(&mut window);
     for text in [
         "Load report",

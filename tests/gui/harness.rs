@@ -96,6 +96,14 @@ pub fn click(window: &mut Window<'_>, label: &str) {
     window.run_steps(3);
 }
 
+/// Opens a pane at the bottom: by its tab, or in the menu of those that the strip has no room for.
+pub fn open_pane(window: &mut Window<'_>, title: &str) {
+    if window.query_by_label(title).is_none() {
+        click(window, "More panes");
+    }
+    click(window, title);
+}
+
 /// Presses a key, wherever the pointer is.
 pub fn press(window: &mut Window<'_>, modifiers: egui::Modifiers, key: egui::Key) {
     window.key_press_modifiers(modifiers, key);

@@ -1,10 +1,17 @@
-//! The judge in the window: it looks at the rays of a finished picture, and can be stopped.
+//! The correctness check in the window: it looks at rays of a finished picture, and can be stopped.
 
-use crate::harness::{click, finish, has, open, open_sized, small, wait};
+use crate::harness::{Window, click, finish, has, open, small, wait};
+
+/// A window on the pane.
+fn on_check<'a>() -> Window<'a> {
+    let mut window = open(small("teaching"));
+    click(&mut window, "Correctness check");
+    window
+}
 
 #[test]
 fn sampled_rays_of_a_finished_picture_are_checked_in_the_background() {
-    let mut window = open(small("teaching"));
+    let mut window = on_check();
     finish(&mut window);
     wait(&mut window, "all rays", |w| {
         has(w, "rays checked") && !has(w, "of the sample") && has(w, "0 faults")
@@ -12,17 +19,12 @@ fn sampled_rays_of_a_finished_picture_are_checked_in_the_background() {
 }
 
 #[test]
-fn the_judge_stops_when_told_and_begins_again() {
-    // High enough for the box to be in view.
-    let mut window = open_sized(small("teaching"), [1500.0, 1400.0], false);
-    // Once the scene's facts stand above it, the box stays where it is.
-    wait(&mut window, "a window", |w| {
-        has(w, "lights: ") && has(w, "check sampled rays")
-    });
-    click(&mut window, "check sampled rays");
+fn the_check_can_be_stopped_and_started_again() {
+    let mut window = on_check();
+    click(&mut window, "Check sampled rays");
     finish(&mut window);
     window.run_steps(5);
     assert!(has(&window, "Stopped") && !has(&window, "rays checked"));
-    click(&mut window, "check sampled rays");
+    click(&mut window, "Check sampled rays");
     wait(&mut window, "all rays", |w| has(w, "0 faults"));
 }

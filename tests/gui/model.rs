@@ -1,7 +1,9 @@
 //! The time of the picture by term of equation (1), in the window: measured in the background, for the
 //! whole picture, a region and a pixel.
 
-use crate::harness::{SIZE, Window, click, finish, has, open, press, small, text_with, wait};
+use crate::harness::{
+    SIZE, Window, click, finish, has, open, open_pane, press, small, text_with, wait,
+};
 use bspscope::measure::model::{PictureTerms, Region, Term};
 use bspscope::present::number::grouped;
 use bspscope::primitive::PrimitiveKind;
@@ -17,7 +19,7 @@ const SCENE: &str = "balls:1";
 fn on_time<'a>() -> Window<'a> {
     let mut window = open(small(SCENE));
     finish(&mut window);
-    click(&mut window, "Time");
+    open_pane(&mut window, "Time by term");
     window
 }
 
@@ -55,7 +57,7 @@ fn the_time_of_the_picture_is_told_by_term_beside_what_was_measured() {
     assert!(has(&window, "Where does the time of this picture go?"));
     measure(&mut window);
     let bar = text_with(&window, "Time by term: ");
-    for term in ["T_T + T_P: ", "T_IUN sphere: ", " %"] {
+    for term in ["T_T + T_P: ", "T_IUN sphere: ", "\u{a0}%"] {
         assert!(bar.contains(term), "{bar}");
     }
     let about = text_with(&window, "Whole picture: ");
@@ -69,7 +71,7 @@ fn the_time_of_the_picture_is_told_by_term_beside_what_was_measured() {
     // The shares are of one whole.
     let shares: Vec<f64> = bar
         .split(", ")
-        .filter_map(|part| part.strip_suffix(" %")?.parse().ok())
+        .filter_map(|part| part.strip_suffix("\u{a0}%")?.parse().ok())
         .collect();
     assert!(shares.len() >= 3, "{bar}");
     assert!((shares.iter().sum::<f64>() - 100.0).abs() < 0.5, "{bar}");
@@ -139,14 +141,14 @@ fn timing_is_cancelled_and_what_was_found_stays() {
     start.setup.render.height = 256;
     let mut window = open(start);
     finish(&mut window);
-    click(&mut window, "Time");
+    open_pane(&mut window, "Time by term");
     click(&mut window, "Measure times");
     wait(&mut window, "some trees", |w| {
         has(w, " of 24 trees are timed") && !has(w, "0 of 24 trees")
     });
     press(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
     wait(&mut window, "the end", |w| {
-        has(w, "cancelled: what was found stays")
+        has(w, "cancelled: what was measured stays")
     });
     click(&mut window, "in place");
     wait(&mut window, "times in place", |w| has(w, "Time by term: "));

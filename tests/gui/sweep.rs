@@ -1,13 +1,13 @@
-//! The sweep in the window: the rows of `bspscope sweep`, as curves and as a map, broken off and gone
-//! on with, loaded and saved.
+//! The sweep in the window: the rows of `bspscope sweep`, as curves and as a map, cancelled and resumed,
+//! loaded and saved.
 
-use crate::harness::{Window, click, finish, has, open_sized, press, small, wait};
+use crate::harness::{Window, click, finish, has, open_pane, open_sized, press, small, wait};
 use bspscope::measure::sweep::{Axis, Form, Plan, answers, read_rows, rule_depth};
 use bspscope::measure::{Class, parameter, parameters};
 use bspscope::progress::Progress;
 use bspscope::scene::load;
 use bspscope::setup::Value;
-use bspscope::structure::{BuildSettings, Method};
+use bspscope::structure::{BuildSettings, MaxDepth, Method};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 const SCENE: &str = "balls:1";
@@ -17,9 +17,10 @@ fn on_sweep<'a>(scene: &str, size: u32) -> Window<'a> {
     let mut start = small(scene);
     start.setup.render.width = size;
     start.setup.render.height = size;
-    let mut window = open_sized(start, [1500.0, 1200.0], false);
+    // There is room for the curves or for the map.
+    let mut window = open_sized(start, [880.0, 1200.0], false);
     finish(&mut window);
-    click(&mut window, "Sweep");
+    open_pane(&mut window, "Depth & leaf size");
     window
 }
 
@@ -33,7 +34,7 @@ fn type_into(window: &mut Window<'_>, name: &str, text: &str) {
     press(window, egui::Modifiers::NONE, egui::Key::Enter);
 }
 
-/// Waits until a sweep is taken to its end, with so many points.
+/// Waits until a sweep of this number of points is complete.
 fn wait_for_sweep(window: &mut Window<'_>, points: usize) {
     wait(window, "the sweep", |w| {
         has(w, &format!("{points} of {points} points")) && w.query_by_label("Run sweep").is_some()
@@ -63,7 +64,7 @@ fn plan(size: u32, n_oilf: &[u32]) -> Plan {
 fn cells(window: &Window<'_>) -> Vec<String> {
     let nodes = window.query_all_by_label_contains("Load ");
     let names = nodes.map(|node| node.accesskit_node().label().unwrap_or_default());
-    names.filter(|name| name.contains("N_OILF")).collect()
+    names.filter(|name| name.contains("leaf size")).collect()
 }
 
 #[test]
@@ -72,7 +73,7 @@ fn a_sweep_has_the_rows_of_the_command_line_as_curves_and_as_a_map() {
     type_into(&mut window, "Leaf sizes of the sweep", "1, 3");
     click(&mut window, "Run sweep");
     wait_for_sweep(&mut window, 76);
-    window.get_by_label("Plot of T_TR against D_MAX, 76 points");
+    window.get_by_label("Plot of T_TR against depth, 76 points");
     // There is not room for both.
     click(&mut window, "Map");
     assert_eq!(cells(&window).len(), 76);
@@ -114,14 +115,14 @@ fn a_sweep_has_the_rows_of_the_command_line_as_curves_and_as_a_map() {
     assert_eq!(answers.len(), 2);
     for answer in answers {
         assert!(has(&window, &answer.sentence(parameter("T_TR"))));
-        let best = format!("Load {}, D_MAX ", answer.best.key.method);
+        let best = format!("Load {}, depth ", answer.best.key.method);
         let marked = cells(&window);
         let marked: Vec<_> = marked
             .iter()
             .filter(|name| name.starts_with(&best) && name.ends_with("(least)"))
             .collect();
         assert_eq!(marked.len(), 1, "{marked:?}");
-        let place = format!("N_OILF {}: T_TR ", answer.best.key.n_oilf);
+        let place = format!("leaf size {}: T_TR ", answer.best.key.n_oilf);
         assert!(marked[0].contains(&place), "{marked:?}");
     }
     let rule = rule_depth(&rows[0]).unwrap();
@@ -135,40 +136,45 @@ fn a_cell_or_a_point_loads_its_settings_and_another_parameter_is_shown() {
     click(&mut window, "Run sweep");
     wait_for_sweep(&mut window, 76);
     click(&mut window, "Map");
-    let on_view = |w: &Window<'_>, text: &str| has(w, &format!("balls:1 · {text} · D_AREC"));
+    let on_view = |w: &Window<'_>, method: &str, depth: u32, n_oilf: u32| {
+        let build = &w.state().setup().build;
+        w.state().is_finished()
+            && build.method.name == method
+            && (build.d_max, build.n_oilf) == (MaxDepth::Fixed(depth), n_oilf)
+    };
     let cells = cells(&window);
     let cell = |words: &str| cells.iter().find(|name| name.contains(words)).unwrap();
-    click(&mut window, cell("midpoint, D_MAX 9, N_OILF 3: "));
+    click(&mut window, cell("midpoint, depth 9, leaf size 3: "));
     wait(&mut window, "the cell's settings", |w| {
-        on_view(w, "midpoint · D_MAX 9 · N_OILF 3")
+        on_view(w, "midpoint", 9, 3)
     });
     // Out of sight below, but not for assistive programs.
-    let other = cell("sah-cut, D_MAX 7, N_OILF 1: ");
+    let other = cell("sah-cut, depth 7, leaf size 1: ");
     window.get_by_label(other).click_accesskit();
     wait(&mut window, "the other cell's settings", |w| {
-        on_view(w, "sah-cut · D_MAX 7 · N_OILF 1")
+        on_view(w, "sah-cut", 7, 1)
     });
     finish(&mut window);
     click(&mut window, "Curves");
-    let pane = window.get_by_label("Plot of T_TR against D_MAX, 76 points");
+    let pane = window.get_by_label("Plot of T_TR against depth, 76 points");
     let pane = pane.rect().center();
     window.hover_at(pane);
     window.run_steps(2);
     press(&mut window, egui::Modifiers::SHIFT, egui::Key::E);
-    let plot = "Plot of N_AT against D_MAX, 76 points";
+    let plot = "Plot of N_AT against depth, 76 points";
     wait(&mut window, "the parameter before", |w| {
         w.query_by_label(plot).is_some()
     });
     // A point of a curve is as good as a cell.
-    let point = window.get_by_label_contains("Load midpoint, D_MAX 24, N_OILF 1: N_AT ");
+    let point = window.get_by_label_contains("Load midpoint, depth 24, leaf size 1: N_AT ");
     point.click_accesskit();
     wait(&mut window, "the point's settings", |w| {
-        on_view(w, "midpoint · D_MAX 24 · N_OILF 1")
+        on_view(w, "midpoint", 24, 1)
     });
 }
 
 #[test]
-fn a_sweep_that_was_cancelled_goes_on_after_its_last_row() {
+fn a_cancelled_sweep_is_resumed_after_its_last_row() {
     let mut window = on_sweep("balls:2", 200);
     click(&mut window, "Run sweep");
     wait(&mut window, "some rows", |w| {

@@ -2,18 +2,21 @@
 //! their labels.
 
 use crate::harness::{Window, click, finish, grouped, has, open_sized, small, wait};
+use crate::painted::{assert_whole, texts_in};
 use bspscope::progress::Progress;
 use bspscope::scene::load;
 use bspscope::structure::{BuildSettings, Method, Tree, build};
 use bspscope::trace::{RenderSettings, Visits, count_visits, thread_pool};
 use egui::accesskit::Role;
+use egui::{Event, PointerButton, Pos2, Rect, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-/// A window with a finished picture; with the 3D view where `graphics`.
+/// A window with a finished picture and the outline; with the 3D view where `graphics`.
 fn open<'a>(scene: &str, method: &str, graphics: bool) -> Window<'a> {
     let mut start = small(scene);
     start.setup.build = BuildSettings::for_method(Method::named(method).unwrap());
     let mut window = open_sized(start, [1500.0, 1000.0], graphics);
+    click(&mut window, "Outline");
     // Until then what is counted comes in and moves what a test clicks at.
     finish(&mut window);
     window
@@ -50,18 +53,20 @@ fn the_outline_unfolds_from_the_root() {
 }
 
 #[test]
-fn all_columns_of_the_outline_have_room_at_1280_points() {
+fn the_outline_is_whole_at_1280_points() {
     let mut window = open_sized(small("balls:1"), [1280.0, 720.0], false);
-    wait(&mut window, "the outline", |w| has(w, "node 0"));
-    // The outline is as wide as picture and 3D view together.
-    let view = window.get_by_label("3D view of scene and tree").rect();
+    click(&mut window, "Outline");
+    finish(&mut window);
     for title in ["exp. nodes", "visits"] {
         let header = window.get_by_label(title).rect();
-        assert!(
-            header.right() <= view.right(),
-            "{title}: {header} in {view}"
-        );
+        assert!(header.right() <= 1280.0, "{title}: {header}");
     }
+    // Down to a leaf, whose reason is the longest text of its column.
+    click(&mut window, "Less visited");
+    window.run_steps(3);
+    let top = window.get_by_label("exp. nodes").rect().top();
+    assert!(listed_leaves(&window) > 0);
+    assert_whole(&window, Rect::everything_below(top));
 }
 
 #[test]
@@ -144,7 +149,7 @@ fn listed_leaves(window: &Window<'_>) -> usize {
 #[test]
 fn brushing_a_histogram_changes_the_leaves_shown() {
     let mut window = open("balls:1", "midpoint", true);
-    click(&mut window, "Leaf histograms");
+    click(&mut window, "Histograms");
     wait(&mut window, "the histograms", |w| has(w, "leaves selected"));
     let all = first_text_with(&window, "leaves selected");
     let of = all
@@ -250,7 +255,7 @@ fn leaves_are_coloured_and_filtered_by_visits() {
 fn rays_by_nodes_have_a_histogram_that_can_be_brushed() {
     let mut window = open("balls:1", "midpoint", false);
     let (_, visits) = expected_visits("balls:1", "midpoint");
-    click(&mut window, "Leaf histograms");
+    click(&mut window, "Histograms");
     wait(&mut window, "the visits", |w| {
         has(w, "leaves selected") && !has(w, "visits: counted") && !has(w, "counting visits")
     });
@@ -302,6 +307,118 @@ fn the_icicle_is_coloured_by_every_histogram() {
         window.run_steps(3);
         window.get_by_role_and_label(Role::Button, title).click();
         wait(&mut window, unit, |w| has(w, unit));
+    }
+}
+
+/// Presses the button here, moves and releases it there, all in as many frames as there are lists.
+fn drag(window: &mut Window<'_>, frames: &[&[Event]]) {
+    for events in frames {
+        window.input_mut().events.extend(events.iter().cloned());
+        window.step();
+    }
+    window.run_steps(3);
+}
+
+fn button(pos: Pos2, pressed: bool) -> Event {
+    Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: egui::Modifiers::NONE,
+    }
+}
+
+/// A slow and a quick drag between the same two points: in the quick one the button is released in the
+/// frame of the last move.
+fn slow_and_quick(from: Pos2, to: Pos2) -> [Vec<Vec<Event>>; 2] {
+    let middle = from + (to - from) * 0.5;
+    let moved = Event::PointerMoved;
+    [
+        vec![
+            vec![moved(from)],
+            vec![button(from, true)],
+            vec![moved(middle)],
+            vec![moved(to)],
+            vec![moved(to)],
+            vec![button(to, false)],
+        ],
+        vec![
+            vec![moved(from)],
+            vec![button(from, true)],
+            vec![moved(middle)],
+            vec![moved(to), button(to, false)],
+        ],
+    ]
+}
+
+#[test]
+fn a_quick_drag_ends_where_the_button_is_released() {
+    let mut window = open("balls:1", "sah-cut", false);
+    click(&mut window, "node 0");
+    for (pane, plot, result, undo) in [
+        ("Split cost", "Cost along x", "what if x = ", "Undo what-if"),
+        (
+            "Histograms",
+            "Histogram: Leaf depth",
+            "Leaf depth: ",
+            "Clear ranges",
+        ),
+    ] {
+        click(&mut window, pane);
+        wait(&mut window, pane, |w| w.query_by_label(plot).is_some());
+        let plot = window.get_by_label(plot).rect();
+        let at = |x: f32| pos2(plot.left() + x * plot.width(), plot.center().y);
+        let ends = slow_and_quick(at(0.3), at(0.8)).map(|frames| {
+            let frames: Vec<_> = frames.iter().map(Vec::as_slice).collect();
+            drag(&mut window, &frames);
+            let texts = texts_in(&window, Rect::EVERYTHING);
+            let texts = texts.into_iter().map(|text| text.rows.concat());
+            let found = texts.filter(|text| text.starts_with(result)).next();
+            click(&mut window, undo);
+            found.unwrap_or_else(|| panic!("{pane}: nothing was selected"))
+        });
+        assert_eq!(ends[0], ends[1], "{pane}");
+    }
+}
+
+#[test]
+fn the_texts_of_the_histograms_are_whole() {
+    for size in [[1600.0, 1000.0], [1280.0, 720.0]] {
+        let mut window = open_sized(small("balls:2"), size, false);
+        click(&mut window, "Histograms");
+        finish(&mut window);
+        let top = window.get_by_label("Histogram: Leaf depth").rect().top();
+        assert_whole(&window, Rect::everything_below(top));
+    }
+}
+
+#[test]
+fn the_axes_of_the_split_cost_have_numbers() {
+    for size in [[1600.0, 1000.0], [1280.0, 720.0]] {
+        let mut window = open_sized(small("balls:1"), size, false);
+        click(&mut window, "Outline");
+        finish(&mut window);
+        click(&mut window, "node 0");
+        click(&mut window, "Split cost");
+        for axis in ["x", "y", "z"] {
+            let plot = window.get_by_label(&format!("Cost along {axis}")).rect();
+            let below = Rect::from_min_size(plot.left_bottom(), vec2(plot.width(), 20.0));
+            let left = Rect::from_min_size(
+                plot.left_top() - vec2(44.0, 8.0),
+                vec2(44.0, plot.height() + 16.0),
+            );
+            for side in [below, left] {
+                let texts = texts_in(
+                    &window,
+                    side.intersect(Rect::from_min_size(Pos2::ZERO, size.into())),
+                );
+                let numbers = texts
+                    .iter()
+                    .filter_map(|t| t.rows.concat().parse::<f64>().ok());
+                let numbers: Vec<f64> = numbers.collect();
+                assert!(numbers.len() >= 2, "{axis}: {texts:?}");
+            }
+        }
     }
 }
 
@@ -358,7 +475,10 @@ fn the_cost_of_the_chosen_plane_is_told_and_other_planes_can_be_tried() {
     assert!(has(&window, "Drag or click in a curve"));
     click(&mut window, "Cost along y");
     wait(&mut window, "the plane", |w| has(w, "what if y ="));
-    assert!(has(&window, "tests to the chosen plane"));
+    assert!(
+        has(&window, "tests more than the chosen plane")
+            || has(&window, "tests fewer than the chosen plane")
+    );
     assert!(has(&window, "crossed: what if y ="));
     window.key_press(egui::Key::Escape);
     window.run_steps(3);

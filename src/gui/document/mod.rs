@@ -19,6 +19,8 @@ mod selection;
 mod stepping;
 pub mod study;
 pub mod tasks;
+mod tune;
+pub mod tuning;
 pub mod visits;
 pub mod walk;
 
@@ -41,6 +43,7 @@ use notices::Notices;
 use restoring::Restoring;
 pub use result::{Current, Fresh};
 use std::sync::Arc;
+use tuning::Tuning;
 use walk::Walking;
 
 /// What is wanted, what is shown, and the jobs that lead from one to the other.
@@ -99,6 +102,8 @@ pub struct Document {
     pub pinned: Vec<[u32; 2]>,
     /// What is to be selected again, until it is.
     pub restoring: Option<Restoring>,
+    /// The search for the best tree.
+    pub tuning: Tuning,
     /// What was done, for a moment.
     pub notices: Notices,
 }
@@ -179,6 +184,7 @@ impl Document {
             notes: String::new(),
             pinned: Vec::new(),
             restoring: None,
+            tuning: Tuning::default(),
             notices: Notices::default(),
         }
     }
@@ -392,6 +398,7 @@ impl Document {
     /// Receives what the jobs have sent. Returns the scenes that came into view.
     pub fn receive(&mut self) -> Vec<SceneSource> {
         let mut opened = Vec::new();
+        self.tuning.receive();
         let Some(work) = &mut self.work else {
             return opened;
         };
@@ -558,6 +565,13 @@ fn same_but_camera(a: &Setup, b: &Setup) -> bool {
 }
 
 impl Document {
+    /// Selects a node of the tree on view.
+    pub fn select_node(&mut self, node: Option<u32>) {
+        if let Some(current) = &mut self.current {
+            current.selection.node = node;
+        }
+    }
+
     /// Clears the picked pixel.
     pub fn unpick(&mut self) {
         if let Some(current) = &mut self.current {

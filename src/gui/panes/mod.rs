@@ -13,12 +13,14 @@ mod outline;
 mod paper;
 mod parameters;
 mod picture;
+mod ranking;
 mod ray;
 mod rays;
 mod scene;
 mod settings;
 mod sweep;
 mod time;
+mod tune;
 mod verification;
 mod view3d;
 
@@ -41,6 +43,8 @@ pub static PANES: &[Entry] = &[
     Entry::of::<accuracy::AccuracyPane>(),
     Entry::of::<time::TimePane>(),
     Entry::of::<sweep::SweepPane>(),
+    Entry::of::<tune::TunePane>(),
+    Entry::of::<ranking::RankingPane>(),
     Entry::of::<parameters::ParametersPane>(),
     Entry::of::<scene::ScenePane>(),
     Entry::of::<verification::VerificationPane>(),

@@ -29,7 +29,7 @@ use crate::gui::theme::{self, IconButton};
 use crate::gui::widgets::hidden;
 use crate::scene::SceneSource;
 use crate::scene::format::names;
-use crate::setup::measure_command;
+use crate::setup::{Setup, measure_command};
 use crate::workspace::Workspace;
 
 /// The window.
@@ -123,6 +123,11 @@ impl App {
     /// Whether everything that was asked for is on view, with final figures.
     pub fn is_finished(&self) -> bool {
         self.doc.is_finished()
+    }
+
+    /// The settings of the tree in front, as its widgets show them.
+    pub fn setup(&self) -> &Setup {
+        &self.doc.wanted
     }
 
     /// All that is shown, as a workspace.

@@ -55,10 +55,10 @@ pub static TASKS: [Task; 5] = [
         title: "Tune",
         about: "The best tree for this scene.",
         action: "window.tune",
-        left: None,
+        left: Some(Column::new(&["tune"], [360.0, 300.0])),
         right: None,
         below: None,
-        tiles: || beside(&["sweep", "time"]),
+        tiles: || above(("ranking", 396.0), (&["sweep", "time", "accuracy"], 532.0)),
     },
     Task {
         id: "lessons",
@@ -98,6 +98,23 @@ impl<'de> Deserialize<'de> for TaskId {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         Ok(TaskId(task(&String::deserialize(from)?).id))
     }
+}
+
+/// A pane above others, which are tabs, with their shares of the height.
+fn above(
+    (upper, upper_share): (&'static str, f32),
+    (lower, lower_share): (&[&'static str], f32),
+) -> Tiles {
+    let pane = |id: &str| super::layout::pane(id).expect("tasks name known panes");
+    let mut tiles = egui_tiles::Tiles::default();
+    let upper = tiles.insert_pane(pane(upper));
+    let lower = lower.iter().map(|id| tiles.insert_pane(pane(id))).collect();
+    let lower = tiles.insert_tab_tile(lower);
+    let mut both = Linear::new(LinearDir::Vertical, vec![upper, lower]);
+    both.shares.set_share(upper, upper_share);
+    both.shares.set_share(lower, lower_share);
+    let root = tiles.insert_container(both);
+    super::layout::tree(root, tiles)
 }
 
 /// Panes of equal width beside each other.

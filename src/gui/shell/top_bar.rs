@@ -8,8 +8,8 @@ use crate::gui::document::comparing::Which;
 use crate::gui::edits::{Edits, Request};
 use crate::gui::icons;
 use crate::gui::theme::IconButton;
-use crate::measure::parameter;
-use crate::structure::{MaxDepth, Method};
+use crate::gui::widgets::setting_widget::{self, Around};
+use crate::setup::SETTINGS;
 use egui::containers::menu::MenuButton;
 
 /// Below this width, in points, tasks become a menu and the slider is short.
@@ -21,8 +21,9 @@ pub fn show(ui: &mut egui::Ui, doc: &mut Document, files: &mut Files, edits: &mu
     ui.horizontal_centered(|ui| {
         files.menu(ui, doc);
         which(ui, doc);
-        method(ui, doc);
-        d_max(ui, doc, if narrow { 120.0 } else { 240.0 });
+        let slider = if narrow { 120.0 } else { 240.0 };
+        setting(ui, "method", doc, edits, slider);
+        setting(ui, "d-max", doc, edits, slider);
         ui.separator();
         if narrow {
             let title = super::tasks::task(doc.task).title;
@@ -121,69 +122,19 @@ fn which(ui: &mut egui::Ui, doc: &mut Document) {
     }
 }
 
-fn method(ui: &mut egui::Ui, doc: &mut Document) {
-    let method = doc.wanted.build.method;
-    egui::ComboBox::from_id_salt("method")
-        .selected_text(format!("Method: {}", method.name))
-        .width(150.0)
-        .show_ui(ui, |ui| {
-            for other in Method::all() {
-                let item = ui.selectable_label(other == method, other.name);
-                let item = item.on_hover_text(format!("{}\nSource: {}", other.about, other.source));
-                if item.clicked() {
-                    doc.wanted.build.set_method(other);
-                }
-            }
-        })
-        .response
-        .accessible_name("Build method")
-        .on_hover_text(tip(method.about, "window.next-method"));
-}
-
-fn d_max(ui: &mut egui::Ui, doc: &mut Document, width: f32) {
-    let automatic = doc.wanted.build.d_max == MaxDepth::Automatic;
-    let about = about("D_MAX", "window.deeper");
-    ui.label("Depth").on_hover_text(&about);
-    // While automatic, the number says what that came to in the tree on view.
-    let resolved = doc
-        .current
-        .as_ref()
-        .map_or(0, |c| c.shown.tree.depth_limit());
-    let mut depth = match doc.wanted.build.d_max {
-        MaxDepth::Fixed(depth) => depth,
-        MaxDepth::Automatic => resolved,
+/// A setting of the tree in front, without its row.
+fn setting(ui: &mut egui::Ui, name: &str, doc: &Document, edits: &mut Edits, slider: f32) {
+    let around = Around {
+        largest: 0,
+        camera: None,
+        depth_limit: doc.current.as_ref().map(|c| c.shown.tree.depth_limit()),
+        slider: Some(slider),
+        note: &|_, _| None,
     };
-    ui.spacing_mut().slider_width = width;
-    let slider = egui::Slider::new(&mut depth, 0..=MaxDepth::LIMIT);
-    let changed = ui
-        .name_inputs("D_MAX", |ui| ui.add_enabled(!automatic, slider))
-        .on_hover_text(&about)
-        .changed();
-    if changed && !automatic {
-        doc.wanted.build.d_max = MaxDepth::Fixed(depth);
+    let mut known = SETTINGS.iter();
+    if let Some(setting) = known.find(|setting| setting.name == name) {
+        ui.label(setting.label)
+            .on_hover_text(setting_widget::about(setting, &doc.wanted));
+        setting_widget::show(ui, setting, &doc.wanted, &around, edits);
     }
-    let mut auto = automatic;
-    ui.checkbox(&mut auto, "Auto").on_hover_text(tip(
-        "D_MAX = 1.2 log2 N_O + 2, rounded.",
-        "window.auto-depth",
-    ));
-    if auto != automatic {
-        doc.toggle_automatic_depth();
-    }
-}
-
-/// The tooltip of a setting that is one of the paper's parameters.
-fn about(symbol: &str, action: &str) -> String {
-    let p = parameter(symbol);
-    tip(
-        &format!(
-            "{}: {}\n{}\nClass {:?} · {}",
-            p.symbol,
-            p.name,
-            p.meaning,
-            p.class,
-            p.table.title()
-        ),
-        action,
-    )
 }

@@ -1,14 +1,30 @@
 //! Small pieces that several panes share.
 
-/// What is shown while facts of the tree are being worked out.
+use crate::gui::document::Document;
+
+/// Says that figures of the nodes are being computed.
 pub fn waiting(ui: &mut egui::Ui) {
+    busy(ui, "Computing the figures of the nodes…");
+}
+
+/// Says why there is nothing to show before the first picture.
+pub fn no_picture(ui: &mut egui::Ui, doc: &Document) {
+    if doc.work.is_some() || doc.failure.is_none() && !doc.stopped {
+        busy(ui, "Loading the scene…");
+    } else {
+        ui.weak("There is no scene yet. Open one in the menu at the top left.");
+    }
+}
+
+/// Says what is being done.
+pub fn busy(ui: &mut egui::Ui, what: &str) {
     ui.horizontal(|ui| {
         ui.spinner();
-        ui.label("Working out the facts of the tree …");
+        ui.label(what);
     });
 }
 
-/// A number in few characters.
+/// Formats a number in few characters.
 pub fn short(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {
@@ -22,7 +38,7 @@ pub fn short(value: f64) -> String {
     }
 }
 
-/// The least 1, 2 or 5 times a power of ten that is at least this.
+/// Returns the least 1, 2 or 5 times a power of ten that is at least this.
 pub fn nice_step(least: f64) -> f64 {
     let power = libm::exp10(least.max(f64::MIN_POSITIVE).log10().floor());
     let steps = [1.0, 2.0, 5.0].map(|of| of * power);

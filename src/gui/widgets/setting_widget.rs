@@ -1,9 +1,20 @@
-//! One row for each setting: its label with a tooltip, and a widget for its kind of value.
+//! Widgets of settings, made from their entries: a row with a label, and a control for the kind of value.
+//! A control returns the new value; nothing is changed before the pane has been drawn.
 
 use crate::geometry::Vec3;
+use crate::gui::action::tip;
+use crate::gui::edits::Edits;
+use crate::gui::theme::{ROW, hint};
 use crate::scene::{Camera, Cylinders};
 use crate::setup::{Choice, Kind, Range, Setting, Setup, Value};
 use crate::structure::MaxDepth;
+use egui::vec2;
+
+/// The width of the labels in points.
+const LABEL: f32 = 152.0;
+
+/// The depth that is shown before there is a tree.
+const USUAL_DEPTH: u32 = 20;
 
 /// What widgets know beside the setup.
 pub struct Around<'a> {
@@ -11,46 +22,88 @@ pub struct Around<'a> {
     pub largest: u32,
     /// The camera that is used now; `None` before the first picture.
     pub camera: Option<&'a Camera>,
+    /// The depth limit of the tree on view; `None` before the first.
+    pub depth_limit: Option<u32>,
+    /// The width of the slider for the depth, in points; `None` for a number alone.
+    pub slider: Option<f32>,
     /// A few words to stand beside a setting's widget, with a tooltip.
     pub note: &'a dyn Fn(&Setting, &Setup) -> Option<[String; 2]>,
 }
 
-/// A grid with a row for each of these settings.
+/// Shows a row for each of these settings. A change is an edit of the tree in front.
 pub fn rows(
     ui: &mut egui::Ui,
-    id: &str,
     settings: impl Iterator<Item = Setting>,
-    setup: &mut Setup,
+    setup: &Setup,
     around: &Around<'_>,
+    edits: &mut Edits,
 ) {
-    egui::Grid::new(id).num_columns(2).show(ui, |ui| {
-        for setting in settings {
-            let about = about(&setting, setup);
-            let before = setting.value(setup);
-            row(ui, setting.label, &about, |ui| {
-                let value = widget(ui, &setting, before, &about, around);
-                if let Some(value) = value.filter(|value| *value != before) {
-                    setting.store(setup, value);
-                }
-                if let Some([note, about]) = (around.note)(&setting, setup) {
-                    ui.weak(note).on_hover_text(about);
-                }
-            });
-        }
-    });
+    for setting in settings {
+        ui.horizontal_wrapped(|ui| {
+            label(ui, &setting, setup);
+            show(ui, &setting, setup, around, edits);
+            if let Some([note, about]) = (around.note)(&setting, setup) {
+                // As a whole on one line, so that all of it is under the pointer.
+                ui.add(egui::Label::new(egui::RichText::new(note).weak()).extend())
+                    .on_hover_text(about);
+            }
+        });
+    }
 }
 
-/// A row of a two-column grid: a name and a widget that goes by it.
-fn row<R>(
+/// Shows the control of a setting alone. A change is an edit of the tree in front.
+pub fn show(
     ui: &mut egui::Ui,
-    name: &str,
-    about: &str,
-    widget: impl FnOnce(&mut egui::Ui) -> R,
-) -> R {
-    ui.label(name).on_hover_text(about);
-    let result = ui.horizontal(|ui| ui.name_inputs(name, widget)).inner;
-    ui.end_row();
-    result
+    setting: &Setting,
+    setup: &Setup,
+    around: &Around<'_>,
+    edits: &mut Edits,
+) {
+    let before = setting.value(setup);
+    let said = Said {
+        name: &name(setting),
+        about: &about(setting, setup),
+    };
+    let value = ui.name_inputs(said.name, |ui| control(ui, setting, before, said, around));
+    if let Some(value) = value.filter(|value| *value != before) {
+        let setting = *setting;
+        edits.add(move |doc| setting.store(&mut doc.wanted, value));
+    }
+}
+
+/// What is said of a setting.
+#[derive(Clone, Copy)]
+struct Said<'a> {
+    name: &'a str,
+    about: &'a str,
+}
+
+impl Said<'_> {
+    /// Gives a widget its tooltip and its name, in this order: a tooltip would be the name otherwise.
+    fn of(self, response: egui::Response) -> egui::Response {
+        let response = response.on_hover_text(self.about);
+        response.accessible_name(self.name)
+    }
+}
+
+/// What a setting is called. Settings of a single method are named as in commands.
+pub fn name(setting: &Setting) -> String {
+    let words = setting.label.replace('-', " ");
+    let mut letters = words.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
+
+/// The name of a setting, with the paper's symbol as a hint.
+fn label(ui: &mut egui::Ui, setting: &Setting, setup: &Setup) {
+    let left = egui::Layout::left_to_right(egui::Align::Center);
+    ui.allocate_ui_with_layout(vec2(LABEL, ROW), left, |ui| {
+        ui.set_min_size(vec2(LABEL, ROW));
+        ui.label(name(setting)).on_hover_text(about(setting, setup));
+        if let Some(symbol) = setting.symbol {
+            ui.label(hint(symbol));
+        }
+    });
 }
 
 /// What a setting does, which values it takes, and what it is on the command line.
@@ -65,27 +118,27 @@ pub fn about(setting: &Setting, setup: &Setup) -> String {
     text + &format!("\nOn the command line: {}.", setting.name)
 }
 
-/// The widget for a value; returns the value that it is given.
-fn widget(
+/// The control for a value; returns the value that it is given.
+fn control(
     ui: &mut egui::Ui,
     setting: &Setting,
     value: Value,
-    about: &str,
+    said: Said<'_>,
     around: &Around<'_>,
 ) -> Option<Value> {
     match (setting.kind, value) {
-        (Kind::Number(range), Value::Number(now)) => number(ui, range, now, about),
+        (Kind::Number(range), Value::Number(now)) => number(ui, range, now, said),
         (Kind::Choice(choices), Value::Choice(now)) => {
-            choice(ui, setting.name, &choices(), now).map(Value::Choice)
+            choice(ui, said, &choices(), now).map(Value::Choice)
         }
         (Kind::Switch, Value::Switch(mut on)) => {
             let text = if on { "on (1)" } else { "off (0)" };
-            let is_changed = ui.checkbox(&mut on, text).on_hover_text(about).changed();
+            let is_changed = said.of(ui.checkbox(&mut on, text)).changed();
             is_changed.then_some(Value::Switch(on))
         }
         (Kind::Size, Value::Size(size)) => sides(ui, size, around.largest).map(Value::Size),
-        (Kind::Depth, Value::Depth(depth)) => self::depth(ui, depth).map(Value::Depth),
-        (Kind::Cylinders, Value::Cylinders(now)) => cylinders(ui, now).map(Value::Cylinders),
+        (Kind::Depth, Value::Depth(now)) => depth(ui, now, around, said).map(Value::Depth),
+        (Kind::Cylinders, Value::Cylinders(now)) => cylinders(ui, now, said).map(Value::Cylinders),
         (Kind::Point, value) => {
             let own = around
                 .camera
@@ -98,7 +151,7 @@ fn widget(
                 Value::Point(point) => Some(point),
                 _ => None,
             };
-            overridden(ui, point, own, |ui, point| {
+            overridden(ui, point, own, said, |ui, point| {
                 let mut changed = false;
                 for coordinate in [&mut point.x, &mut point.y, &mut point.z] {
                     let speed = (coordinate.abs() * 0.01).max(0.01);
@@ -117,7 +170,7 @@ fn widget(
                 Value::Number(angle) => Some(angle),
                 _ => None,
             };
-            overridden(ui, angle, own, |ui, angle| {
+            overridden(ui, angle, own, said, |ui, angle| {
                 let edit = egui::DragValue::new(angle)
                     .range(range.lowest..=range.highest)
                     .max_decimals(3)
@@ -130,7 +183,7 @@ fn widget(
     }
 }
 
-fn number(ui: &mut egui::Ui, range: Range, now: f64, about: &str) -> Option<Value> {
+fn number(ui: &mut egui::Ui, range: Range, now: f64, said: Said<'_>) -> Option<Value> {
     let Range {
         lowest,
         highest,
@@ -158,7 +211,7 @@ fn number(ui: &mut egui::Ui, range: Range, now: f64, about: &str) -> Option<Valu
             }
         });
     }
-    let is_changed = ui.add(edit).on_hover_text(about).changed();
+    let is_changed = said.of(ui.add(edit)).changed();
     if !unit.is_empty() {
         ui.weak(unit);
     }
@@ -167,16 +220,18 @@ fn number(ui: &mut egui::Ui, range: Range, now: f64, about: &str) -> Option<Valu
 
 fn choice(
     ui: &mut egui::Ui,
-    id: &str,
+    said: Said<'_>,
     choices: &[Choice],
     now: &'static str,
 ) -> Option<&'static str> {
     let mut chosen = now;
-    let about = choices.iter().find(|choice| choice.name == now);
-    let about = about.map_or("", |choice| choice.about);
-    let list = egui::ComboBox::from_id_salt(id)
+    let of_chosen = choices.iter().find(|choice| choice.name == now);
+    let of_chosen = of_chosen.map_or("", |choice| choice.about);
+    let list = egui::ComboBox::from_id_salt(said.name)
         .selected_text(now)
         .width(90.0)
+        // Without scrolling: a list that hides its last item hides that there is one.
+        .height(f32::INFINITY)
         .show_ui(ui, |ui| {
             for choice in choices {
                 let item = ui.selectable_value(&mut chosen, choice.name, choice.name);
@@ -185,9 +240,9 @@ fn choice(
                 }
             }
         });
-    if !about.is_empty() {
-        list.response.on_hover_text(about);
-    }
+    let about = format!("{}\n{of_chosen}", said.about);
+    let about = about.trim_end();
+    Said { about, ..said }.of(list.response);
     (chosen != now).then_some(chosen)
 }
 
@@ -200,31 +255,49 @@ fn sides(ui: &mut egui::Ui, size: [u32; 2], largest: u32) -> Option<[u32; 2]> {
         let edit = egui::DragValue::new(&mut sides[i])
             .range(1..=largest)
             .update_while_editing(false);
-        ui.add(edit).accessible_name(name);
+        ui.add(edit)
+            .accessible_name(name)
+            .on_hover_text(format!("{name} in pixels"));
     }
-    ui.weak("pixels");
     (sides != size).then_some(sides)
 }
 
-fn depth(ui: &mut egui::Ui, now: MaxDepth) -> Option<MaxDepth> {
-    let mut depth = now;
-    let mut automatic = now == MaxDepth::Automatic;
-    if let MaxDepth::Fixed(depth) = &mut depth {
-        ui.add(egui::DragValue::new(depth).range(0..=MaxDepth::LIMIT));
+fn depth(
+    ui: &mut egui::Ui,
+    now: MaxDepth,
+    around: &Around<'_>,
+    said: Said<'_>,
+) -> Option<MaxDepth> {
+    let automatic = now == MaxDepth::Automatic;
+    // While automatic, the number is what that came to in the tree on view.
+    let mut depth = match now {
+        MaxDepth::Fixed(depth) => depth,
+        MaxDepth::Automatic => around.depth_limit.unwrap_or(USUAL_DEPTH),
+    };
+    let range = 0..=MaxDepth::LIMIT;
+    let edit = if let Some(width) = around.slider {
+        ui.spacing_mut().slider_width = width;
+        ui.add_enabled(!automatic, egui::Slider::new(&mut depth, range))
+    } else {
+        ui.add_enabled(!automatic, egui::DragValue::new(&mut depth).range(range))
+    };
+    let is_changed = said.of(edit).changed();
+    let mut auto = automatic;
+    ui.checkbox(&mut auto, "Auto").on_hover_text(tip(
+        "D_MAX = 1.2 log2 N_O + 2, rounded.",
+        "window.auto-depth",
+    ));
+    if auto && !automatic {
+        Some(MaxDepth::Automatic)
+    } else {
+        (is_changed || auto != automatic).then_some(MaxDepth::Fixed(depth))
     }
-    if ui.checkbox(&mut automatic, "auto").changed() {
-        depth = match automatic {
-            true => MaxDepth::Automatic,
-            false => MaxDepth::Fixed(20),
-        };
-    }
-    (depth != now).then_some(depth)
 }
 
-fn cylinders(ui: &mut egui::Ui, now: Cylinders) -> Option<Cylinders> {
+fn cylinders(ui: &mut egui::Ui, now: Cylinders, said: Said<'_>) -> Option<Cylinders> {
     let mut cylinders = now;
     let mut polygons = matches!(now, Cylinders::Polygons(_));
-    ui.checkbox(&mut polygons, "as polygons");
+    said.of(ui.checkbox(&mut polygons, "as polygons"));
     match (polygons, &mut cylinders) {
         (true, Cylinders::Polygons(sides)) => {
             let edit = egui::DragValue::new(sides)
@@ -244,14 +317,14 @@ fn overridden<T: Copy>(
     ui: &mut egui::Ui,
     now: Option<T>,
     own: T,
+    said: Said<'_>,
     edit: impl FnOnce(&mut egui::Ui, &mut T) -> bool,
 ) -> Option<Option<T>> {
     let mut is_set = now.is_some();
-    if ui.checkbox(&mut is_set, "set").changed() {
+    if said.of(ui.checkbox(&mut is_set, "override")).changed() {
         return Some(is_set.then_some(own));
     }
     let Some(mut value) = now else {
-        ui.weak("the scene's own");
         return None;
     };
     edit(ui, &mut value).then_some(Some(value))

@@ -25,13 +25,14 @@ pub fn has_limits(method: Method) -> bool {
 }
 
 /// Returns whether a method is tried in a scene with this number of objects.
-pub(super) fn is_tried(method: Method, objects: usize) -> bool {
+pub fn is_tried(method: Method, objects: usize) -> bool {
     method.name != "none" || objects <= NAIVE_LIMIT
 }
 
-/// Returns the candidates of the first phase: this setup with every method that is tried.
-pub(super) fn all_methods(setup: &Setup, objects: usize) -> Vec<Setup> {
-    Method::all()
+/// Returns the candidates of the first phase: this setup with every one of these methods that is tried.
+pub(super) fn all_methods(setup: &Setup, methods: &[Method], objects: usize) -> Vec<Setup> {
+    let tried = methods.iter().copied();
+    tried
         .filter(|method| is_tried(*method, objects))
         .map(|method| {
             let mut candidate = setup.clone();
@@ -89,8 +90,9 @@ mod tests {
         setup.build.overlap = OverlapRule::Exact;
         setup.build.root_margin = 0.5;
         setup.build.n_oilf = 7;
+        let methods: Vec<_> = Method::all().collect();
         let names = |objects| -> Vec<_> {
-            let all = all_methods(&setup, objects);
+            let all = all_methods(&setup, &methods, objects);
             all.iter().map(|s| s.build.method.name).collect()
         };
         let all: Vec<_> = Method::all().map(|m| m.name).collect();
@@ -98,7 +100,12 @@ mod tests {
         let without: Vec<_> = all.iter().copied().filter(|name| *name != "none").collect();
         assert_eq!(without.len(), all.len() - 1);
         assert_eq!(names(NAIVE_LIMIT + 1), without);
-        for candidate in all_methods(&setup, 10) {
+        let chosen = all_methods(&setup, &methods[..2], 10);
+        assert_eq!(
+            chosen.iter().map(|s| s.build.method).collect::<Vec<_>>(),
+            methods[..2]
+        );
+        for candidate in all_methods(&setup, &methods, 10) {
             let build = &candidate.build;
             assert!(build.constants.is_empty(), "{build:?}");
             assert_eq!((build.d_max, build.n_oilf), (MaxDepth::Automatic, 1));

@@ -15,6 +15,8 @@ pub struct Search {
     /// The scene, the picture and the camera; of its structure, what applies to every method.
     pub setup: Setup,
     pub goal: Goal,
+    /// The methods that are measured, as far as the scene is not too large for them.
+    pub methods: Vec<Method>,
     /// Time for the measurements. When it is spent, no further turn begins, except that every method
     /// is timed at least once.
     pub budget: Duration,

@@ -11,7 +11,7 @@ use crate::measure::{MeasureError, Measurement, Times};
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::setup::Setup;
-use crate::structure::{BuildError, Method, Tree, build};
+use crate::structure::{BuildError, Tree, build};
 use crate::trace::{RenderSettings, render_counted, render_timed, thread_pool};
 use rayon::ThreadPool;
 use std::time::{Duration, Instant};
@@ -109,11 +109,14 @@ impl<'a> Tuning<'a> {
         let objects = scene.objects().len();
         let render = small(&search.setup.render);
         search.setup.render.view(scene)?;
-        let candidates = all_methods(&search.setup, objects);
+        let candidates = all_methods(&search.setup, &search.methods, objects);
         for candidate in &candidates {
             candidate.build.check().map_err(BuildError::from)?;
         }
-        let untried = Method::all().filter(|method| !is_tried(*method, objects));
+        let untried = search.methods.iter().copied();
+        let untried: Vec<_> = untried
+            .filter(|method| !is_tried(*method, objects))
+            .collect();
         Ok(Tuning {
             scene,
             pool: thread_pool(render.threads)?,
@@ -125,6 +128,7 @@ impl<'a> Tuning<'a> {
             candidates: candidates.into_iter().map(Candidate::new).collect(),
             rows: Vec::new(),
             left_out: untried
+                .into_iter()
                 .map(|method| LeftOut::Method { method, objects })
                 .collect(),
             turns_done: 0,

@@ -1,8 +1,8 @@
-//! The chosen outcome's error of every pixel, in colours.
+//! The error of every pixel for the chosen outcome, in colors.
 
 use super::study::Found;
-use crate::gui::document::Document;
 use crate::gui::document::tasks::Latest;
+use crate::gui::widgets::common::busy;
 use crate::gui::widgets::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::measure::heat::HeatImage;
 use crate::present::number::significant;
@@ -10,13 +10,13 @@ use crate::present::overlay::{Colormap, HeatScale, Range, Scale, colormap, heat_
 use egui::{Color32, ColorImage, Rect, TextureHandle, TextureOptions, pos2, vec2};
 use std::sync::Arc;
 
-/// Height of the colour bar in points.
+/// Height of the color bar in points.
 const BAR: f32 = 10.0;
 
-/// An error that is hardly seen: the colours are linear below and go by the logarithm above.
+/// An error that is hardly seen: the color scale is linear below and logarithmic above.
 const GRAIN: f64 = 1e-3;
 
-/// An outcome of a trade.
+/// An outcome of a study.
 type Key = (u64, usize);
 
 #[derive(Default)]
@@ -25,7 +25,7 @@ pub struct ErrorMap {
     texture: Option<(Key, TextureHandle)>,
 }
 
-/// Errors in colours.
+/// Errors in colors.
 struct Colored {
     image: HeatImage,
     /// `None` where no pixel has an error.
@@ -62,33 +62,32 @@ impl Colored {
 }
 
 impl ErrorMap {
-    /// Shows the map with its legend. A click picks the pixel in the picture, too.
+    /// Shows the map with its legend. Returns the pixel that is clicked.
     pub fn ui(
         &mut self,
         ui: &mut egui::Ui,
         found: &Found,
         chosen: Option<usize>,
-        doc: &mut Document,
-    ) {
+    ) -> Option<[u32; 2]> {
         let outcome = chosen.and_then(|place| Some((place, found.trade.outcomes.get(place)?)));
         let (Some((place, outcome)), Some(size)) = (outcome, found.size()) else {
             ui.weak("Choose an outcome: click a point or a row.");
-            return;
+            return None;
         };
-        ui.add(egui::Label::new(format!("Error of {}", outcome.choice.words())).truncate());
+        ui.label(format!("Error of {}", outcome.choice.words()));
         let Some(errors) = found.pixel_errors.get(place) else {
-            ui.weak("So many pixels of so many choices take too much memory: their errors are not kept.");
-            return;
+            ui.weak("The errors of so many pixels would take too much memory; they are not kept.");
+            return None;
         };
         let (key, errors) = ((found.number, place), Arc::clone(errors));
         let make = move || Colored::of(&errors, size);
         let Some(colored) = self.colored.get(&key, ui.ctx(), make) else {
-            ui.spinner();
-            return;
+            busy(ui, "Coloring the errors…");
+            return None;
         };
         let Some(scale) = &colored.scale else {
             ui.label("No pixel differs from the reference.");
-            return;
+            return None;
         };
         let texture = match &self.texture {
             Some((of, texture)) if *of == key => texture.id(),
@@ -116,12 +115,6 @@ impl ErrorMap {
             .map(|at| ((at - rect.min) / factor).max(vec2(0.0, 0.0)))
             .map(|at| [at.x as u32, at.y as u32])
             .map(|[x, y]| [x.min(size[0] - 1), y.min(size[1] - 1)]);
-        if let (true, Some(pixel), Some(current)) = (response.clicked(), under, &mut doc.current) {
-            let render = &current.shown.setup.render;
-            if [render.width, render.height] == size {
-                current.pick(pixel);
-            }
-        }
         legend(ui, scale);
         let value = under.and_then(|[x, y]| Some((x, y, colored.image.get(x, y)?)));
         ui.add(
@@ -129,19 +122,20 @@ impl ErrorMap {
                 Some((x, y, error)) => {
                     format!("pixel {x}, {y}: {}", significant(f64::from(error)))
                 }
-                None => "pixel: point at one; a click picks it".to_owned(),
+                None => "Point at a pixel to read its error; click to pick it.".to_owned(),
             })
-            .truncate(),
+            .wrap(),
         );
+        under.filter(|_| response.clicked())
     }
 }
 
-/// The colours with their numbers and what they are.
+/// The colors with their numbers and what they are.
 fn legend(ui: &mut egui::Ui, scale: &HeatScale) {
-    ui.add(egui::Label::new("root mean square over the colours, linear light").truncate())
+    ui.label("root mean square over the color channels, linear light")
         .on_hover_text(
-            "Square root of the mean squared difference over a pixel's colours, on linear light from 0 \
-             to 1. Colours go by the logarithm above 0.001.",
+            "Square root of the mean squared difference over a pixel's color channels, on linear light \
+             from 0 to 1. The color scale is logarithmic above 0.001.",
         );
     let size = vec2(ui.available_width(), BAR + TICK + NUMBERS);
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());

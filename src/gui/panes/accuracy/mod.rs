@@ -1,17 +1,20 @@
-//! The trade of time for accuracy: every choice as a point of a plot and a row of a table, and the
-//! chosen one's error of every pixel. Choosing one loads its settings.
+//! Accuracy vs. time: every choice as a point of a plot and a row of a table, and the error of every
+//! pixel for the chosen one. A click on a choice loads its settings.
 
 mod error_map;
 mod plot;
 mod study;
 mod table;
+mod words;
 
 use crate::gui::action::{actions, tip};
 use crate::gui::document::Document;
+use crate::gui::edits::Edits;
 use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::widgets::common::{busy, no_picture};
 use crate::jobs::{End, Standing};
-use crate::measure::accuracy::{AccuracyStudy, ERROR_MEASURES, ErrorMeasure, Outcome};
-use crate::present::number::significant;
+use crate::measure::accuracy::ERROR_MEASURES;
+use crate::present::number::{Digits, counted, significant};
 use egui::vec2;
 use study::{Found, Trading};
 
@@ -37,8 +40,8 @@ impl Pane for AccuracyPane {
     const ABOUT: &'static str = "What each choice that trades accuracy for speed costs and saves.";
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "accuracy.run" Here NONE [Enter] "Measure speed and error; Esc ends it" => |pane, cx| pane.trading.start(cx.doc);
-        "accuracy.previous-outcome" Here NONE [ArrowUp] "Load the settings of the previous outcome" => |pane, cx| pane.step(false, cx.doc);
-        "accuracy.next-outcome" Here NONE [ArrowDown] "Load the settings of the next outcome" => |pane, cx| pane.step(true, cx.doc);
+        "accuracy.previous-outcome" Here NONE [ArrowUp] "Load the settings of the previous outcome" => |pane, cx| pane.step(false, cx.edits);
+        "accuracy.next-outcome" Here NONE [ArrowDown] "Load the settings of the next outcome" => |pane, cx| pane.step(true, cx.edits);
         "accuracy.next-error" Here NONE [E] "Show the next measure of the error" => |pane, _| pane.error = (pane.error + 1) % ERROR_MEASURES.len();
         "accuracy.error-map" Here NONE [M] "Show the table of outcomes or the error of every pixel" => |pane, _| pane.map_first ^= true;
     };
@@ -48,17 +51,23 @@ impl Pane for AccuracyPane {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc = &mut *cx.doc;
+        let doc: &Document = cx.doc;
         let found = self.trading.study.found().cloned();
         ui.horizontal_wrapped(|ui| self.toolbar(ui, doc));
         let Some(found) = found.filter(|found| !found.trade.outcomes.is_empty()) else {
-            ui.weak(
-                "What does accuracy cost? Every choice that buys time with it, alone and together, \
-                 against a reference.",
-            );
+            if doc.current.is_none() {
+                no_picture(ui, doc);
+            } else if self.trading.study.is_running() {
+                busy(ui, "Rendering the reference…");
+            } else {
+                ui.weak(
+                    "What does accuracy cost? The error and rendering time of every setting that gives \
+                     up accuracy for speed, compared with a reference.",
+                );
+            }
             return;
         };
-        ui.add(egui::Label::new(about(&found)).truncate());
+        ui.add(egui::Label::new(about(&found)).wrap());
         let measure = &ERROR_MEASURES[self.error];
         let front = found.trade.front_by(measure);
         let size = crate::gui::widgets::common::rest_of(ui);
@@ -67,6 +76,7 @@ impl Pane for AccuracyPane {
         let part = vec2((size.x - 8.0 * (parts - 1.0)) / parts, size.y - 2.0);
         let chosen = self.trading.chosen;
         let mut click = None;
+        let mut picked = None;
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = 8.0;
             let mut column = |add: &mut dyn FnMut(&mut egui::Ui)| {
@@ -87,58 +97,72 @@ impl Pane for AccuracyPane {
                 });
             }
             if wide || self.map_first {
-                column(&mut |ui| self.map.ui(ui, &found, chosen, doc));
+                column(&mut |ui| picked = self.map.ui(ui, &found, chosen).or(picked));
             }
         });
         if let Some(place) = click {
-            self.choose(place, doc);
+            self.choose(place, cx.edits);
+        }
+        if let Some(pixel) = picked {
+            let size = found.size();
+            cx.edits.add(move |doc| {
+                if let Some(current) = &mut doc.current {
+                    let render = &current.shown.setup.render;
+                    if Some([render.width, render.height]) == size {
+                        current.pick(pixel);
+                    }
+                }
+            });
         }
     }
 }
 
 impl AccuracyPane {
     /// Chooses the next outcome or the previous one; the first if none is chosen.
-    fn step(&mut self, forward: bool, doc: &mut Document) {
+    fn step(&mut self, forward: bool, edits: &mut Edits) {
         let next = match self.trading.chosen {
             None => 0,
             Some(at) if forward => at + 1,
             Some(at) => at.saturating_sub(1),
         };
-        self.choose(next, doc);
+        self.choose(next, edits);
     }
 
-    fn choose(&mut self, place: usize, doc: &mut Document) {
+    fn choose(&mut self, place: usize, edits: &mut Edits) {
         if let Some(mut setup) = self.trading.choose(place) {
-            setup.render.threads = doc.wanted.render.threads;
-            doc.wanted = setup;
+            edits.add(|doc| {
+                setup.render.threads = doc.wanted.render.threads;
+                doc.wanted = setup;
+            });
         }
     }
 
-    fn toolbar(&mut self, ui: &mut egui::Ui, doc: &mut Document) {
+    fn toolbar(&mut self, ui: &mut egui::Ui, doc: &Document) {
         if let Some(status) = self.trading.study.status() {
             if ui
-                .button("Cancel trade")
+                .button("Cancel")
                 .on_hover_text(tip(
-                    "End the trade; what is known of it stays.",
+                    "Cancel the measurement; what was measured stays.",
                     "window.cancel",
                 ))
                 .clicked()
             {
                 self.trading.study.cancel();
             }
-            ui.label(format!("{:.0} %", status.fraction * 100.0));
+            ui.label(Digits::Three.percent(status.fraction));
             ui.weak(match status.standing {
-                Standing::Running => "taking times …",
-                Standing::Waiting | Standing::Paused => "waits for the picture",
+                Standing::Running => "measuring…",
+                Standing::Waiting | Standing::Paused => "waiting for the picture",
             });
             ui.ctx().request_repaint_after_secs(0.2);
         } else {
-            let run = ui.add_enabled(self.trading.may_start(doc), egui::Button::new("Run trade"));
-            let about = "Trace the scene on view with every choice that trades accuracy for time, in \
-                         the background, while nothing else is traced.";
+            let run = egui::Button::new("Measure speed and error");
+            let run = ui.add_enabled(self.trading.may_start(doc), run);
+            let about = "Render the scene on view with every setting that gives up accuracy for speed, \
+                         in the background, while nothing else is measured.";
             if run
                 .on_hover_text(tip(about, "accuracy.run"))
-                .on_disabled_hover_text("Begins with a finished picture.")
+                .on_disabled_hover_text("Needs a finished picture.")
                 .clicked()
             {
                 self.trading.start(doc);
@@ -149,14 +173,14 @@ impl AccuracyPane {
                     256,
                     " samples",
                     "Samples of the reference",
-                    "Samples a pixel of the reference.",
+                    "Samples per pixel of the reference.",
                 ),
                 (
                     &mut self.trading.rounds,
                     99,
                     " rounds",
-                    "Rounds of the trade",
-                    "Rounds in which every choice is timed once; the median counts.",
+                    "Rounds",
+                    "Rounds in which every choice is timed once. The time is the median.",
                 ),
             ] {
                 let edit = egui::DragValue::new(value).range(1..=most).speed(0.1);
@@ -166,10 +190,10 @@ impl AccuracyPane {
             }
             match self.trading.study.end() {
                 Some(End::Cancelled) => {
-                    ui.label("cancelled: what was found stays");
+                    ui.label("cancelled: what was measured stays");
                 }
                 Some(End::Failed(why)) => {
-                    ui.label(format!("ended: {why}"));
+                    ui.label(format!("failed: {why}"));
                 }
                 Some(End::Done(()) | End::Replaced) | None => {}
             }
@@ -194,32 +218,22 @@ impl AccuracyPane {
     }
 }
 
-/// What the trade is of.
+/// What was measured, and how far.
 fn about(found: &Found) -> String {
     let first = &found.trade.outcomes[0];
     let render = &first.choice.setup.render;
+    let samples = counted(render.samples as usize, "sample") + " per pixel";
     format!(
-        "{} · reference: f64, exact shapes, D_AREC {}, {} samples a pixel, {} × {} pixels, {}: {} s of \
+        "{} · reference: f64, exact shapes, {} bounces, {}, {} × {} pixels, {}: {} s of \
          CPU time · {} of {} turns",
         found.of.scene.source,
         render.d_arec,
-        render.samples,
+        samples,
         render.width,
         render.height,
         first.choice.setup.build.method.name,
         significant(first.median()),
         found.taken,
         found.steps,
-    )
-}
-
-/// An outcome in words: its choice, its time and its error by one measure.
-fn words(trade: &AccuracyStudy, outcome: &Outcome, measure: &ErrorMeasure) -> String {
-    format!(
-        "{}: {:.3} of the reference's time, {} {}",
-        outcome.choice.words(),
-        trade.ratios(outcome)[1],
-        measure.name,
-        significant((measure.value)(outcome))
     )
 }

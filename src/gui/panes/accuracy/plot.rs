@@ -1,9 +1,9 @@
 //! Error against time, both by the logarithm, with the Pareto front.
 
-use super::words;
+use super::words::words;
 use crate::gui::widgets::log_axis::{marks, number};
 use crate::measure::accuracy::{AccuracyStudy, ErrorMeasure, Outcome};
-use crate::present::number::significant;
+use crate::present::number::{Digits, significant};
 use egui::{Color32, Pos2, Rect, Sense, vec2};
 use egui_plot::{AxisHints, GridMark, Line, MarkerShape, Plot, PlotPoint, Points};
 
@@ -13,7 +13,7 @@ const CHOSEN: Color32 = Color32::from_rgb(230, 110, 40);
 /// How far below the least error, in decades, no error at all is drawn: it has no logarithm.
 const ZERO_BELOW: f64 = 1.0;
 
-/// Shows the plot; gives the outcome that is clicked.
+/// Shows the plot; returns the outcome that is clicked.
 pub fn show(
     ui: &mut egui::Ui,
     trade: &AccuracyStudy,
@@ -21,19 +21,16 @@ pub fn show(
     front: &[bool],
     chosen: Option<usize>,
 ) -> Option<usize> {
-    ui.add(
-        egui::Label::new(
-            egui::RichText::new(
-                "filled diamonds: Pareto front · circles: move the picture · crosses: only its time",
-            )
-            .small(),
+    ui.label(
+        egui::RichText::new(
+            "filled diamonds: Pareto front · circles: change the picture · crosses: only its time",
         )
-        .truncate(),
+        .small(),
     )
     .on_hover_text(
-        "On the front, nothing else is both faster and closer to the reference. A square marks the \
+        "On the front, no other choice is both faster and closer to the reference. A square marks the \
          choice loaded last. Click a point to load its settings; Ctrl and the wheel zoom, a double \
-         click shows all again.",
+         click shows everything again.",
     );
     let zero = zero_place(trade, measure);
     let points: Vec<[f64; 2]> = trade
@@ -84,7 +81,7 @@ pub fn show(
             false,
         ),
         (
-            "moves the picture",
+            "changes the picture",
             of(&|p| moves(p) && !front[p]),
             MarkerShape::Circle,
             ink,
@@ -184,8 +181,8 @@ fn details(ui: &mut egui::Ui, trade: &AccuracyStudy, outcome: &Outcome) {
     let error = &outcome.error;
     ui.strong(outcome.choice.words());
     ui.label(format!(
-        "{median:.3} of the reference's time ({least:.3} to {most:.3}), {} s of CPU time",
-        significant(outcome.median())
+        "{median:.3} of the reference's time ({least:.3} to {most:.3}), {} of CPU time",
+        Digits::Four.seconds(outcome.median())
     ));
     let psnr = error
         .psnr
@@ -198,8 +195,8 @@ fn details(ui: &mut egui::Ui, trade: &AccuracyStudy, outcome: &Outcome) {
         significant(error.flip)
     ));
     ui.label(format!(
-        "{} % of the pixels hit another object",
-        significant(100.0 * outcome.wrong_hits)
+        "{} of the pixels hit a different object",
+        Digits::Four.percent(outcome.wrong_hits)
     ));
     ui.weak("Click to load these settings.");
 }

@@ -1,4 +1,4 @@
-//! The accuracy study of the window: what each choice costs in time, and what it gives in accuracy.
+//! The accuracy study of the window: the rendering time and the error of each choice.
 
 use crate::gui::document::Document;
 use crate::gui::document::study::Study;
@@ -8,15 +8,15 @@ use crate::setup::Setup;
 use crate::trace::RenderSettings;
 use std::sync::Arc;
 
-/// The trade, the last one taken and how the next will be.
+/// The last study, and the settings of the next.
 pub struct Trading {
-    /// Samples a pixel of the next reference, at least 1.
+    /// Samples per pixel of the next reference, at least 1.
     pub samples: u32,
-    /// Rounds of the next trade, at least 1.
+    /// Rounds of the next study, at least 1.
     pub rounds: u32,
     /// Which outcome was chosen.
     pub chosen: Option<usize>,
-    /// How many trades were begun.
+    /// How many studies were started.
     begun: u64,
     pub study: Study<StudyAccuracy, Found>,
 }
@@ -33,12 +33,12 @@ impl Default for Trading {
     }
 }
 
-/// What is known of a trade; it grows with every step.
+/// What is known of a study; it grows with every step.
 #[derive(Clone)]
 pub struct Found {
-    /// No other trade of the window has it.
+    /// No other study of the window has it.
     pub number: u64,
-    /// What was on view when the trade began.
+    /// What was on view when the study began.
     pub of: Setup,
     /// The outcomes so far, in the order of the choices.
     pub trade: AccuracyStudy,

@@ -1,31 +1,33 @@
 //! The outcomes as rows.
 
+use crate::gui::theme::{HINT, named};
 use crate::measure::accuracy::{AccuracyStudy, Outcome};
-use crate::present::number::significant;
+use crate::present::number::{Digits, significant};
 use egui::{Align, Sense};
 use egui_extras::{Column, TableBuilder};
 
 const COLUMNS: [(&str, f32, &str); 11] = [
     (
         "choice",
-        170.0,
-        "What is turned; all else is as at the reference",
+        // At least.
+        120.0,
+        "What differs from the reference; everything else is the same",
     ),
     (
         "front",
         38.0,
-        "Whether nothing else is both faster and closer to the reference; choices that move only the \
-         time are not part of that",
+        "Whether no other choice is both faster and closer to the reference; choices that change only \
+         the time are not part of the front",
     ),
     (
         "time",
         44.0,
-        "Median of the rounds, as a ratio to the reference's",
+        "Median of the rounds, divided by that of the reference",
     ),
     (
         "wrong hits",
         70.0,
-        "Share of the pixels whose primary ray meets another object than it should",
+        "Share of the pixels whose primary ray hits a different object than that of the reference",
     ),
     (
         "RMSE",
@@ -35,7 +37,7 @@ const COLUMNS: [(&str, f32, &str); 11] = [
     (
         "max",
         54.0,
-        "Largest difference of any pixel and colour on linear light, 0 to 1",
+        "Largest difference of any pixel and color channel on linear light, 0 to 1",
     ),
     (
         "PSNR",
@@ -55,16 +57,16 @@ const COLUMNS: [(&str, f32, &str); 11] = [
     (
         "spread",
         98.0,
-        "Least and largest time of the rounds, as ratios to the reference's median",
+        "Least and greatest time of the rounds, divided by the reference's median",
     ),
     (
         "objects",
         70.0,
-        "Memory of the objects as intersection tests take them",
+        "Memory of the objects in the form that intersection tests read",
     ),
 ];
 
-/// Shows the table, scrolled to a row if asked; gives the outcome that is clicked.
+/// Shows the table, scrolled to a row if asked; returns the outcome that is clicked.
 pub fn show(
     ui: &mut egui::Ui,
     trade: &AccuracyStudy,
@@ -73,20 +75,23 @@ pub fn show(
     scroll: Option<usize>,
 ) -> Option<usize> {
     let height = ui.text_style_height(&egui::TextStyle::Body) + 2.0;
+    let first = name_width(ui, trade);
     let mut clicked = None;
     egui::ScrollArea::horizontal()
         .id_salt("outcomes")
         .auto_shrink(false)
         .show(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 6.0;
+            ui.style_mut().override_text_style = Some(named(HINT));
             let mut builder = TableBuilder::new(ui)
                 .striped(true)
                 .sense(Sense::click())
                 .auto_shrink(false)
                 .cell_layout(egui::Layout::left_to_right(Align::Center))
                 .animate_scrolling(false);
-            for (_, width, _) in COLUMNS {
-                builder = builder.column(Column::exact(width).clip(true));
+            builder = builder.column(Column::exact(first));
+            for (_, width, _) in &COLUMNS[1..] {
+                builder = builder.column(Column::exact(*width).clip(true));
             }
             if let Some(row) = scroll {
                 builder = builder.scroll_to_row(row, Some(Align::Center));
@@ -139,6 +144,19 @@ pub fn show(
     clicked
 }
 
+/// The width of the longest choice: none is cut.
+fn name_width(ui: &egui::Ui, trade: &AccuracyStudy) -> f32 {
+    let font = named(HINT).resolve(ui.style());
+    let color = ui.visuals().text_color();
+    let widths = trade.outcomes.iter().map(|outcome| {
+        let words = outcome.choice.words();
+        let font = font.clone();
+        ui.ctx()
+            .fonts_mut(|fonts| fonts.layout_no_wrap(words, font, color).size().x)
+    });
+    widths.fold(COLUMNS[0].1, f32::max).ceil()
+}
+
 fn cells(trade: &AccuracyStudy, outcome: &Outcome, front: bool) -> [String; 11] {
     let [least, median, most] = trade.ratios(outcome);
     let error = &outcome.error;
@@ -146,7 +164,7 @@ fn cells(trade: &AccuracyStudy, outcome: &Outcome, front: bool) -> [String; 11] 
         outcome.choice.words(),
         if front { "front" } else { "" }.to_owned(),
         format!("{median:.3}"),
-        format!("{} %", significant(100.0 * outcome.wrong_hits)),
+        Digits::Three.percent(outcome.wrong_hits),
         significant(error.rmse),
         significant(error.max),
         error
@@ -155,6 +173,6 @@ fn cells(trade: &AccuracyStudy, outcome: &Outcome, front: bool) -> [String; 11] 
         format!("{:.5}", error.ssim),
         significant(error.flip),
         format!("{least:.3}–{most:.3}"),
-        format!("{} KiB", outcome.object_bytes.div_ceil(1024)),
+        Digits::Four.bytes(outcome.object_bytes as f64),
     ]
 }

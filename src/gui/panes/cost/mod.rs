@@ -3,10 +3,12 @@
 
 use crate::geometry::Axis;
 use crate::gui::action::{Gesture, actions, tip};
+use crate::gui::document::Document;
 use crate::gui::document::inspect::{TreeKey, WhatIf};
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
-use crate::gui::widgets::common::{nice_step, short, waiting};
+use crate::gui::widgets::common::{nice_step, no_picture, short, waiting};
 use crate::gui::widgets::symbol::grouped;
+use crate::present::number::{Digits, counted};
 use crate::structure::{NodeCost, SplitCost};
 use egui::{Color32, vec2};
 use egui_plot::{AxisHints, GridMark, HLine, LineStyle, Plot, PlotPoint, Text, VLine};
@@ -37,7 +39,7 @@ impl Pane for CostPane {
     const ABOUT: &'static str = "The cost of every plane that could split the selected node.";
     const REVEALS: &'static [Fact] = &[Fact::Tree];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
-        "split-cost.undo-what-if" Here NONE [Delete] "Remove the tried plane" => |_, cx| { cx.doc.inspect.undo(); };
+        "split-cost.undo-what-if" Here NONE [Delete] "Remove the tried plane" => |_, cx| cx.edits.add(|doc| doc.inspect.what_if = None);
     };
     const GESTURES: &'static [Gesture] = &[Gesture {
         gesture: "Drag",
@@ -45,8 +47,9 @@ impl Pane for CostPane {
     }];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc = &mut *cx.doc;
+        let doc: &Document = cx.doc;
         let Some(current) = &doc.current else {
+            no_picture(ui, doc);
             return;
         };
         let Some(node) = current.selection.node else {
@@ -64,79 +67,81 @@ impl Pane for CostPane {
         let Some(drawn) = &self.drawn else {
             return;
         };
-        let mut tried = doc.inspect.what_if;
+        let before = doc.inspect.what_if;
+        let mut tried = before;
         words(ui, &cost, &mut tried);
         if cost.objects == 0 {
             ui.weak("The cell is empty: there is nothing to split.");
-            doc.inspect.what_if = None;
-            return;
-        }
-        let size = crate::gui::widgets::common::rest_of(ui);
-        let width = ((size.x - 16.0) / 3.0).max(60.0);
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 8.0;
-            for axis in Axis::ALL {
-                let size = vec2(width, size.y - 4.0);
-                if let Some(plane) = drawn.plot(ui, axis, size, &cost, tried) {
-                    tried = Some(WhatIf { node, axis, plane });
+            tried = None;
+        } else {
+            let size = crate::gui::widgets::common::rest_of(ui);
+            let size = vec2(((size.x - 16.0) / 3.0).max(60.0), size.y - 4.0);
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 8.0;
+                for axis in Axis::ALL {
+                    if let Some(plane) = drawn.plot(ui, axis, size, &cost, tried) {
+                        tried = Some(WhatIf { node, axis, plane });
+                    }
                 }
-            }
-        });
-        doc.inspect.what_if = tried;
+            });
+        }
+        if tried != before {
+            cx.edits.add(move |doc| doc.inspect.what_if = tried);
+        }
     }
 }
 
 /// The numbers of the node, of the plane chosen and of the plane tried, on lines of their own.
 fn words(ui: &mut egui::Ui, cost: &NodeCost, tried: &mut Option<WhatIf>) {
-    ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
     let leaf = cost.leaf_cost();
-    let of_leaf = |s: &SplitCost| format!("{:+.1} %", 100.0 * (s.cost - leaf) / leaf.max(1.0));
     let text = match &cost.chosen {
         Some((axis, chosen)) => format!(
-            "node {}: chosen {} · {} to the leaf's {} tests",
+            "node {}: chosen {} · {} compared with the leaf's {} tests",
             cost.node,
             plane_text(*axis, chosen),
-            of_leaf(chosen),
+            Digits::Three.signed_percent((chosen.cost - leaf) / leaf.max(1.0)),
             short(leaf),
         ),
         None => format!(
-            "node {}: a leaf of {} objects costs {} tests{}",
+            "node {}: a leaf with {} costs {} tests{}",
             cost.node,
-            grouped(cost.objects),
+            counted(cost.objects, "object"),
             short(leaf),
             cost.cheapest()
                 .map(|(axis, s)| format!("; the cheapest split is {}", plane_text(axis, &s)))
                 .unwrap_or_default(),
         ),
     };
-    ui.label(&text).on_hover_text(format!(
-        "{text}\nCost: intersection tests that a ray through the cell is expected to make if both \
-         parts become leaves (MacDonald and Booth 1990). Objects count by their bounds; those that \
-         meet the plane count on both sides."
-    ));
-    ui.horizontal(|ui| {
+    ui.add(egui::Label::new(&text).wrap()).on_hover_text(
+        "Cost: intersection tests that a ray through the cell is expected to make if both parts \
+         become leaves (MacDonald and Booth 1990). Objects count by their bounds; those that meet the \
+         plane count on both sides.",
+    );
+    ui.horizontal_wrapped(|ui| {
         let some = tried.is_some();
         if ui
             .add_enabled(some, egui::Button::new("Undo what-if"))
-            .on_hover_text(tip("Take the tried plane away.", "split-cost.undo-what-if"))
+            .on_hover_text(tip("Remove the tried plane.", "split-cost.undo-what-if"))
             .clicked()
         {
             *tried = None;
         }
-        let text = match tried {
+        ui.label(match tried {
             Some(what_if) => {
                 let s = cost.curves[what_if.axis.index()].at(what_if.plane);
-                let change = match &cost.chosen {
-                    Some((_, chosen)) => {
-                        format!("{:+.3} tests to the chosen plane", s.cost - chosen.cost)
-                    }
-                    None => format!("{:+.3} tests to the leaf", s.cost - leaf),
+                let (other, than) = match &cost.chosen {
+                    Some((_, chosen)) => (chosen.cost, "the chosen plane"),
+                    None => (leaf, "the leaf"),
                 };
-                format!("what if {} · {change}", plane_text(what_if.axis, &s))
+                let sign = if s.cost > other { "more" } else { "fewer" };
+                format!(
+                    "what if {} · {} tests {sign} than {than}",
+                    plane_text(what_if.axis, &s),
+                    short((s.cost - other).abs())
+                )
             }
             None => "Drag or click in a curve to try a plane.".to_owned(),
-        };
-        ui.label(&text).on_hover_text(&text);
+        });
     });
 }
 
@@ -198,28 +203,24 @@ impl Drawn {
             .allow_axis_zoom_drag(false)
             .show_x(false)
             .show_y(false)
-            .y_axis_min_width(30.0)
-            .y_axis_label("tests")
             .label_formatter(move |_| None);
         // The three plots have the same height only if all have numbers below.
-        let step = nice_step((hi - lo) * 64.0 / f64::from(size.x.max(64.0)));
-        let digits = (-step.log10().floor()).clamp(0.0, 12.0) as usize;
-        let marks = move |_| {
-            let first = (lo / step).ceil();
-            (0..)
-                .map(|i| (first + f64::from(i)) * step)
-                .take_while(|&value| value <= hi)
-                .map(|value| GridMark {
-                    value,
-                    step_size: step,
-                })
-                .collect()
-        };
+        let across = Marks::new([lo, hi], size.x / 64.0);
+        let up = Marks::new([0.0, top], size.y / 32.0);
         let below = AxisHints::new_x()
             .label(format!("{axis} in units of length"))
             .label_spacing(20.0..=30.0)
-            .formatter(move |mark, _| format!("{:.*}", digits, mark.value));
-        let plot = plot.x_grid_spacer(marks).custom_x_axes(vec![below]);
+            .formatter(move |mark, _| across.text(mark.value));
+        let left = AxisHints::new_y()
+            .label("tests")
+            .min_thickness(40.0)
+            .label_spacing(12.0..=16.0)
+            .formatter(move |mark, _| up.text(mark.value));
+        let plot = plot
+            .x_grid_spacer(move |_| across.all())
+            .y_grid_spacer(move |_| up.all())
+            .custom_x_axes(vec![below])
+            .custom_y_axes(vec![left]);
         let shown = plot.show(ui, |plot| {
             // Room for the labels on top.
             plot.set_plot_bounds_x(lo..=hi);
@@ -268,7 +269,6 @@ impl Drawn {
             if let Some(tried) = what_if {
                 plot.vline(VLine::new("what if", tried.plane).color(TRIED).width(2.5));
             }
-            plot.pointer_coordinate()
         });
         // A piece at a time: a line that turns back on itself, as at jumps, gets spikes.
         let painter = ui.painter().with_clip_rect(*shown.transform.frame());
@@ -285,12 +285,51 @@ impl Drawn {
             let name = format!("Cost along {axis}");
             egui::WidgetInfo::labeled(egui::Role::Canvas, true, name)
         });
-        let at = shown.inner?.x.clamp(lo, hi);
-        let under = response.hovered() || response.dragged();
-        let tries = (response.dragged() || response.clicked()).then_some(at);
-        if under {
+        let plane_at = |at: egui::Pos2| shown.transform.value_from_position(at).x.clamp(lo, hi);
+        // A quick drag moves in the frame in which the button is released, too.
+        let tries = response.dragged() || response.drag_stopped() || response.clicked();
+        let pointer = response.interact_pointer_pos();
+        let tried = pointer.filter(|_| tries).map(plane_at);
+        if let Some(at) = response.hover_pos().or(pointer).map(plane_at) {
             response.on_hover_text_at_pointer(plane_text(axis, &curve.at(at)));
         }
-        tries
+        tried
+    }
+}
+
+/// The round numbers of an axis.
+#[derive(Clone, Copy)]
+struct Marks {
+    range: [f64; 2],
+    step: f64,
+}
+
+impl Marks {
+    /// At most about so many numbers in a range.
+    fn new(range: [f64; 2], most: f32) -> Self {
+        let [lo, hi] = range;
+        let step = nice_step((hi - lo) / f64::from(most.max(2.0)));
+        Marks { range, step }
+    }
+
+    fn all(self) -> Vec<GridMark> {
+        let Marks {
+            range: [lo, hi],
+            step,
+        } = self;
+        let first = (lo / step).ceil();
+        (0..)
+            .map(|i| (first + f64::from(i)) * step)
+            .take_while(|&value| value <= hi)
+            .map(|value| GridMark {
+                value,
+                step_size: step,
+            })
+            .collect()
+    }
+
+    fn text(self, value: f64) -> String {
+        let digits = (-self.step.log10().floor()).clamp(0.0, 12.0) as usize;
+        format!("{value:.digits$}")
     }
 }

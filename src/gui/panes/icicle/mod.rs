@@ -1,15 +1,17 @@
-//! The tree as an icicle: every node a piece of its parent's width, one row a level of depth.
+//! The tree as an icicle: every node a piece of its parent's width, one row per depth.
 //!
-//! Pieces narrower than a pixel and a half are left out with all below them, so that a tree of
+//! Pieces narrower than a pixel and a half are not drawn, nor is anything below them, so that a tree of
 //! millions of nodes draws as fast as a small one.
 
+use crate::gui::document::Document;
 use crate::gui::document::inspect::TreeKey;
 use crate::gui::pane::{Cx, Fact, Pane};
 use crate::gui::widgets::coloring_bar::color_bar;
-use crate::gui::widgets::common::{short, waiting};
+use crate::gui::widgets::common::{no_picture, short, waiting};
 use crate::gui::widgets::symbol::grouped;
 use crate::gui::widgets::visits_note::visits_note;
 use crate::jobs::PictureVisits;
+use crate::present::number::{Digits, counted};
 use crate::present::overlay::{COLORINGS, Coloring, Leaf};
 use crate::structure::{Moment, NodeKind, Tree, TreeIndex};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, pos2, vec2};
@@ -18,7 +20,7 @@ use std::sync::Arc;
 /// The narrowest piece that is drawn, in points.
 const NARROWEST: f32 = 1.5;
 
-/// The colour of nodes while their visits are being counted, and of those not decided yet.
+/// The color of nodes while their visits are being counted, and of those not decided yet.
 const UNKNOWN: [u8; 3] = [120; 3];
 
 /// What a node's width stands for.
@@ -35,7 +37,7 @@ pub struct Icicle {
     /// The node that spans the whole width.
     top: u32,
     made: Option<(Key, Pieces)>,
-    /// The values at the ends of the colours.
+    /// The values at the ends of the colors.
     range: Option<(RangeKey, [f64; 2])>,
 }
 
@@ -51,7 +53,7 @@ impl Default for Icicle {
     }
 }
 
-/// What decides the values of the colours: tree, colouring, and for visits the picture's number.
+/// What decides the values of the colors: tree, coloring, and for visits the picture's number.
 type RangeKey = (TreeKey, &'static str, Option<u64>);
 
 /// What decides the pieces.
@@ -64,7 +66,7 @@ struct Key {
     moment: Option<Moment>,
 }
 
-/// What nodes are coloured by.
+/// What nodes are colored by.
 struct Facts<'a> {
     index: &'a TreeIndex,
     visits: Option<&'a PictureVisits>,
@@ -85,8 +87,9 @@ impl Pane for Icicle {
     const REVEALS: &'static [Fact] = &[Fact::AllCounters];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc = &mut *cx.doc;
-        let Some(current) = &mut doc.current else {
+        let doc: &Document = cx.doc;
+        let Some(current) = &doc.current else {
+            no_picture(ui, doc);
             return;
         };
         let Some(index) = doc.inspect.index(current, ui.ctx()) else {
@@ -170,7 +173,7 @@ impl Pane for Icicle {
                 self.top = node;
             }
             if response.clicked() {
-                current.selection.node = Some(node);
+                cx.edits.add(move |doc| doc.select_node(Some(node)));
             }
         }
         if let Some(node) = current.selection.node {
@@ -191,13 +194,13 @@ impl Icicle {
                 (
                     Width::Leaves,
                     "by leaves",
-                    "A node is as wide as it has leaves below.",
+                    "The width of a node is its number of leaves.",
                 ),
                 (
                     Width::Area,
                     "by area",
-                    "A node shares its width out by the surface areas of its children: by the \
-                     chance that rays meet them.",
+                    "The width of a node is divided between its children by their surface areas: by \
+                     the chance that a ray meets them.",
                 ),
             ] {
                 ui.selectable_value(&mut self.width, width, name)
@@ -215,11 +218,11 @@ impl Icicle {
                     }
                 })
                 .response
-                .on_hover_text("What nodes are coloured by; inner nodes by all objects below.");
+                .on_hover_text("What colors the nodes; an inner node stands for all objects below it.");
             let to = selected.filter(|&node| node != self.top);
             if ui
                 .add_enabled(to.is_some(), egui::Button::new("Zoom in"))
-                .on_hover_text("Give the selected node the whole width.\nAlso: double-click a node")
+                .on_hover_text("Show the selected node in the whole width.\nAlso: double-click a node")
                 .clicked()
                 && let Some(node) = to
             {
@@ -227,7 +230,7 @@ impl Icicle {
             }
             if ui
                 .add_enabled(self.top != 0, egui::Button::new("Zoom out"))
-                .on_hover_text("Give the whole width to the node above.")
+                .on_hover_text("Show the parent in the whole width.")
                 .clicked()
             {
                 self.top = index.of(self.top).parent;
@@ -235,9 +238,9 @@ impl Icicle {
         });
     }
 
-    /// What the colours mean, and how much of the tree is drawn.
+    /// What the colors mean, and how much of the tree is drawn.
     fn legend(&self, ui: &mut egui::Ui, range: [f64; 2], index: &TreeIndex) {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let what = match self.coloring.unit {
                 "" => self.coloring.title.to_owned(),
                 unit => format!("{} ({unit})", self.coloring.title),
@@ -245,18 +248,16 @@ impl Icicle {
             ui.label(what);
             color_bar(self.coloring, range, ui);
             if let Some((_, pieces)) = &self.made {
-                let text = format!(
+                ui.label(format!(
                     "{} of {} nodes drawn",
                     grouped(pieces.rects.len()),
                     grouped((index.of(self.top).end - self.top) as usize)
-                );
-                ui.add(egui::Label::new(&text).truncate())
-                    .on_hover_text(&text);
+                ));
             }
         });
     }
 
-    /// The values at the ends of the colours.
+    /// The values at the ends of the colors.
     fn range(&mut self, key: &RangeKey, facts: &Facts<'_>) -> [f64; 2] {
         if let Some((of, range)) = &self.range
             && of == key
@@ -352,7 +353,7 @@ impl Icicle {
             let objects = index.of(*node).objects;
             let text = match tree.kind(*node) {
                 NodeKind::Leaf { count: 0, .. } => "empty".to_owned(),
-                _ if rect.width() > 80.0 => format!("{} objects", grouped(objects as usize)),
+                _ if rect.width() > 80.0 => counted(objects as usize, "object"),
                 _ => format!("{} obj.", grouped(objects as usize)),
             };
             // Readable on dark and on light pieces.
@@ -372,7 +373,7 @@ impl Facts<'_> {
             .is_none_or(|moment| tree.is_decided(node, depth, moment))
     }
 
-    /// A node as colourings see it.
+    /// A node as colorings see it.
     fn leaf_like(&self, node: u32) -> Leaf {
         let facts = self.index.of(node);
         Leaf {
@@ -413,11 +414,11 @@ fn about(tree: &Tree, index: &TreeIndex, node: u32) -> String {
         _ => String::new(),
     };
     format!(
-        "node {node}, depth {}, {kind}\n{} objects, {} leaves\nvolume {}, area {} % of the root's",
+        "node {node}, depth {}, {kind}\n{}, {}\nvolume {}, area {} of the root's",
         facts.depth,
-        grouped(facts.objects as usize),
-        grouped(facts.leaves as usize),
+        counted(facts.objects as usize, "object"),
+        counted(facts.leaves as usize, "leaf"),
         short(facts.volume),
-        short(100.0 * facts.area / index.of(0).area),
+        Digits::Four.percent(facts.area / index.of(0).area),
     )
 }

@@ -1,4 +1,4 @@
-//! The line that finds nodes: what is looked for, how many match, and the way from one to the next.
+//! The line that finds nodes: the query, how many nodes match, and the way from one to the next.
 
 use crate::gui::action::tip;
 use crate::gui::document::inspect::TreeKey;
@@ -8,11 +8,11 @@ use crate::jobs::PictureVisits;
 use crate::structure::{Query, TreeIndex};
 use std::sync::Arc;
 
-/// What is looked for.
+/// The query.
 #[derive(Default)]
 pub struct FindBar {
     pub text: String,
-    /// Whether the outline lists the matches alone.
+    /// Whether the outline lists only the matches.
     pub only: bool,
     found: Latest<Key, Vec<u32>>,
 }
@@ -66,7 +66,7 @@ impl FindBar {
         selected: Option<u32>,
     ) -> Option<Step> {
         let mut step = None;
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             ui.label("Find").on_hover_text(ABOUT);
             let field = egui::TextEdit::singleline(&mut self.text)
                 .desired_width(120.0)
@@ -80,7 +80,7 @@ impl FindBar {
             for (name, about, to, key) in [
                 (
                     "Previous match",
-                    "Select the match before.",
+                    "Select the previous match.",
                     Step::Previous,
                     "outline.find-previous",
                 ),
@@ -98,12 +98,12 @@ impl FindBar {
             }
             ui.add_enabled_ui(some, |ui| {
                 ui.checkbox(&mut self.only, "Only matches")
-                    .on_hover_text("List the matches alone, in the order of the tree.");
+                    .on_hover_text("List only the matches, in the order of the tree.");
             });
             let text = match (Query::parse(&self.text), matches) {
                 _ if self.text.trim().is_empty() => return,
                 (Err(why), _) => why,
-                (Ok(_), None) => "searching …".to_owned(),
+                (Ok(_), None) => "searching…".to_owned(),
                 (Ok(_), Some(found)) => {
                     let at = selected.and_then(|node| found.binary_search(&node).ok());
                     let of = grouped(found.len());
@@ -114,14 +114,13 @@ impl FindBar {
                     }
                 }
             };
-            ui.add(egui::Label::new(&text).truncate())
-                .on_hover_text(&text);
+            ui.label(text);
         });
         step
     }
 }
 
-/// The match that comes after, or before, the selected node; around the end it goes on.
+/// Returns the match after, or before, the selected node; after the last comes the first.
 pub fn step(matches: &[u32], selected: Option<u32>, step: Step) -> Option<u32> {
     let last = matches.last().copied();
     let Some(selected) = selected else {

@@ -5,16 +5,17 @@ use find_bar::{FindBar, Step};
 mod find_bar;
 
 use crate::gui::action::{actions, tip};
-use crate::gui::document::Current;
+use crate::gui::document::Document;
 use crate::gui::document::inspect::TreeKey;
 use crate::gui::document::visits;
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::theme;
-use crate::gui::widgets::common::{short, waiting};
+use crate::gui::widgets::common::{no_picture, short, waiting};
 use crate::gui::widgets::symbol::grouped;
 use crate::gui::widgets::tree_rows::Rows;
 use crate::gui::widgets::visits_note::visits_note;
 use crate::jobs::PictureVisits;
+use crate::present::number::{Digits, counted};
 use crate::structure::{NodeKind, Tree, TreeIndex};
 use egui::{Align, Sense};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -52,35 +53,35 @@ const COLUMNS: [(&str, [f32; 2], &str); 9] = [
         [86.0, 164.0],
         "Index of the node in the tree's array; 0 is the root",
     ),
-    ("depth", [38.0, 42.0], "Levels below the root"),
+    ("depth", [42.0, 48.0], "Levels below the root"),
     (
         "plane, or why a leaf",
-        [76.0, 164.0],
+        [76.0, 240.0],
         "Axis and place of the split plane, in units of length; or why the cell was not split",
     ),
     (
         "objects",
-        [46.0, 54.0],
+        [54.0, 62.0],
         "Objects in the cell, each counted once",
     ),
     ("refs", [50.0, 66.0], "References of all leaves below"),
     (
         "area",
-        [56.0, 58.0],
+        [56.0, 64.0],
         "Surface area of the cell, in percent of the root's",
     ),
     (
         "tests",
-        [42.0, 54.0],
-        "Expected cost: intersection tests of a ray through the cell if nothing stops it \
-         (MacDonald and Booth 1990)",
+        [42.0, 58.0],
+        "Expected cost: intersection tests of a ray through the cell that nothing stops (MacDonald \
+         and Booth 1990)",
     ),
     (
         "exp. nodes",
-        [64.0, 66.0],
+        [74.0, 80.0],
         "Expected nodes: those that such a ray is expected to visit, this one included",
     ),
-    ("visits", [104.0, 120.0], visits::ABOUT),
+    ("visits", [104.0, 150.0], visits::ABOUT),
 ];
 
 /// The widths of the columns in a table of this width: as usual, or down to the least where there is
@@ -106,7 +107,7 @@ impl Pane for Outline {
         "outline.row-down" Here NONE [ArrowDown] "Select the row below" => |pane, _| pane.moves.push(Move::RowDown);
         "outline.unfold" Here NONE [ArrowRight] "Unfold the node, or go to its first child" => |pane, _| pane.moves.push(Move::Unfold);
         "outline.fold" Here NONE [ArrowLeft] "Fold the node, or go to its parent" => |pane, _| pane.moves.push(Move::Fold);
-        "outline.frame-node" Here NONE [Enter] "Show the selected node's cell in 3D" => |_, cx| cx.doc.inspect.frame = cx.doc.current.as_ref().and_then(|c| c.selection.node);
+        "outline.frame-node" Here NONE [Enter] "Show the selected node's cell in 3D" => |_, cx| cx.edits.add(|doc| doc.inspect.frame = doc.current.as_ref().and_then(|c| c.selection.node));
         "outline.find-previous" Here SHIFT [N] "Select the previous match" => |pane, _| pane.moves.push(Move::Find(Step::Previous));
         "outline.find-next" Here NONE [N] "Select the next match" => |pane, _| pane.moves.push(Move::Find(Step::Next));
         "outline.more-visited" Here SHIFT [V] "Select the previous leaf in the order of visits" => |pane, _| pane.moves.push(Move::Visits { back: true });
@@ -114,9 +115,10 @@ impl Pane for Outline {
     };
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc = &mut *cx.doc;
+        let doc: &Document = cx.doc;
         let moment = doc.inspect.build.moment();
-        let Some(current) = &mut doc.current else {
+        let Some(current) = &doc.current else {
+            no_picture(ui, doc);
             return;
         };
         let Some(index) = doc.inspect.index(current, ui.ctx()) else {
@@ -136,9 +138,9 @@ impl Pane for Outline {
             .matches(&key, &index, visits.clone(), picture, ui.ctx());
         let found = matches.as_deref().map(Vec::as_slice);
         let before = current.selection.node;
+        let mut node = before;
         if let Some(to) = self.find.ui(ui, found, before) {
-            current.selection.node =
-                find_bar::step(found.unwrap_or_default(), before, to).or(before);
+            node = find_bar::step(found.unwrap_or_default(), before, to).or(before);
         }
         let Some((_, rows)) = &mut self.rows else {
             return;
@@ -151,27 +153,26 @@ impl Pane for Outline {
                 Move::RowDown if self.find.only => Move::Find(Step::Next),
                 step => step,
             };
-            let node = &mut current.selection.node;
             match step {
-                Move::Visits { back } => step_by_visits(node, visits.as_deref(), back),
+                Move::Visits { back } => step_by_visits(&mut node, visits.as_deref(), back),
                 Move::Find(to) => {
-                    *node = find_bar::step(found.unwrap_or_default(), *node, to).or(*node);
+                    node = find_bar::step(found.unwrap_or_default(), node, to).or(node);
                 }
-                step => walk(step, node, rows, &tree, &index),
+                step => walk(step, &mut node, rows, &tree, &index),
             }
         }
-        ui.horizontal(|ui| {
-            by_visits(ui, &mut current.selection.node, visits.as_deref());
+        ui.horizontal_wrapped(|ui| {
+            by_visits(ui, &mut node, visits.as_deref());
             if visits_note(ui, &doc.inspect.visits, current) {
                 cx.edits.add(|doc| doc.inspect.visits.cancel_or_restart());
             }
-            summary(ui, current, &index, &mut self.find);
+            summary(ui, current.selection.object, node, &index, &mut self.find);
         });
         let listed = found.filter(|_| self.find.only);
         let mut scroll = None;
-        if current.selection.node != self.followed {
-            self.followed = current.selection.node;
-            if let Some(node) = current.selection.node {
+        if node != self.followed {
+            self.followed = node;
+            if let Some(node) = node {
                 let row = rows.reveal(&tree, &index, node);
                 scroll = match listed {
                     Some(list) => list.binary_search(&node).ok(),
@@ -192,10 +193,13 @@ impl Pane for Outline {
             index: &index,
             visits: visits.as_deref(),
             rows,
-            selected: &mut current.selection.node,
+            selected: &mut node,
             flat: listed.is_some(),
         };
         table.ui(ui, nodes, scroll);
+        if node != before {
+            cx.edits.add(move |doc| doc.select_node(node));
+        }
     }
 }
 
@@ -238,7 +242,7 @@ fn by_visits(ui: &mut egui::Ui, selected: &mut Option<u32>, visits: Option<&Pict
         ),
         (
             "Less visited",
-            "Select the most visited leaf; from a leaf on, the next in the order of visits.",
+            "Select the most visited leaf, then the next in the order of visits.",
             "outline.less-visited",
         ),
     ] {
@@ -250,38 +254,41 @@ fn by_visits(ui: &mut egui::Ui, selected: &mut Option<u32>, visits: Option<&Pict
 }
 
 /// What is selected, in words.
-fn summary(ui: &mut egui::Ui, current: &Current, index: &TreeIndex, find: &mut FindBar) {
-    ui.scope(|ui| {
-        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
-        if let Some(object) = current.selection.object {
-            let leaves = index.leaves_of(object).len();
-            if ui
-                .button(format!("Object {object} is in {} leaves", grouped(leaves)))
-                .on_hover_text("List the leaves that refer to the selected object.")
-                .clicked()
-            {
-                find.text = format!("object {object}");
-                find.only = true;
-            }
+fn summary(
+    ui: &mut egui::Ui,
+    object: Option<u32>,
+    node: Option<u32>,
+    index: &TreeIndex,
+    find: &mut FindBar,
+) {
+    if let Some(object) = object {
+        let leaves = counted(index.leaves_of(object).len(), "leaf");
+        if ui
+            .button(format!("Object {object} is in {leaves}"))
+            .on_hover_text("List the leaves that refer to the selected object.")
+            .clicked()
+        {
+            find.text = format!("object {object}");
+            find.only = true;
         }
-        let Some(node) = current.selection.node else {
-            ui.weak("No node selected: click one here, in 3D or in the icicle.");
-            return;
-        };
-        let facts = index.of(node);
-        let mut text = format!("Selected: node {node}, depth {}, ", facts.depth);
-        text += &if facts.end == node + 1 {
-            format!("a leaf with {} objects", facts.objects)
-        } else {
-            format!(
-                "{} leaves and {} nodes below",
-                grouped(facts.leaves as usize),
-                grouped((facts.end - node - 1) as usize)
-            )
-        };
-        text += &format!(", volume {}", short(facts.volume));
-        ui.label(&text).on_hover_text(&text);
-    });
+    }
+    let Some(node) = node else {
+        ui.weak("No node selected: click one here, in 3D or in the icicle.");
+        return;
+    };
+    let facts = index.of(node);
+    let mut text = format!("Selected: node {node}, depth {}, ", facts.depth);
+    text += &if facts.end == node + 1 {
+        format!("a leaf with {}", counted(facts.objects as usize, "object"))
+    } else {
+        format!(
+            "{} and {} below",
+            counted(facts.leaves as usize, "leaf"),
+            counted((facts.end - node - 1) as usize, "node")
+        )
+    };
+    text += &format!(", volume {}", short(facts.volume));
+    ui.label(text);
 }
 
 /// One frame of the table.
@@ -366,7 +373,7 @@ impl Table<'_> {
             about,
             grouped(objects as usize),
             later(grouped(facts.references as usize)),
-            format!("{} %", short(100.0 * facts.area / root)),
+            Digits::Three.percent(facts.area / root),
             later(short(facts.tests)),
             later(short(facts.expected_visits)),
             later(self.visits_text(node)),
@@ -386,8 +393,8 @@ impl Table<'_> {
             return "–".to_owned();
         };
         let count = visits.by_node[node as usize];
-        let share = 100.0 * count as f64 / visits.rays() as f64;
-        format!("{} · {} %", grouped(count as usize), short(share))
+        let share = Digits::Three.percent(count as f64 / visits.rays() as f64);
+        format!("{} · {share}", grouped(count as usize))
     }
 
     /// The indentation and the triangle that folds and unfolds.

@@ -1,13 +1,16 @@
 //! The paper's experiment, repeated in the background: its tables, printed beside computed.
 
 use crate::gui::action::{actions, tip};
+use crate::gui::document::Document;
 use crate::gui::edits::Request;
 use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::theme::heading;
 use crate::jobs::{End, Handle, News, RepeatPaper, Scheduler, Standing};
 use crate::measure::paper::{Cell, Conditions, Mark, PaperScene, Reproduction, Row, SCENES};
+use crate::present::number::Digits;
 use crate::present::words::printed_unit;
 
-/// The experiment as far as it is done.
+/// The experiment, as far as it has been done.
 struct Experiment {
     /// The scenes to be measured, by place in [`SCENES`].
     chosen: [bool; SCENES.len()],
@@ -32,7 +35,7 @@ impl Default for Experiment {
 }
 
 impl Experiment {
-    /// Measures the chosen scenes; or cancels that, and what is measured stays.
+    /// Measures the chosen scenes, or cancels that. What was measured stays.
     fn start_or_cancel(&mut self, threads: usize, jobs: &Scheduler) {
         if let Some(handle) = &self.running {
             handle.cancel();
@@ -74,8 +77,8 @@ impl Experiment {
             self.running = None;
             self.ended = match end {
                 End::Done(_) | End::Replaced => None,
-                End::Cancelled => Some("cancelled; what was measured stays".into()),
-                End::Failed(why) => Some(why),
+                End::Cancelled => Some("Cancelled; what was measured stays.".into()),
+                End::Failed(why) => Some(format!("Failed: {why}")),
             };
         }
     }
@@ -105,10 +108,10 @@ impl Pane for PaperPane {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let threads = cx.doc.wanted.render.threads;
+        let doc: &Document = cx.doc;
         let experiment = &mut self.experiment;
         choice(ui, experiment);
-        standing(ui, experiment, threads, &cx.doc.jobs);
+        standing(ui, experiment, doc.wanted.render.threads, &doc.jobs);
         let Some(result) = &experiment.results[experiment.shown] else {
             ui.weak(format!(
                 "{}: not measured yet",
@@ -116,8 +119,10 @@ impl Pane for PaperPane {
             ));
             return;
         };
-        legend(ui);
-        tables(ui, result);
+        egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+            legend(ui);
+            tables(ui, result);
+        });
     }
 }
 
@@ -130,7 +135,7 @@ fn choice(ui: &mut egui::Ui, experiment: &mut Experiment) {
                 .on_hover_text(if scene.published {
                     "Measure this scene."
                 } else {
-                    "Measure this scene; it is a reconstruction, the paper's was never published."
+                    "Measure this scene, a reconstruction: the paper's scene was never published."
                 });
         }
     });
@@ -142,15 +147,15 @@ fn choice(ui: &mut egui::Ui, experiment: &mut Experiment) {
     });
 }
 
-/// How far the experiment is, with the button that begins or cancels it.
+/// How far the experiment is, with the button that starts or cancels it.
 fn standing(ui: &mut egui::Ui, experiment: &mut Experiment, threads: usize, jobs: &Scheduler) {
     let (name, about) = match experiment.running {
         None => (
             "Repeat the experiment",
             "Measure the chosen scenes with both methods, as the paper did: 512 × 512 pixels, \
-             cylinders as 10 polygons. Takes about half a minute for all.",
+             cylinders as 10 polygons. All scenes take about half a minute.",
         ),
-        Some(_) => ("Cancel the experiment", "What is measured stays."),
+        Some(_) => ("Cancel the experiment", "What was measured stays."),
     };
     let enabled = experiment.chosen.contains(&true);
     let button = ui.add_enabled(enabled, egui::Button::new(name));
@@ -160,14 +165,17 @@ fn standing(ui: &mut egui::Ui, experiment: &mut Experiment, threads: usize, jobs
     if let Some(status) = experiment.running.as_ref().and_then(Handle::status) {
         let fraction = status.fraction;
         let text = match status.standing {
-            Standing::Running => format!("{}: {:.0} % of a stage", status.stage, fraction * 100.0),
-            Standing::Waiting | Standing::Paused => "waits for the picture".to_owned(),
+            Standing::Running => {
+                let done = Digits::Three.percent(fraction);
+                format!("{}: {done} of this stage", status.stage)
+            }
+            Standing::Waiting | Standing::Paused => "waiting for the picture".to_owned(),
         };
         ui.add(egui::ProgressBar::new(fraction as f32).text(&text));
         ui.ctx().request_repaint_after_secs(0.1);
     }
     if let Some(why) = &experiment.ended {
-        ui.label(format!("Ended: {why}"));
+        ui.label(why);
     }
 }
 
@@ -175,8 +183,8 @@ fn legend(ui: &mut egui::Ui) {
     let marks = [Mark::Equal, Mark::SameDirection, Mark::Differs];
     let marks = marks.map(|mark| format!("{} {}", mark.sign(), mark.name()));
     ui.label(marks.join(" · ")).on_hover_text(
-        "How the computed figure, above, relates to the printed one, below. Directions are those \
-         from method 1 to method 2.",
+        "How the computed figure, above, compares with the printed one, below. A direction is that \
+         of the change from method 1 to method 2.",
     );
 }
 
@@ -188,13 +196,16 @@ fn tables(ui: &mut egui::Ui, result: &Reproduction) {
     for reason in result.unequal.iter().flatten() {
         ui.add(egui::Label::new(format!("The methods are not comparable: {reason}")).wrap());
     }
-    table(
-        ui,
-        &format!("Table {}", scene.table),
-        &["1", "2", "2/1"],
-        &result.properties(),
-    );
-    table(ui, "Table 4", &[scene.name], &result.characteristics());
+    let of_properties = format!("Table {}", scene.table);
+    ui.horizontal_top(|ui| {
+        ui.spacing_mut().item_spacing.x = 32.0;
+        // A number that is broken is two numbers.
+        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
+        ui.vertical(|ui| {
+            table(ui, &of_properties, &["1", "2", "2/1"], &result.properties());
+        });
+        ui.vertical(|ui| table(ui, "Table 4", &[scene.name], &result.characteristics()));
+    });
 }
 
 fn table<const COLUMNS: usize>(
@@ -203,11 +214,11 @@ fn table<const COLUMNS: usize>(
     columns: &[&str; COLUMNS],
     rows: &[Row<COLUMNS>],
 ) {
-    ui.add_space(4.0);
-    ui.strong(title);
+    ui.label(heading(title));
     egui::Grid::new(title)
         .num_columns(COLUMNS + 1)
         .striped(true)
+        .spacing([16.0, 4.0])
         .show(ui, |ui| {
             ui.label("");
             for column in columns {

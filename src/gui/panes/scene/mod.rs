@@ -1,7 +1,9 @@
-//! What the scene holds, what rendering it requires, what is left out, and the load report.
+//! What the scene contains, what rendering it needs, and the load report.
 
 use crate::gui::document::Document;
 use crate::gui::pane::{Cx, Fact, Pane};
+use crate::gui::theme::heading;
+use crate::gui::widgets::common::no_picture;
 use crate::gui::widgets::symbol::grouped;
 use crate::scene::{Note, NoteKind};
 
@@ -20,14 +22,14 @@ impl Pane for ScenePane {
     }
 }
 
-fn show(ui: &mut egui::Ui, doc: &mut Document) {
+fn show(ui: &mut egui::Ui, doc: &Document) {
     let Some(current) = &doc.current else {
-        ui.weak("No scene yet");
+        no_picture(ui, doc);
         return;
     };
     let scene = &current.shown.scene;
     let requirements = scene.requirements();
-    ui.strong(scene.name());
+    ui.label(heading(scene.name()));
     for (kind, count) in &requirements.primitives {
         ui.label(format!("{}: {}", kind.plural(), grouped(*count)));
     }
@@ -45,7 +47,7 @@ fn show(ui: &mut egui::Ui, doc: &mut Document) {
     load_report(ui, scene.notes());
     list(
         ui,
-        "Rendering takes",
+        "Needs",
         &[
             (requirements.reflects, "reflected rays"),
             (requirements.refracts, "refracted rays"),
@@ -57,14 +59,14 @@ fn show(ui: &mut egui::Ui, doc: &mut Document) {
         .map(|(_, what)| what.to_owned())
         .collect::<Vec<_>>(),
     );
-    list(ui, "Left out", &requirements.unneeded());
+    list(ui, "Not needed", &requirements.unneeded());
 }
 
-/// What the reader found, left out, changed and made up.
+/// What the reader read, skipped, changed and replaced by defaults.
 fn load_report(ui: &mut egui::Ui, notes: &[Note]) {
     if notes.iter().any(|note| note.kind == NoteKind::Read) {
         ui.add_space(4.0);
-        ui.strong("Load report");
+        ui.label(heading("Load report"));
     }
     for kind in NoteKind::ALL {
         let of_kind = notes.iter().filter(|note| note.kind == kind);
@@ -78,7 +80,7 @@ fn list(ui: &mut egui::Ui, title: &str, items: &[String]) {
         return;
     }
     ui.add_space(4.0);
-    ui.label(egui::RichText::new(title).underline());
+    ui.label(crate::gui::theme::strong(title));
     for item in items {
         ui.add(egui::Label::new(format!("• {item}")).wrap());
     }

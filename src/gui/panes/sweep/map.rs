@@ -1,6 +1,6 @@
-//! A parameter over D_MAX and N_OILF in colours, a map for every method.
+//! A parameter over depth and leaf size in colors, one map per method.
 
-use super::Shown;
+use super::shown::Shown;
 use crate::gui::widgets::common::short;
 use crate::gui::widgets::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::measure::heat::HeatImage;
@@ -13,8 +13,8 @@ use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, StrokeKind, pos2, vec2}
 /// Height of a cell in points.
 const CELL: f32 = 22.0;
 /// Room for leaf sizes at the left.
-const LEFT: f32 = 58.0;
-/// Height of the colour bar in points.
+const LEFT: f32 = 84.0;
+/// Height of the color bar in points.
 const BAR: f32 = 10.0;
 /// A cell of this width in points has room for its number.
 const ROOMY: f32 = 40.0;
@@ -23,7 +23,7 @@ fn colors() -> &'static Colormap {
     colormap("viridis").expect("it is a map")
 }
 
-/// Shows the maps; gives the row whose cell is clicked.
+/// Shows the maps; returns the row whose cell is clicked.
 pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
     let values = shown.rows.iter().map(|row| value(shown, row));
     let values = values.map(|value| value.map_or(f32::NAN, |value| value as f32));
@@ -31,7 +31,7 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
         width: shown.rows.len() as u32,
         height: 1,
         values: values.collect(),
-        // Colours by the logarithm are linear below this.
+        // Colors by the logarithm are linear below this.
         grain: 0.0,
     };
     let Some(found) = image.statistics() else {
@@ -84,7 +84,7 @@ fn depth_of(row: &Row) -> Option<u32> {
     row.value(parameter("D_MAX")).map(|depth| depth as u32)
 }
 
-/// The colours with their numbers and what they are.
+/// The colors with their numbers and what they are.
 fn legend(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale) {
     let p = shown.parameter;
     let mut text = format!(
@@ -109,7 +109,7 @@ fn legend(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale) {
     numbers(&painter, scale, [0, 0], bar, rect, ink);
 }
 
-/// One method's map; gives the row whose cell is clicked.
+/// Shows one method's map; returns the row whose cell is clicked.
 fn map(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale, method: &str) -> Option<usize> {
     let mine = || {
         let rows = shown.rows.iter().enumerate();
@@ -148,10 +148,10 @@ fn map(ui: &mut egui::Ui, shown: &Shown<'_>, scale: &HeatScale, method: &str) ->
         }
     }
     let corner = rect.left_top() + vec2(2.0, CELL / 2.0);
-    painter.text(corner, Align2::LEFT_CENTER, "D_MAX", font.clone(), ink);
+    painter.text(corner, Align2::LEFT_CENTER, "depth", font.clone(), ink);
     for (line, size) in sizes.iter().enumerate() {
         let at = pos2(rect.left() + 2.0, cell(0, line).center().y);
-        let text = format!("N_OILF {size}");
+        let text = format!("leaf size {size}");
         painter.text(at, Align2::LEFT_CENTER, text, font.clone(), ink);
     }
     let mut clicked = None;

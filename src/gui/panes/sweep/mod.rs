@@ -1,20 +1,25 @@
-//! Which depth, which leaf size? A parameter over a grid of settings, as curves and as a map. Choosing
+//! Which depth, which leaf size? A parameter over a grid of settings, as curves and as a map. A click on
 //! a point loads its settings.
 
 mod map;
 mod plot;
+mod shown;
 mod study;
 
 use crate::gui::action::{actions, tip};
 use crate::gui::document::Document;
 use crate::gui::document::comparing::Which;
+use crate::gui::edits::Edits;
 use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::widgets::common::{busy, no_picture};
 
 use crate::jobs::{End, Scheduler, Standing};
-use crate::measure::sweep::{Row, answers, rule_depth};
+use crate::measure::sweep::{Row, answers};
 use crate::measure::{Class, Parameter, parameter, parameters};
+use crate::present::number::Digits;
 use crate::structure::{MaxDepth, Method};
 use egui::vec2;
+use shown::Shown;
 use study::{Found, Saving, Sweeping};
 
 /// From this width on, in points, the map stands beside the curves.
@@ -45,8 +50,8 @@ fn choices() -> impl Iterator<Item = &'static Parameter> {
 
 impl Pane for SweepPane {
     const ID: &'static str = "sweep";
-    const TITLE: &'static str = "Depth and leaf size";
-    const ALIASES: &'static [&'static str] = &["Sweep"];
+    const TITLE: &'static str = "Depth & leaf size";
+    const ALIASES: &'static [&'static str] = &["Depth and leaf size", "Sweep"];
     const ABOUT: &'static str = "Every parameter over a grid of depths and leaf sizes.";
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "sweep.run" Here NONE [Enter] "Measure all depths and leaf sizes; Esc ends it" => |pane, cx| pane.sweeping.start(cx.doc);
@@ -60,11 +65,11 @@ impl Pane for SweepPane {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc = &mut *cx.doc;
+        let doc: &Document = cx.doc;
         let found = self.sweeping.study.found().cloned();
         ui.horizontal_wrapped(|ui| self.toolbar(ui, doc, found.as_deref()));
         let Some(found) = found.filter(|found| !found.rows.is_empty()) else {
-            ui.weak("Which depth, which leaf size? Every parameter over a grid of settings.");
+            nothing_yet(ui, doc, &self.sweeping);
             return;
         };
         let best = answers(&found.rows, self.shown);
@@ -99,8 +104,19 @@ impl Pane for SweepPane {
             }
         });
         if let Some(place) = click {
-            self.choose(place, doc);
+            self.choose(place, cx.edits);
         }
+    }
+}
+
+/// Says what is happening, or what to do, while there are no rows.
+fn nothing_yet(ui: &mut egui::Ui, doc: &Document, sweeping: &Sweeping) {
+    if doc.current.is_none() {
+        no_picture(ui, doc);
+    } else if sweeping.study.is_running() {
+        busy(ui, "Measuring the first point…");
+    } else {
+        ui.weak("Which depth, which leaf size? Every parameter over a grid of settings.");
     }
 }
 
@@ -113,17 +129,19 @@ impl SweepPane {
     }
 
     /// Loads the settings of a row into tree A.
-    fn choose(&mut self, place: usize, doc: &mut Document) {
+    fn choose(&mut self, place: usize, edits: &mut Edits) {
         if let Some(setup) = self.sweeping.choose(place) {
-            doc.show(Which::A);
-            doc.wanted = setup;
+            edits.add(|doc| {
+                doc.show(Which::A);
+                doc.wanted = setup;
+            });
         }
     }
 
-    fn toolbar(&mut self, ui: &mut egui::Ui, doc: &mut Document, found: Option<&Found>) {
+    fn toolbar(&mut self, ui: &mut egui::Ui, doc: &Document, found: Option<&Found>) {
         let status = self.sweeping.study.status();
         if status.is_some() {
-            let about = "End the sweep; its rows stay, and it can be gone on with.";
+            let about = "Cancel the sweep. Its rows stay, and it can be resumed.";
             if ui
                 .button("Cancel sweep")
                 .on_hover_text(tip(about, "window.cancel"))
@@ -134,12 +152,12 @@ impl SweepPane {
             ui.ctx().request_repaint_after_secs(0.2);
         } else {
             let run = ui.add_enabled(self.sweeping.may_start(doc), egui::Button::new("Run sweep"));
-            let about = "Measure the scene on view over all of these settings, in the background, while \
-                         nothing else is measured. One that was cancelled goes on.";
+            let about = "Measure the scene on view with all of these settings, in the background, while \
+                         nothing else is measured. A sweep that was cancelled is resumed.";
             if run
                 .on_hover_text(tip(about, "sweep.run"))
                 .on_disabled_hover_text(
-                    "Begins with a finished picture, a method, and leaf sizes such as 1, 2, 4.",
+                    "Needs a finished picture, a method, and leaf sizes such as 1, 2, 4.",
                 )
                 .clicked()
             {
@@ -151,17 +169,17 @@ impl SweepPane {
             (Some(status), _) => {
                 let waits = match status.standing {
                     Standing::Running => "",
-                    Standing::Waiting | Standing::Paused => ", waits",
+                    Standing::Waiting | Standing::Paused => ", waiting",
                 };
-                format!("{:.0} %{waits}", status.fraction * 100.0)
+                format!("{}{waits}", Digits::Three.percent(status.fraction))
             }
             (None, Some(End::Cancelled)) => "cancelled: the rows stay".to_owned(),
-            (None, Some(End::Failed(why))) => format!("ended: {why}"),
+            (None, Some(End::Failed(why))) => format!("failed: {why}"),
             (None, Some(End::Done(()) | End::Replaced) | None) => String::new(),
         };
         if let Some(found) = found {
             let (done, of) = (found.rows.len(), found.plan.points.len());
-            ui.label(format!("{done} of {of} points {said}"));
+            ui.label(format!("{done} of {of} points {said}").trim_end());
         }
         egui::ComboBox::from_id_salt("parameter of the sweep")
             .selected_text(format!("Show: {}", self.shown.symbol))
@@ -192,12 +210,12 @@ impl SweepPane {
     }
 }
 
-/// What the next sweep is over; stays in its place while one is taken, so that nothing jumps.
+/// What the next sweep is over; stays in its place while one runs, so that nothing moves.
 fn settings(ui: &mut egui::Ui, sweeping: &mut Sweeping, may_change: bool) {
     let [from, to] = &mut sweeping.depths;
-    ui.label("D_MAX")
-        .on_hover_text("Greatest depths, from least to most");
-    for (depth, name) in [(from, "Least D_MAX"), (to, "Greatest D_MAX")] {
+    ui.label("Depth")
+        .on_hover_text("D_MAX, from the least to the greatest");
+    for (depth, name) in [(from, "Least depth"), (to, "Greatest depth")] {
         let edit = egui::DragValue::new(depth)
             .range(0..=MaxDepth::LIMIT)
             .speed(0.1);
@@ -205,8 +223,8 @@ fn settings(ui: &mut egui::Ui, sweeping: &mut Sweeping, may_change: bool) {
             .accessible_name(name)
             .on_hover_text(name);
     }
-    ui.label("N_OILF")
-        .on_hover_text("Leaf sizes, separated by commas");
+    ui.label("Leaf size")
+        .on_hover_text("N_OILF, separated by commas, such as 1, 2, 4");
     let field = egui::TextEdit::singleline(&mut sweeping.leaf_sizes).desired_width(80.0);
     ui.add_enabled(may_change, field)
         .accessible_name("Leaf sizes of the sweep")
@@ -251,40 +269,5 @@ fn save(ui: &mut egui::Ui, saving: &mut Saving, jobs: &Scheduler, found: &Found)
     }
     if let Some(said) = &saving.said {
         ui.label(said);
-    }
-}
-
-/// What curves and map show.
-struct Shown<'a> {
-    rows: &'a [Row],
-    parameter: &'static Parameter,
-    /// Of every method.
-    best: &'a [&'a Row],
-    /// The row that was loaded last.
-    chosen: Option<usize>,
-}
-
-impl Shown<'_> {
-    /// The depth that the rule 1.2 log2 N + 2 gives.
-    fn rule(&self) -> Option<u32> {
-        self.rows.first().and_then(rule_depth)
-    }
-
-    fn is_best(&self, row: &Row) -> bool {
-        self.best.iter().any(|best| best.point == row.point)
-    }
-
-    /// A row in words.
-    fn words(&self, row: &Row) -> String {
-        let depth = parameter("D_MAX");
-        format!(
-            "{}, D_MAX {}, N_OILF {}: {} {}{}",
-            row.key.method,
-            depth.format(row.value(depth)),
-            row.key.n_oilf,
-            self.parameter.symbol,
-            self.parameter.format(row.value(self.parameter)),
-            if self.is_best(row) { " (least)" } else { "" }
-        )
     }
 }

@@ -1,6 +1,6 @@
-//! A parameter against D_MAX, a curve for every method and leaf size.
+//! A parameter against the depth, one curve per method and leaf size.
 
-use super::Shown;
+use super::shown::Shown;
 use crate::gui::widgets::log_axis;
 use crate::present::chart::{Curve, curves, is_wide};
 use egui::{Color32, Rect, Sense, vec2};
@@ -9,7 +9,7 @@ use egui_plot::{
     VLine,
 };
 
-/// Colours that colour-blind people can tell apart on light and dark, one a method; marks tell curves
+/// Colors that color-blind people can tell apart on light and dark, one per method; marks tell curves
 /// apart, too.
 const COLORS: [Color32; 6] = [
     Color32::from_rgb(20, 130, 200),
@@ -43,7 +43,7 @@ fn style(curve: &Curve) -> LineStyle {
     }
 }
 
-/// Shows the plot; gives the row whose point is clicked.
+/// Shows the plot; returns the row whose point is clicked.
 pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
     let parameter = shown.parameter;
     let curves = curves(shown.rows, parameter);
@@ -76,7 +76,7 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
         axis = axis.formatter(|mark, _| log_axis::number(mark.value));
     }
     // Depths have two digits at most: numbers need less room than is usual.
-    let depth_axis = AxisHints::new_x().label("D_MAX, greatest depth");
+    let depth_axis = AxisHints::new_x().label("depth (D_MAX)");
     let depth_axis = depth_axis.label_spacing(16.0..=24.0);
     let ink = ui.visuals().text_color();
     let rule = shown.rule().map(f64::from);
@@ -136,7 +136,7 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
         plot.points(chosen.filled(false).color(ink).radius(11.0));
     });
     let name = format!(
-        "Plot of {} against D_MAX, {} points",
+        "Plot of {} against depth, {} points",
         parameter.symbol,
         places.len()
     );

@@ -1,5 +1,5 @@
-//! A sweep of the scene on view in the background, point by point: the rows of `bspscope sweep`. One
-//! that was broken off goes on after its last row.
+//! A sweep of the scene on view in the background, point by point: the rows of `bspscope sweep`. A sweep
+//! that was cancelled is resumed after its last row.
 
 use crate::gui::document::Document;
 use crate::gui::document::study::Study;
@@ -10,7 +10,7 @@ use crate::structure::{MaxDepth, Method};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The sweep, the last one taken and how the next will be.
+/// The last sweep, and the settings of the next.
 pub struct Sweeping {
     pub study: Study<Sweep, Found>,
     /// The least and the greatest `D_MAX` of the next sweep.
@@ -71,7 +71,7 @@ impl Sweeping {
 }
 
 impl Sweeping {
-    /// Whether a sweep can be taken: of a finished picture, with settings that make points.
+    /// Whether a sweep can be started: of a finished picture, with settings that make points.
     pub fn may_start(&self, doc: &Document) -> bool {
         !self.study.is_running()
             && doc.current.as_ref().is_some_and(|current| current.done)
@@ -80,8 +80,8 @@ impl Sweeping {
             && self.n_oilf().is_some()
     }
 
-    /// Takes a sweep of the scene and picture on view. Where the last one was of the same, its rows
-    /// stay and it goes on after them; else it is replaced.
+    /// Starts a sweep of the scene and picture on view. If the last one was of the same, it is resumed
+    /// after its rows; otherwise it is replaced.
     pub fn start(&mut self, doc: &Document) {
         let Some(current) = doc.current.as_ref().filter(|_| self.may_start(doc)) else {
             return;
@@ -107,7 +107,7 @@ impl Sweeping {
             found.of.scene == of.scene
                 && found.reload == reload
                 && found.of.render == of.render
-                && goes_on(&found.rows, &plan)
+                && is_resumable(&found.rows, &plan)
         });
         let rows = known.map_or_else(Vec::new, |found| found.rows.clone());
         if rows.is_empty() {
@@ -148,7 +148,7 @@ fn base(method: Method, on_view: &Setup) -> Setup {
 }
 
 /// Whether these rows are the first of a plan, but not all of it.
-fn goes_on(rows: &[Row], plan: &Plan) -> bool {
+fn is_resumable(rows: &[Row], plan: &Plan) -> bool {
     let keys = plan.points.iter().map(|point| point.key.clone());
     let keys: Vec<_> = keys.enumerate().collect();
     done(rows, &keys, keys.len()).is_ok_and(|done| done < keys.len())

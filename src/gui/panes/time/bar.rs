@@ -1,11 +1,10 @@
 //! The stacked bar of terms, and the table that is its legend.
 
-use super::duration;
 use crate::measure::model::Part;
-use crate::present::number::grouped;
+use crate::present::number::{Digits, grouped};
 use egui::{Color32, FontId, Rect, Sense, Stroke, StrokeKind, pos2, vec2};
 
-/// Colours that colour-blind people can tell apart (M. Okabe and K. Ito, 2008); numbers tell the same.
+/// Colors that color-blind people can tell apart (M. Okabe and K. Ito, 2008); numbers tell the same.
 const COLORS: [Color32; 8] = [
     Color32::from_rgb(0, 114, 178),
     Color32::from_rgb(230, 159, 0),
@@ -82,7 +81,7 @@ fn stacked(ui: &mut egui::Ui, parts: &[Part], sum: f64, most: f64) {
 fn single(ui: &mut egui::Ui, seconds: f64, most: f64) {
     let size = vec2(ui.available_width(), HEIGHT * 0.7);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    let text = format!("measured T_TR: {}", duration(seconds));
+    let text = format!("measured T_TR: {}", Digits::Four.seconds(seconds));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
     let ink = ui.visuals().text_color();
     let width = (seconds / most) as f32 * rect.width();
@@ -92,18 +91,18 @@ fn single(ui: &mut egui::Ui, seconds: f64, most: f64) {
     let (font, left) = (FontId::proportional(12.0), egui::Align2::LEFT_CENTER);
     painter.text(rect.left_center() + vec2(6.0, 0.0), left, &text, font, ink);
     response.on_hover_text(
-        "CPU time of all threads that the picture took, to the scale of the bar above. While other \
-         work keeps the machine busy, it takes longer than the times say.",
+        "CPU time of the picture, summed over all threads, on the scale of the bar above. It is longer \
+         than predicted while other work keeps the machine busy.",
     );
 }
 
 /// A term's part in a line.
 fn words(part: &Part, sum: f64) -> String {
-    let share = 100.0 * share(part, sum);
     format!(
-        "{}: {}, {share:.1} %",
+        "{}: {}, {}",
         part.term.name(),
-        duration(part.seconds())
+        Digits::Four.seconds(part.seconds()),
+        Digits::Three.percent(share(part, sum))
     )
 }
 
@@ -114,15 +113,15 @@ fn table(ui: &mut egui::Ui, parts: &[Part], sum: f64) {
         .spacing(vec2(14.0, 3.0))
         .show(ui, |ui| {
             for (title, about) in [
-                ("", "The number and the colour in the bar"),
+                ("", "The number and the color in the bar"),
                 ("term", "The paper's symbol, and the kind of primitive"),
-                ("each", "What one takes"),
+                ("each", "Time of one"),
                 (
                     "count",
                     "How often: nodes traversed, tests, or rays (const)",
                 ),
-                ("time", "Count times each, CPU time"),
-                ("share", "Of what is predicted"),
+                ("time", "Count times the time of one: CPU time"),
+                ("share", "Share of the predicted time"),
             ] {
                 ui.strong(title).on_hover_text(about);
             }
@@ -132,10 +131,10 @@ fn table(ui: &mut egui::Ui, parts: &[Part], sum: f64) {
                 swatch(ui, place);
                 ui.label(part.term.name()).on_hover_text(&about);
                 for text in [
-                    duration(part.each),
+                    Digits::Four.seconds(part.each),
                     grouped(part.count as f64),
-                    duration(part.seconds()),
-                    format!("{:.1} %", 100.0 * share(part, sum)),
+                    Digits::Four.seconds(part.seconds()),
+                    Digits::Three.percent(share(part, sum)),
                 ] {
                     ui.label(egui::RichText::new(text).monospace());
                 }
@@ -144,12 +143,12 @@ fn table(ui: &mut egui::Ui, parts: &[Part], sum: f64) {
             for text in ["", "sum", "", ""] {
                 ui.label(text);
             }
-            ui.label(egui::RichText::new(duration(sum)).monospace());
+            ui.label(egui::RichText::new(Digits::Four.seconds(sum)).monospace());
             ui.end_row();
         });
 }
 
-/// A term's number on its colour.
+/// A term's number on its color.
 fn swatch(ui: &mut egui::Ui, place: usize) {
     let (rect, _) = ui.allocate_exact_size(vec2(18.0, 16.0), Sense::hover());
     let painter = ui.painter();

@@ -1,5 +1,5 @@
-//! Where the time of the picture goes: its terms of equation (1) as a stacked bar with a table, for
-//! the whole picture, a region of it or the picked pixel.
+//! Where the time of the picture goes: the terms of equation (1) as a stacked bar with a table, for the
+//! whole picture, a region of it or the picked pixel.
 
 mod bar;
 mod study;
@@ -8,11 +8,12 @@ use crate::gui::action::{actions, tip};
 use crate::gui::document::picture_job::{PictureJob, Progress};
 use crate::gui::document::{Current, Document};
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
+use crate::gui::widgets::common::no_picture;
 use crate::gui::widgets::symbol::grouped;
 use crate::jobs::{CountTerms, End, Scheduler, Standing};
 use crate::measure::heat::PIXEL_COUNTS_LIMIT;
 use crate::measure::model::{Part, PictureTerms, Region, TermTimes};
-use crate::present::number::significant;
+use crate::present::number::Digits;
 use std::sync::Arc;
 use study::{Found, Modelling};
 
@@ -58,12 +59,12 @@ impl Source {
     const fn about(self) -> &'static str {
         match self {
             Source::Regression => {
-                "The times that explain T_TR of a set of trees best: least squares, none negative, by \
-                 relative error."
+                "The times that best explain T_TR of a set of trees: nonnegative least squares of \
+                 the relative errors."
             }
             Source::InPlace => {
-                "Tests that were made are made again, and rays walked through the tree without tests: \
-                 always by the scalar kernel in f64. The constant is not among them."
+                "The tests of the picture are repeated, and its rays traverse the tree without tests: \
+                 always by the scalar kernel in f64. Without the constant."
             }
         }
     }
@@ -103,27 +104,28 @@ impl Pane for TimePane {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc = &mut *cx.doc;
+        let doc: &Document = cx.doc;
         ui.horizontal_wrapped(|ui| self.toolbar(ui, doc));
         let Some(current) = &doc.current else {
+            no_picture(ui, doc);
             return;
         };
         let found = self.modelling.study.found().cloned();
         let Some(found) = found.filter(|found| found.is_of(current)) else {
             ui.weak(
-                "Where does the time of this picture go? What a node and a test take is measured once \
-                 for a scene, kernel and precision: equation (1).",
+                "Where does the time of this picture go? The time per node and per test is measured once \
+                 per scene, kernel and precision: equation (1).",
             );
             return;
         };
         let Some(times) = self.source.times(&found) else {
             ui.weak(match self.source {
                 Source::Regression => format!(
-                    "{} of {} trees are timed; times in place are there before.",
+                    "{} of {} trees are timed. Times in place are known earlier.",
                     found.observations.len(),
                     found.trees
                 ),
-                Source::InPlace => "Being timed in place …".to_owned(),
+                Source::InPlace => "Timing in place…".to_owned(),
             });
             return;
         };
@@ -152,17 +154,17 @@ impl Pane for TimePane {
 }
 
 impl TimePane {
-    fn toolbar(&mut self, ui: &mut egui::Ui, doc: &mut Document) {
+    fn toolbar(&mut self, ui: &mut egui::Ui, doc: &Document) {
         if let Some(status) = self.modelling.study.status() {
             let cancel = ui.button("Cancel timing");
-            let about = "Stop measuring the times; what is known of them stays.";
+            let about = "Cancel the measurement; what was measured stays.";
             if cancel.on_hover_text(tip(about, "window.cancel")).clicked() {
                 self.modelling.study.cancel();
             }
-            ui.label(format!("{:.0} %", status.fraction * 100.0));
+            ui.label(Digits::Three.percent(status.fraction));
             ui.weak(match status.standing {
-                Standing::Running => "taking times …",
-                Standing::Waiting | Standing::Paused => "waits",
+                Standing::Running => "measuring…",
+                Standing::Waiting | Standing::Paused => "waiting",
             });
             ui.ctx().request_repaint_after_secs(0.2);
         } else {
@@ -174,17 +176,17 @@ impl TimePane {
                          regression over a set of trees, in the background.";
             if measure
                 .on_hover_text(tip(about, "time.run"))
-                .on_disabled_hover_text("Begins with a finished picture of a scene with objects.")
+                .on_disabled_hover_text("Needs a finished picture of a scene with objects.")
                 .clicked()
             {
                 self.modelling.start(doc);
             }
             match self.modelling.study.end() {
                 Some(End::Cancelled) => {
-                    ui.label("cancelled: what was found stays");
+                    ui.label("cancelled: what was measured stays");
                 }
                 Some(End::Failed(why)) => {
-                    ui.label(format!("ended: {why}"));
+                    ui.label(format!("failed: {why}"));
                 }
                 Some(End::Done(()) | End::Replaced) | None => {}
             }
@@ -217,7 +219,9 @@ impl TimePane {
         let render = shown.setup.render;
         if u64::from(render.width) * u64::from(render.height) > PIXEL_COUNTS_LIMIT {
             let limit = grouped(PIXEL_COUNTS_LIMIT as usize);
-            ui.weak(format!("Counted of pictures of up to {limit} pixels."));
+            ui.weak(format!(
+                "Tests are only counted in pictures of up to {limit} pixels."
+            ));
             return None;
         }
         let terms = self.terms.get(current, jobs, || CountTerms {
@@ -227,9 +231,13 @@ impl TimePane {
         });
         if terms.is_none() {
             ui.weak(match self.terms.progress() {
-                Progress::Running(done) => format!("counting tests … {:.0} %", done * 100.0),
-                Progress::Ended(why) => format!("tests not counted: {why}"),
-                Progress::Waiting | Progress::Done => "tests: counted when all else rests".into(),
+                Progress::Running(done) => {
+                    format!("Counting tests… {}", Digits::Three.percent(done))
+                }
+                Progress::Ended(why) => format!("Tests were not counted: {why}"),
+                Progress::Waiting | Progress::Done => {
+                    "Tests are counted when nothing else is running.".into()
+                }
             });
         }
         terms
@@ -280,49 +288,24 @@ impl TimePane {
                 r.width, r.height, r.x, r.y
             ),
         };
-        let mut text = format!("{of}: {} predicted", duration(predicted));
+        let mut text = format!("{of}: {} predicted", Digits::Four.seconds(predicted));
         if let Some(measured) = measured {
             text += &format!(
-                ", {} measured (T_TR), {:+.1} %",
-                duration(measured),
-                (predicted / measured - 1.0) * 100.0
+                ", {} measured (T_TR), {}",
+                Digits::Four.seconds(measured),
+                Digits::Three.signed_percent(predicted / measured - 1.0)
             );
         }
         match (self.source, found.worst(), &found.fit) {
             (Source::Regression, Some(worst), Some(fit)) => {
                 text += &format!(
-                    " · R² {:.4}, T_TR of trees left out within {:.1} %",
+                    " · R² {:.4}, T_TR of trees left out within {}",
                     fit.r_squared,
-                    worst * 100.0
+                    Digits::Three.percent(worst)
                 );
             }
             _ => text += " · without const, which is not timed in place",
         }
         text
-    }
-}
-
-/// A time in a unit that suits it.
-fn duration(seconds: f64) -> String {
-    let (factor, unit) = match seconds {
-        s if s >= 1.0 => (1.0, "s"),
-        s if s >= 1e-3 => (1e3, "ms"),
-        s if s >= 1e-6 => (1e6, "µs"),
-        _ => (1e9, "ns"),
-    };
-    format!("{} {unit}", significant(seconds * factor))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn times_are_written_in_the_unit_that_suits_them() {
-        let texts = [2.5, 0.0125, 3e-6, 1.5e-8, 0.0].map(duration);
-        assert_eq!(
-            texts,
-            ["2.500 s", "12.50 ms", "3.000 µs", "15.00 ns", "0 ns"]
-        );
     }
 }

@@ -10,7 +10,7 @@ use crate::scene::Scene;
 use crate::trace::RenderSettings;
 use std::sync::Arc;
 
-/// Pictures are traced for the model with at most so many pixels.
+/// Most pixels of the pictures that are timed.
 const MOST_PIXELS: f64 = 128.0 * 128.0;
 
 /// How often each tree is timed.
@@ -111,7 +111,7 @@ impl Modelling {
     }
 }
 
-/// A smaller picture of the same, traced on one thread: others would compete for caches and memory.
+/// A smaller picture of the same, rendered on one thread: others would compete for caches and memory.
 fn reduced(render: &RenderSettings) -> RenderSettings {
     let pixels = f64::from(render.width) * f64::from(render.height);
     let share = (MOST_PIXELS / pixels).sqrt().min(1.0);

@@ -1,10 +1,12 @@
-//! What the judge in the background has found of the picture's rays.
+//! What the check in the background has found about rays of the picture.
 
 mod study;
 
+use crate::gui::document::Document;
 use crate::gui::pane::{Cx, Fact, Pane};
-use crate::gui::widgets::symbol::grouped;
+use crate::gui::theme::strong;
 use crate::measure::judge::Tally;
+use crate::present::number::{Digits, counted};
 use study::Judging;
 
 /// The checks of the picture on view.
@@ -27,55 +29,61 @@ impl Pane for VerificationPane {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc = &*cx.doc;
+        let doc: &Document = cx.doc;
         let judging = &mut self.judging;
         let mut wanted = !judging.stopped;
-        ui.checkbox(&mut wanted, "check sampled rays").on_hover_text(
-        "Once the picture is finished, sampled rays of it are asked of the tree and of every object, \
-         in the background. Where answers differ, exact arithmetic says why.",
-    );
+        ui.checkbox(&mut wanted, "Check sampled rays")
+            .on_hover_text(
+                "Once the picture is finished, the hits of sampled rays are compared with those of \
+             testing every object. Where they differ, exact arithmetic says why.",
+            );
         judging.stopped = !wanted;
-        let mut others = Tally::default();
-        for tally in judging.result.others {
-            others += tally;
+        ui.label(progress(judging, doc));
+        if judging.result.rays.iter().any(|rays| *rays > 0) {
+            result(ui, judging, doc);
         }
-        let rays: u64 = judging.result.rays.iter().sum();
-        match judging.progress() {
-            _ if judging.stopped => ui.weak("Stopped"),
-            _ if judging.complete => ui.label(format!("{} rays checked", grouped(rays as usize))),
-            Some(share) => ui.label(format!(
-                "{} rays checked, {:.0} % of the sample",
-                grouped(rays as usize),
-                share * 100.0
-            )),
-            None => ui.weak(format!(
-                "Waits for {}",
-                match doc.measuring() {
-                    Some(what) => format!("the end of the {what}"),
-                    None => "the finished picture".to_owned(),
-                }
-            )),
-        };
-        if rays == 0 {
-            return;
-        }
-        ui.label(format!(
-        "{} ties · {} faults",
-        grouped(others.ties as usize),
-        grouped(others.faults as usize)
+    }
+}
+
+/// How far the check is, in words.
+fn progress(judging: &Judging, doc: &Document) -> String {
+    let rays: u64 = judging.result.rays.iter().sum();
+    let checked = counted(rays as usize, "ray");
+    match judging.progress() {
+        _ if judging.stopped => "Stopped".to_owned(),
+        _ if judging.complete => format!("{checked} checked"),
+        Some(share) => format!(
+            "{checked} checked, {} of the sample",
+            Digits::Three.percent(share)
+        ),
+        None => match doc.measuring() {
+            Some(what) => format!("Waiting for the end of the {what}"),
+            None => "Waiting for the finished picture".to_owned(),
+        },
+    }
+}
+
+fn result(ui: &mut egui::Ui, judging: &Judging, doc: &Document) {
+    let mut others = Tally::default();
+    for tally in judging.result.others {
+        others += tally;
+    }
+    ui.label(format!(
+        "{} · {}",
+        counted(others.ties as usize, "tie"),
+        counted(others.faults as usize, "fault")
     ))
     .on_hover_text(
-        "Other answers than testing every object gives. A tie is exactly right, too: objects at the \
-         same distance, or a ray just on an edge. A fault is wrong.",
+        "Rays whose hit differs from that of testing every object. A tie is right, too: objects at \
+         the same distance, or a ray exactly on an edge. A fault is wrong.",
     );
-        if others.faults > 0 {
-            let scene = doc
-                .current
-                .as_ref()
-                .map_or_else(String::new, |c| c.shown.setup.scene.source.to_string());
-            ui.strong(format!(
-                "The tree is wrong: bspscope verify {scene} writes the faults to files."
-            ));
-        }
+    if others.faults > 0 {
+        let scene = doc
+            .current
+            .as_ref()
+            .map_or_else(String::new, |c| c.shown.setup.scene.source.to_string());
+        ui.label(strong(format!(
+            "The tree is wrong. This command writes the faults to files: bspscope verify {scene}"
+        )));
     }
 }
