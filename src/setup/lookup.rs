@@ -75,6 +75,14 @@ impl Setup {
             .map(|s| s.affects)
             .min()
     }
+
+    /// Whether this setup's picture can differ from another one's: another scene, or another value of a
+    /// setting that affects the image. All structures and kernels render the same picture.
+    pub fn alters_picture(&self, other: &Setup) -> bool {
+        let decides = |s: &&Setting| matches!(s.affects, Affects::Scene | Affects::Image);
+        let mut deciding = SETTINGS.iter().filter(decides);
+        self.scene.source != other.scene.source || deciding.any(|s| s.value(self) != s.value(other))
+    }
 }
 
 /// The methods that have a constant of this name.

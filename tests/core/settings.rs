@@ -49,6 +49,9 @@ fn a_setting_changes_what_it_stands_for_and_nothing_else() {
         assert!(differs, "{name}");
         assert_eq!(setup.invalidates(&plain), Some(setting.affects), "{name}");
         assert_eq!(plain.invalidates(&plain), None);
+        let of_picture = matches!(setting.affects, Affects::Scene | Affects::Image);
+        assert_eq!(setup.alters_picture(&plain), of_picture, "{name}");
+        assert!(!plain.alters_picture(&plain));
     }
 }
 

@@ -1,16 +1,18 @@
 //! Two trees side by side in the window: views of both, the gate, and the three columns.
 
 use crate::harness::{
-    SIZE, Window, click, finish, has, open, open_with_graphics, over_picture, press, small, wait,
-    wait_for,
+    SIZE, Window, click, described, finish, has, is_finished, open, open_with_graphics,
+    over_picture, press, small, wait, wait_for,
 };
 use crate::support::scenes::{render_sized, scene, settings, tree_by};
 use bspscope::measure::heat::{HeatImage, PixelCounts, RayFilter, heatmap};
-use bspscope::measure::{DELTA, Measured, change, measure, parameter, ray_figures};
+use bspscope::measure::{DELTA, Measured, measure, parameter, ray_figures};
+use bspscope::present::number::Digits;
 use bspscope::progress::Progress;
+use bspscope::structure::Method;
 use bspscope::trace::{RayKind, RenderSettings, render_counted, thread_pool};
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::sync::Mutex;
 
 const SCENE: &str = "balls:1";
@@ -48,23 +50,25 @@ fn comparing(graphics: bool) -> Window<'static> {
     };
     finish(&mut window);
     press(&mut window, Modifiers::COMMAND, Key::E);
-    wait_for(&mut window, "May be compared");
-    click(&mut window, "Tree B");
-    press(&mut window, Modifiers::COMMAND, Key::M);
-    wait(&mut window, "both", |w| {
-        has(w, "B: balls:1 · sah-cut") && has(w, "May be compared")
-    });
+    wait_for(&mut window, "Fair comparison");
+    click(&mut window, "Bring B to the front");
     finish(&mut window);
+    assert_eq!(methods(&window), ["midpoint", "sah-cut"]);
     window
 }
 
+/// The build methods of A and B.
+fn methods(window: &Window<'_>) -> [&'static str; 2] {
+    ["A", "B"].map(|side| {
+        let name = format!("Build method of {side}");
+        let list = window.get_by_label(&name);
+        let name = list.accesskit_node().value().expect("a method");
+        Method::named(&name).expect("a known method").name
+    })
+}
+
 fn show_nodes(window: &mut Window<'_>) {
-    window
-        .query_all_by_role(egui::accesskit::Role::ComboBox)
-        .find(|node| node.value().is_some_and(|v| v.starts_with("Show:")))
-        .expect("the list of heatmaps")
-        .click();
-    window.run_steps(3);
+    click(window, "Show");
     window.get_by_label_contains("N_NODES · ").click();
     wait_for(window, "Legend from");
 }
@@ -72,7 +76,6 @@ fn show_nodes(window: &mut Window<'_>) {
 #[test]
 fn three_columns_have_the_librarys_figures() {
     let window = comparing(false);
-    assert!(has(&window, "A: balls:1 · midpoint"));
     let (a, b) = (
         measured("midpoint", &render()),
         measured("sah-cut", &render()),
@@ -86,40 +89,55 @@ fn three_columns_have_the_librarys_figures() {
                 "{symbol} {text}"
             );
         }
-        let change = change(p.unit, of_a, of_b).expect("a ratio").to_string();
-        assert!(
-            window.query_all_by_label(&change).next().is_some(),
-            "{symbol} {change}"
-        );
+        let change = p.change_text(of_a, of_b).expect("a change").text;
+        assert!(has(&window, &change), "{symbol} {change}");
     }
+}
+
+#[test]
+fn b_begins_with_another_method_and_is_remembered() {
+    let mut start = small(SCENE);
+    let sah_cut = Method::named("sah-cut").unwrap();
+    start.setup.build.set_method(sah_cut);
+    let mut window = open(start);
+    finish(&mut window);
+    press(&mut window, Modifiers::COMMAND, Key::Num3);
+    wait_for(&mut window, "Fair comparison");
+    assert_eq!(methods(&window), ["sah-cut", "midpoint"]);
+    click(&mut window, "Build method of B");
+    click(&mut window, "object-median");
+    finish(&mut window);
+    press(&mut window, Modifiers::COMMAND, Key::Num1);
+    finish(&mut window);
+    assert!(!has(&window, "Build method of B"));
+    press(&mut window, Modifiers::COMMAND, Key::Num3);
+    finish(&mut window);
+    assert_eq!(methods(&window), ["sah-cut", "object-median"]);
 }
 
 #[test]
 fn either_tree_comes_to_the_front_and_the_pixel_stays_picked() {
     let mut window = comparing(false);
+    click(&mut window, "Wipe");
     window.get_by_label("Traced picture").click();
+    click(&mut window, "Rays of the pixel");
     wait_for(&mut window, "Pixel 24, 24 (");
-    let leaves = |method| {
-        let p = parameter("N_LS");
-        p.format(p.value(&measured(method, &render()).measurement))
-    };
-    assert!(has(&window, "gap-fraction"), "sah-cut is in front");
+    assert!(described(&window).starts_with("balls:1 · sah-cut"));
     press(&mut window, Modifiers::NONE, Key::J);
-    wait(&mut window, "midpoint", |w| !has(w, "gap-fraction"));
-    wait_for(&mut window, "Pixel 24, 24 (");
-    assert!(window.query_all_by_label(&leaves("midpoint")).count() >= 2);
+    wait_for(&mut window, "balls:1 · midpoint");
     // Nothing is traced again.
-    assert!(has(&window, "ready"));
+    assert!(is_finished(&window));
+    wait_for(&mut window, "Pixel 24, 24 (");
     press(&mut window, Modifiers::NONE, Key::J);
-    wait_for(&mut window, "gap-fraction");
+    wait_for(&mut window, "balls:1 · sah-cut");
     // The tree in front is the one that stays.
     press(&mut window, Modifiers::COMMAND, Key::E);
     window.run_steps(3);
-    assert!(has(&window, "gap-fraction"));
-    assert!(!has(&window, "A: balls:1"));
+    assert!(has(&window, "balls:1 · sah-cut"));
+    assert!(!has(&window, "Build method of A"));
     finish(&mut window);
     press(&mut window, Modifiers::COMMAND, Key::Z);
-    wait_for(&mut window, "A: balls:1 · midpoint");
+    wait_for(&mut window, "balls:1 · midpoint");
 }
 
 #[test]
@@ -138,7 +156,7 @@ fn both_pictures_share_range_pointer_and_pick() {
         &mut window,
         &format!("Legend from {lowest} to {highest} nodes"),
     );
-    for view in ["wipe", "side by side", "one"] {
+    for view in ["Wipe", "Side by side", "One"] {
         click(&mut window, view);
         window.get_by_label("Traced picture").click();
         window.run_steps(4);
@@ -147,7 +165,7 @@ fn both_pictures_share_range_pointer_and_pick() {
             .find(|[x, y]| has(&window, &format!("Pixel {x}, {y}: ")));
         let Some([x, y]) = pixel else {
             // Between two pictures side by side there is none.
-            assert_eq!(view, "side by side");
+            assert_eq!(view, "Side by side");
             continue;
         };
         let [of_a, of_b] = [&a, &b].map(|image| image.get(x, y).unwrap());
@@ -159,7 +177,7 @@ fn both_pictures_share_range_pointer_and_pick() {
 fn the_difference_is_signed() {
     let mut window = comparing(false);
     show_nodes(&mut window);
-    click(&mut window, "difference");
+    click(&mut window, "Difference");
     wait_for(&mut window, "B − A");
     wait_for(&mut window, "Legend from -");
     let difference = nodes("sah-cut").difference(&nodes("midpoint")).unwrap();
@@ -181,7 +199,7 @@ fn unequal_conditions_are_refused_and_the_pixels_shown() {
     for _ in 0..4 {
         press(&mut window, Modifiers::COMMAND, Key::PageDown);
     }
-    wait_for(&mut window, "May not be compared");
+    wait_for(&mut window, "Not comparable");
     wait_for(&mut window, "D_AREC (");
     let flat = RenderSettings {
         d_arec: 0,
@@ -193,23 +211,23 @@ fn unequal_conditions_are_refused_and_the_pixels_shown() {
     ];
     let differing = bspscope::measure::differing_pixels(&a, &b).len();
     assert!(differing > 0, "nothing is tested");
-    let count = bspscope::present::number::grouped(differing as f64);
     assert!(has(&window, &format!("{differing} pixels differ: ")));
     click(&mut window, "Show the pixels");
-    wait_for(
-        &mut window,
-        &format!("bright: the {count} pixels that differ"),
-    );
+    let count = bspscope::present::number::counted(differing, "pixel");
+    wait(&mut window, "the difference", |w| {
+        w.query_by_label(&format!("{count} differ")).is_some()
+    });
     // No ratio stands where there is no comparison.
     assert_eq!(window.query_all_by_label_contains(" points").count(), 0);
-    click(&mut window, "Make conditions equal");
-    wait_for(&mut window, "May be compared");
-    wait_for(&mut window, "equal in every pixel");
+    click(&mut window, "Use same conditions");
+    wait_for(&mut window, "Fair comparison");
+    wait_for(&mut window, "Equal in every pixel");
 }
 
 #[test]
 fn wipe_and_flip_show_the_other_picture() {
     let mut window = comparing(true);
+    click(&mut window, "Wipe");
     show_nodes(&mut window);
     wait_for(&mut window, "range of A and B together");
     let wipe = |window: &mut Window<'_>, percent: f64| {
@@ -245,7 +263,7 @@ fn wipe_and_flip_show_the_other_picture() {
         assert!(column(&half, x) == column(&all_b, x), "B is on the right");
     }
     // One picture, B's, and A's while the key is held.
-    click(&mut window, "one");
+    click(&mut window, "One");
     over_picture(&mut window);
     let one = picture(&mut window);
     window.key_down(Key::F);
@@ -262,40 +280,39 @@ fn wipe_and_flip_show_the_other_picture() {
 #[test]
 fn what_each_kind_of_ray_did_is_listed_on_request() {
     let mut window = comparing(false);
-    assert!(!has(&window, "nodes per ray, maximum"));
-    click(&mut window, "per kind of ray");
+    assert!(!has(&window, "Nodes per ray, maximum"));
+    click(&mut window, "Per kind of ray");
     let [a, b] = ["midpoint", "sah-cut"].map(|method| measured(method, &render()).measurement);
     for figure in ray_figures() {
         for kind in [RayKind::Primary, RayKind::Shadow] {
             let values = [&a, &b].map(|m| figure.of(m, kind));
-            let change = change(figure.unit, values[0], values[1]).map(|c| c.to_string());
-            let texts = values.map(|value| value.map(|value| figure.unit.number(value)));
+            let change = figure.change_text(values[0], values[1]).map(|c| c.text);
+            let texts = values.map(|value| Some(figure.text(value, Digits::Four)));
             for text in texts.into_iter().chain([change]).flatten() {
                 assert!(has(&window, &text), "{}: {text}", figure.key);
             }
         }
     }
-    assert!(window.query_by_label("shadow rays").is_some());
-    assert!(window.query_by_label("refracted rays").is_none());
+    assert!(window.query_by_label("Shadow rays").is_some());
+    assert!(window.query_by_label("Refracted rays").is_none());
 }
 
 #[test]
 fn a_comparison_that_ends_while_the_other_tree_is_rendered_leaves_nothing_running() {
     let mut start = small(SCENE);
-    start.setup.render.samples = 200;
+    start.setup.render.samples = 400;
     let mut window = open(start);
     finish(&mut window);
     press(&mut window, Modifiers::COMMAND, Key::E);
-    wait_for(&mut window, "May be compared");
+    wait_for(&mut window, "Fair comparison");
     press(&mut window, Modifiers::NONE, Key::J);
     // With the same method, the tree behind would take the finished picture of the one in front.
     press(&mut window, Modifiers::COMMAND, Key::M);
     press(&mut window, Modifiers::COMMAND, Key::PageDown);
-    wait_for(&mut window, "May not be compared");
+    wait_for(&mut window, "Not comparable");
     // From here on the tree behind is rendered with other settings.
-    click(&mut window, "Make conditions equal");
-    wait(&mut window, "the tree behind", |w| has(w, "A: sample"));
+    click(&mut window, "Use same conditions");
+    wait(&mut window, "the tree behind", |w| has(w, "Tracing A"));
     press(&mut window, Modifiers::COMMAND, Key::E);
-    wait(&mut window, "rest", |w| has(w, "ready"));
     finish(&mut window);
 }

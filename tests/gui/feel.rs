@@ -1,7 +1,9 @@
 //! What makes the window good to work with: a layout that is remembered, the command palette, names
 //! for screen readers.
 
-use crate::harness::{Window, has, open, open_sized, open_with_graphics, press, small, wait};
+use crate::harness::{
+    Window, described, has, open, open_sized, open_with_graphics, press, small, wait,
+};
 use bspscope::gui::StartOptions;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{By, NodeT as _, Queryable as _};
@@ -23,12 +25,6 @@ fn is_open(window: &Window<'_>) -> bool {
     window.query_by_label("Search for a command").is_some()
 }
 
-/// The name of the build method in the top bar.
-fn method(window: &Window<'_>) -> String {
-    let list = window.get_by_label("Build method");
-    list.accesskit_node().value().unwrap_or_default()
-}
-
 /// The depth that the slider in the top bar says.
 fn depth(window: &Window<'_>) -> f64 {
     let mut sliders = window.query_all_by_role(Role::Slider);
@@ -40,10 +36,10 @@ fn depth(window: &Window<'_>) -> f64 {
 fn the_palette_does_what_is_typed_and_chosen() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
-    let before = method(&window);
+    let before = described(&window);
     search(&mut window, "next build");
     window.key_press(egui::Key::Enter);
-    wait(&mut window, "the method", |w| method(w) != before);
+    wait(&mut window, "the method", |w| described(w) != before);
     assert!(!is_open(&window));
     // The second of two, by an arrow key, undoes what the first one does.
     let before = depth(&window);

@@ -76,8 +76,16 @@ pub fn over_picture(window: &mut Window<'_>) {
     window.run_steps(2);
 }
 
+/// Whether a label contains this, or the description of the picture, which names its settings.
 pub fn has(window: &Window<'_>, text: &str) -> bool {
-    window.query_all_by_label_contains(text).next().is_some()
+    window.query_all_by_label_contains(text).next().is_some() || described(window).contains(text)
+}
+
+/// Returns the settings of the picture on view; empty without one.
+pub fn described(window: &Window<'_>) -> String {
+    let picture = window.query_by_label("Traced picture");
+    let description = picture.and_then(|node| node.accesskit_node().description());
+    description.unwrap_or_default()
 }
 
 /// Whether what is asked for is on view, with final figures.

@@ -1,6 +1,6 @@
 //! Heatmaps in the window: found by their labels, compared with the library's values.
 
-use crate::harness::{SIZE, Window, finish, has, open, open_sized, over_picture, wait, wait_for};
+use crate::harness::{SIZE, Window, finish, has, open, over_picture, wait, wait_for};
 use crate::support::scenes::{render_sized, scene, tree_by};
 use bspscope::measure::heat::{HeatImage, Heatmap, PixelCounts, RayFilter, heatmap, heatmaps};
 use bspscope::progress::Progress;
@@ -23,15 +23,18 @@ fn plain(window: &mut Window<'_>, key: egui::Key) {
     press(window, egui::Modifiers::NONE, key);
 }
 
-/// Opens a list whose text begins like this, and clicks an entry.
-fn choose(window: &mut Window<'_>, list: &str, entry: &str) {
-    window
-        .query_all_by_role(egui::accesskit::Role::ComboBox)
-        .find(|node| node.value().is_some_and(|v| v.starts_with(list)))
-        .expect("the list")
-        .click();
+/// Clicks an entry of the list above the picture.
+fn choose(window: &mut Window<'_>, entry: &str) {
+    window.get_by_label("Show").click();
     window.run_steps(3);
     window.get_by_label(entry).click();
+    window.run_steps(3);
+}
+
+/// Clicks an option of the menu above the picture, which stays open for more, and closes the menu.
+fn set(window: &mut Window<'_>, option: &str) {
+    choose(window, option);
+    window.get_by_label("Show").click();
     window.run_steps(3);
 }
 
@@ -41,7 +44,7 @@ fn title(heatmap: &Heatmap) -> String {
 
 fn show(window: &mut Window<'_>, symbol: &str) {
     let title = title(heatmap(symbol).unwrap());
-    choose(window, "Show:", &title);
+    choose(window, &title);
     wait_for(window, "Legend from");
     wait_for(window, &title);
 }
@@ -67,7 +70,7 @@ fn library_image(symbol: &str, rays: RayFilter) -> HeatImage {
         .image(&library_counts("midpoint"), rays)
 }
 
-/// The label of the legend's colour bar.
+/// The label of the legend's color bar.
 fn legend(window: &Window<'_>) -> String {
     let node = window.get_by_label_contains("Legend from");
     node.accesskit_node().label().expect("a label")
@@ -103,25 +106,24 @@ fn every_heatmap_comes_up_by_list_and_by_key_with_symbol_and_unit() {
             has(w, "Legend from") && legend(w).ends_with(heatmap.unit)
         });
     }
-    choose(&mut window, "Show:", "picture");
+    choose(&mut window, "Picture");
     assert!(!has(&window, "Legend from"));
 }
 
 #[test]
 fn the_scale_is_linear_or_logarithmic() {
-    // So high that all lines of the legend have room.
-    let mut window = open_sized(small(), [1500.0, 1500.0], false);
+    let mut window = open(small());
     finish(&mut window);
     show(&mut window, "N_IT");
     assert!(has(&window, "tests per pixel · all rays · linear scale"));
     let found = library_image("N_IT", RayFilter::All).statistics().unwrap();
     assert!(has(
         &window,
-        &format!("a pixel: {} to {}, mean", found.lowest, found.highest)
+        &format!("From {} to {}, mean", found.lowest, found.highest)
     ));
     plain(&mut window, egui::Key::G);
     wait_for(&mut window, "· log scale");
-    window.get_by_label("log").click();
+    set(&mut window, "Logarithmic scale");
     wait_for(&mut window, "· linear scale");
 }
 
@@ -130,7 +132,7 @@ fn one_kind_of_rays_is_told_from_all() {
     let mut window = open(small());
     finish(&mut window);
     show(&mut window, "N_IT");
-    choose(&mut window, "Rays:", "shadow rays");
+    set(&mut window, "Shadow");
     wait_for(&mut window, "· shadow rays ·");
     let found = library_image("N_IT", RayFilter::Shadow)
         .statistics()
@@ -174,8 +176,8 @@ fn pointer_and_picked_pixel_have_the_librarys_values() {
     finish(&mut window);
     show(&mut window, "N_NODES");
     let image = library_image("N_NODES", RayFilter::All);
-    window.get_by_label("Traced picture").click();
-    wait_for(&mut window, "Pixel 24, 24 (");
+    // Without a picked pixel, an arrow key picks the one in the center.
+    plain(&mut window, egui::Key::ArrowLeft);
     let value = image.get(24, 24).unwrap();
     wait_for(&mut window, &format!("Picked: {value} nodes per pixel"));
     assert!(has(&window, &format!("Pointer: {value} nodes per pixel")));
@@ -188,7 +190,7 @@ fn pointer_and_picked_pixel_have_the_librarys_values() {
     wait_for(&mut window, &format!("Picked: {value} nodes per pixel"));
     // Where nothing is hit there are no tests per hit.
     show(&mut window, "N_RPRT");
-    choose(&mut window, "Rays:", "reflected rays");
+    set(&mut window, "Reflected");
     wait_for(&mut window, "· reflected rays ·");
     let ratios = library_image("N_RPRT", RayFilter::Reflected);
     let without = ratios.values.iter().filter(|v| v.is_nan()).count();
@@ -205,13 +207,15 @@ fn the_most_expensive_pixels_are_picked_in_order() {
     let image = library_image("N_IT", RayFilter::All);
     let mut order: Vec<usize> = (0..image.values.len()).collect();
     order.sort_by(|&a, &b| image.values[b].total_cmp(&image.values[a]).then(a.cmp(&b)));
+    // The task that names the picked pixel.
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Num2);
     let is_picked = |window: &Window<'_>, rank: usize| {
         let (x, y) = (order[rank] as u32 % SIZE, order[rank] as u32 / SIZE);
-        has(window, &format!("Pixel {x}, {y} ("))
-            && has(window, &format!("rank {} of 2\u{a0}304", rank + 1))
+        let value = image.values[order[rank]];
+        has(window, &format!("Pixel {x}, {y}"))
             && has(
                 window,
-                &format!("Picked: {} tests", image.values[order[rank]]),
+                &format!("{value} · rank {} of 2\u{a0}304", rank + 1),
             )
     };
     plain(&mut window, egui::Key::N);
@@ -255,8 +259,8 @@ fn without_counts_the_picture_stays_and_a_note_says_why() {
     start.setup.render.height = 2000;
     let mut window = open(start);
     // The picture is not there at once, and if it were, it would be too large to be counted.
-    choose(&mut window, "Show:", &title(&heatmaps()[0]));
-    assert!(has(&window, "counting …") || has(&window, "Only pictures of up to"));
+    choose(&mut window, &title(&heatmaps()[0]));
+    assert!(has(&window, "Counting begins") || has(&window, "Only pictures of up to"));
     wait_for(
         &mut window,
         "Only pictures of up to 4\u{a0}000\u{a0}000 pixels",
@@ -273,10 +277,10 @@ fn what_was_cancelled_before_it_was_counted_says_so() {
     start.setup.render.width = 1900;
     start.setup.render.height = 1900;
     let mut window = open(start);
-    choose(&mut window, "Show:", &title(&heatmaps()[0]));
-    assert!(has(&window, "counting …"));
+    choose(&mut window, &title(&heatmaps()[0]));
+    assert!(has(&window, "Counting begins"));
     wait_for(&mut window, "balls:4 · midpoint");
-    assert!(has(&window, "counting …"));
+    assert!(has(&window, "Counting begins"));
     window.key_press(egui::Key::Escape);
     wait_for(&mut window, "Not counted: the picture was cancelled");
 }
@@ -298,13 +302,13 @@ fn times_come_by_a_pass_of_their_own_and_belong_to_one_picture() {
 }
 
 #[test]
-fn colours_ends_of_the_range_and_blending_are_set_in_a_menu() {
+fn colors_ends_of_the_range_and_blending_are_set_in_a_menu() {
     let mut window = open(small());
     finish(&mut window);
     show(&mut window, "N_IT");
-    window.get_by_label("Colours …").click();
+    window.get_by_label("Show").click();
     window.run_steps(3);
-    window.get_by_label_contains("blue-red:").click();
+    window.get_by_label("blue-red").click();
     let most = library_image("N_IT", RayFilter::All)
         .statistics()
         .unwrap()
@@ -335,14 +339,14 @@ fn colours_ends_of_the_range_and_blending_are_set_in_a_menu() {
 }
 
 #[test]
-fn taking_times_is_cancelled_and_begun_anew() {
+fn measuring_times_is_cancelled_and_begun_anew() {
     let mut start = small();
     start.setup.render.width = 400;
     start.setup.render.height = 400;
     start.setup.scene = SceneRequest::parse("balls:3");
     let mut window = open(start);
     finish(&mut window);
-    choose(&mut window, "Show:", &title(heatmap("T_PIXEL").unwrap()));
+    choose(&mut window, &title(heatmap("T_PIXEL").unwrap()));
     // The pass may be over before it is cancelled: then there is nothing to begin anew.
     wait(&mut window, "the pass", |w| {
         has(w, "Cancel timing") || has(w, "Legend from")
@@ -352,7 +356,7 @@ fn taking_times_is_cancelled_and_begun_anew() {
         wait(&mut window, "its end", |w| {
             has(w, "Not timed: cancelled") || has(w, "Legend from")
         });
-        if let Some(button) = window.query_by_label("Take times") {
+        if let Some(button) = window.query_by_label("Measure times") {
             button.click();
         }
     }

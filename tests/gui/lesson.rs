@@ -1,6 +1,6 @@
 //! Lessons in the window: each is taken from its first step to its last, by mouse and by keys.
 
-use crate::harness::{Window, click, has, open, open_sized, press, small, wait};
+use crate::harness::{Window, click, described, has, open, open_sized, press, small, wait};
 use bspscope::lesson::{Answer, Figures, LESSONS, Lesson, Measurer, Question, Step};
 use bspscope::progress::Progress;
 use egui::accesskit::Role;
@@ -306,11 +306,7 @@ fn what_was_there_comes_back() {
     click(&mut window, "Tree B");
     press(&mut window, Modifiers::COMMAND, Key::M);
     finish(&mut window);
-    let method = |window: &Window<'_>| {
-        let method = window.get_by_label("Build method");
-        method.accesskit_node().value()
-    };
-    let before = method(&window);
+    let before = described(&window);
     run_command(&mut window, "lesson empty space");
     measure(&mut window);
     assert!(window.query_by_label("Tree B").is_none(), "one tree alone");
@@ -326,7 +322,7 @@ fn what_was_there_comes_back() {
     click(&mut window, "Exit lesson");
     finish(&mut window);
     assert!(window.query_by_label("Tree B").is_some());
-    assert_eq!(method(&window), before);
+    assert_eq!(described(&window), before);
     let task = window.get_by_label("Compare").accesskit_node();
     assert_eq!(task.is_selected(), Some(true));
     assert!(window.query_by_label("Exit lesson").is_none());

@@ -8,6 +8,7 @@ mod acceptance;
 mod accuracy;
 mod build;
 mod compare;
+mod explore;
 mod feel;
 mod first_start;
 mod formats;

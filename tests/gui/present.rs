@@ -9,7 +9,7 @@ fn finish(window: &mut Window<'_>) {
 }
 
 fn is_bar_shown(window: &Window<'_>) -> bool {
-    window.query_by_label("Build method").is_some()
+    window.query_by_label("Explore").is_some()
 }
 
 #[test]

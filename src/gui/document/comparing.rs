@@ -13,14 +13,6 @@ pub struct Comparing {
     pub view: View,
     /// Where the wipe's line lies, 0 at the pictures' left edge to 1 at the right one.
     pub split: f32,
-    /// Whether the other picture is held to the front for the moment.
-    pub flipped: bool,
-    /// Whether the pixels that differ are asked for, in place of any heatmap.
-    pub asks_for_pixels: bool,
-    /// Whether all parameters are listed, or Δ and Λ alone.
-    pub all_parameters: bool,
-    /// Whether what rays did is listed kind by kind, too.
-    pub per_kind: bool,
     /// Made when it is asked for.
     verdict: RefCell<Latest<[u64; 2], Verdict>>,
 }
@@ -28,12 +20,8 @@ pub struct Comparing {
 impl Default for Comparing {
     fn default() -> Self {
         Comparing {
-            view: View::Wipe,
+            view: View::Beside,
             split: 0.5,
-            flipped: false,
-            asks_for_pixels: false,
-            all_parameters: false,
-            per_kind: false,
             verdict: RefCell::default(),
         }
     }

@@ -5,6 +5,7 @@ use super::restoring::Restoring;
 use super::selection::Selection;
 use super::{Current, Document, Wanted};
 use crate::gui::widgets::rounded::rounded;
+use crate::measure::heat::heatmaps;
 use crate::setup::Setup;
 use crate::workspace::{Selected, Workspace};
 
@@ -21,6 +22,9 @@ impl Document {
         view.split = rounded(self.comparing.split);
         view.pinned.clone_from(&self.pinned);
         view.region = self.region;
+        view.heatmap.show = self
+            .heatmap
+            .map(|place| heatmaps()[place].symbol.to_owned());
         if let Some(restoring) = &self.restoring {
             view.selected = restoring.selected;
             view.build = restoring.build;
@@ -50,6 +54,8 @@ impl Document {
         self.notes.clone_from(&workspace.notes);
         self.pinned.clone_from(&view.pinned);
         self.region = view.region;
+        let kept = view.heatmap.show.as_deref();
+        self.heatmap = heatmaps().iter().position(|map| Some(map.symbol) == kept);
         self.restoring = Some(Restoring {
             selected: view.selected,
             build: view.build,

@@ -7,6 +7,7 @@ mod asked;
 mod build_view;
 mod building;
 pub mod comparing;
+mod history;
 pub mod inspect;
 mod interesting;
 mod keep;
@@ -15,10 +16,12 @@ pub mod picked;
 pub mod picture_job;
 mod restoring;
 pub mod result;
+mod second;
 mod selection;
 mod stepping;
 pub mod study;
 pub mod tasks;
+mod tiles;
 mod tune;
 pub mod tuning;
 pub mod visits;
@@ -38,10 +41,11 @@ pub use asked::Fact;
 pub use build_view::RATES;
 use comparing::{Comparing, Verdict, Which};
 use egui::util::undoer::Undoer;
+pub use history::{Figures, History, Measured};
 use inspect::Inspect;
 use notices::Notices;
 use restoring::Restoring;
-pub use result::{Current, Fresh};
+pub use result::Current;
 use std::sync::Arc;
 use tuning::Tuning;
 use walk::Walking;
@@ -68,6 +72,10 @@ pub struct Document {
     pub which: Which,
     /// The other tree of a comparison, if there is one.
     pub other: Option<Other>,
+    /// The other tree of the last comparison.
+    last_other: Option<Setup>,
+    /// The last results of A and of B.
+    histories: [History; 2],
     /// How two trees are compared.
     pub comparing: Comparing,
     /// The picture that is being rendered.
@@ -167,6 +175,8 @@ impl Document {
             current: None,
             which: Which::A,
             other: None,
+            last_other: None,
+            histories: Default::default(),
             comparing: Comparing::default(),
             work: None,
             stopped: false,
@@ -240,14 +250,14 @@ impl Document {
         }
     }
 
-    /// Compares with a second tree, B, that begins with the settings of the first; or ends the
-    /// comparison with the tree in front.
+    /// Compares with a second tree, B; or ends the comparison with the tree in front.
     pub fn compare_or_not(&mut self) {
-        if self.other.take().is_some() {
-            // The one in front is A from now on, and its picture goes to A's place on the screen.
+        if let Some(other) = self.other.take() {
+            self.last_other = Some(other.wanted);
+            // The one in front is A from now on.
             let front = std::mem::replace(&mut self.which, Which::A);
-            if let Some(current) = &mut self.current {
-                current.fresh = Fresh::All;
+            if front == Which::B {
+                self.histories.reverse();
             }
             // Dropping what was being rendered for the other one cancels it.
             self.work = self.work.take().filter(|work| work.which == front);
@@ -256,11 +266,19 @@ impl Document {
             }
         } else {
             self.other = Some(Other {
-                wanted: self.wanted.clone(),
+                wanted: self.second_setup(),
                 sent: None,
                 current: None,
             });
             self.comparing = Comparing::default();
+        }
+    }
+
+    /// Uses the settings of scene and picture of the tree in front for both trees.
+    pub fn use_same_conditions(&mut self) {
+        if let Some(other) = &mut self.other {
+            other.wanted.scene = self.wanted.scene.clone();
+            other.wanted.render = self.wanted.render;
         }
     }
 
@@ -302,11 +320,28 @@ impl Document {
             .verdict(in_order(self.which, front, behind), ctx)
     }
 
-    /// As [`Document::both`], to be changed.
-    pub fn both_mut(&mut self) -> [Option<&mut Current>; 2] {
-        let front = self.current.as_mut();
-        let behind = self.other.as_mut().and_then(|other| other.current.as_mut());
-        in_order(self.which, front, behind)
+    /// Returns the last results of a tree.
+    pub fn results(&self, which: Which) -> &History {
+        &self.histories[which as usize]
+    }
+
+    /// Returns the figures on view of a tree; `None` before the first.
+    pub fn figures(&self, which: Which) -> Option<Figures<'_>> {
+        let history = self.results(which);
+        let now = history.last()?;
+        let wanted = match &self.other {
+            Some(other) if which != self.which => &other.wanted,
+            _ => &self.wanted,
+        };
+        let current = self.both()[which as usize];
+        let answers = |current: &Current| {
+            current.complete && current.number == now.number && current.shown.reload == self.reload
+        };
+        Some(Figures {
+            now,
+            before: history.previous(),
+            are_current: current.is_some_and(answers) && now.setup == *wanted,
+        })
     }
 
     /// Asks for another scene, seen by its own camera.
@@ -388,11 +423,14 @@ impl Document {
             .is_some_and(|c| c.shown.setup != self.wanted || c.shown.reload != self.reload)
     }
 
-    /// Whether what is shown differs from what is wanted in the camera alone.
-    pub fn only_camera_differs(&self) -> bool {
-        self.current
-            .as_ref()
-            .is_some_and(|current| same_but_camera(&current.shown.setup, &self.wanted))
+    /// Whether the picture of a tree is about to differ from the one on view.
+    pub fn picture_will_differ(&self, which: Which) -> bool {
+        let (wanted, current) = match &self.other {
+            Some(other) if which != self.which => (&other.wanted, &other.current),
+            _ => (&self.wanted, &self.current),
+        };
+        let current = current.as_ref();
+        current.is_some_and(|current| current.will_differ(wanted, self.reload))
     }
 
     /// Receives what the jobs have sent. Returns the scenes that came into view.
@@ -424,7 +462,11 @@ impl Document {
                     if let Some(current) = place
                         && current.number == number
                     {
+                        let was_complete = current.complete;
                         current.take(update);
+                        if current.complete && !was_complete {
+                            self.histories[which as usize].add(current);
+                        }
                     }
                 }
             }
@@ -565,6 +607,13 @@ fn same_but_camera(a: &Setup, b: &Setup) -> bool {
 }
 
 impl Document {
+    /// Picks a pixel of the picture in front.
+    pub fn pick(&mut self, pixel: [u32; 2]) {
+        if let Some(current) = &mut self.current {
+            current.pick(pixel);
+        }
+    }
+
     /// Selects a node of the tree on view.
     pub fn select_node(&mut self, node: Option<u32>) {
         if let Some(current) = &mut self.current {

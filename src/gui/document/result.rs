@@ -2,9 +2,11 @@
 
 use super::picked::{Picked, Wish};
 use super::selection::Selection;
+use super::tiles::Tiles;
 use crate::jobs::{Shown, Update};
 use crate::measure::heat::PixelCounts;
-use crate::trace::{Step, Tile};
+use crate::setup::Setup;
+use crate::trace::{Picture, Step};
 use std::sync::Arc;
 
 /// A picture with everything that belongs to it.
@@ -18,8 +20,10 @@ pub struct Current {
     pub done: bool,
     /// Number of the newest sample in the picture.
     pub sample: u32,
-    /// The parts of the picture that the screen does not have yet.
-    pub fresh: Fresh,
+    /// The tiles added to the picture.
+    tiles: Tiles,
+    /// A finished picture that this one will equal; it stays on view until this one is done.
+    held: Option<OnView>,
     /// The pixel whose rays are to be followed, until they are.
     pub wish: Option<Wish>,
     pub picked: Option<Picked>,
@@ -28,10 +32,12 @@ pub struct Current {
     pub pixel_counts: Option<Arc<PixelCounts>>,
 }
 
-/// Parts of a picture.
-pub enum Fresh {
-    All,
-    Tiles(Vec<Tile>),
+/// A picture on view.
+#[derive(Clone)]
+pub struct OnView {
+    /// The number of the request that the picture answers.
+    pub number: u64,
+    pub picture: Arc<Picture>,
 }
 
 impl Current {
@@ -43,18 +49,64 @@ impl Current {
         let selection = before
             .filter(|before| Arc::ptr_eq(&before.shown.tree, &shown.tree))
             .map_or_else(Selection::default, |before| before.selection);
+        let held = before
+            .filter(|before| before.promises(&shown))
+            .map(Current::on_view);
         Current {
             number,
             sample: shown.sample,
             shown,
             complete: false,
             done: false,
-            fresh: Fresh::All,
+            tiles: Tiles::default(),
+            held,
             wish,
             picked: None,
             selection,
             pixel_counts: None,
         }
+    }
+
+    /// Whether a finished picture is on view that a new one will equal.
+    fn promises(&self, shown: &Shown) -> bool {
+        (self.done || self.held.is_some())
+            && Arc::ptr_eq(&self.shown.scene, &shown.scene)
+            && !shown.setup.alters_picture(&self.shown.setup)
+    }
+
+    /// Returns the picture to be shown: a finished one as long as this one is being rendered and will
+    /// equal it, so that nothing flickers when only the tree changes.
+    pub fn on_view(&self) -> OnView {
+        let own = || OnView {
+            number: self.number,
+            picture: Arc::clone(&self.shown.picture),
+        };
+        self.held.clone().filter(|_| !self.done).unwrap_or_else(own)
+    }
+
+    /// Whether a picture of this setup, with its file read so often, will look different. Moves of the
+    /// camera do not count: they follow the mouse, and new pictures come at once.
+    pub(super) fn will_differ(&self, wanted: &Setup, reload: u64) -> bool {
+        let shown = &self.shown;
+        if shown.reload != reload {
+            return true;
+        }
+        if shown.setup == *wanted {
+            return false;
+        }
+        let mut wanted = wanted.clone();
+        wanted.render.camera = shown.setup.render.camera;
+        wanted.alters_picture(&shown.setup)
+    }
+
+    /// Whether an earlier picture is on view, which this one will equal.
+    pub fn is_held(&self) -> bool {
+        self.held.is_some() && !self.done
+    }
+
+    /// Returns the tiles added to the picture.
+    pub fn tiles(&self) -> &Tiles {
+        &self.tiles
     }
 
     /// A picked pixel stays picked in a new picture of the same scene and size, and so does its ray.
@@ -108,9 +160,7 @@ impl Current {
             } => {
                 Arc::make_mut(&mut self.shown.picture).add_tile(&tile, sample, &colors);
                 self.sample = self.sample.max(sample);
-                if let Fresh::Tiles(tiles) = &mut self.fresh {
-                    tiles.push(tile);
-                }
+                self.tiles.push(tile);
             }
             Update::Measured {
                 measurement,

@@ -26,7 +26,7 @@ impl StatusLine {
         let text = match (&self.progress, hovered, current) {
             (Some(progress), ..) => progress.clone(),
             (None, Some(([x, y], value)), Some(current)) => {
-                let color = || color_text(current.shown.picture.get(x, y));
+                let color = || color_text(current.on_view().picture.get(x, y));
                 format!("Pixel {x}, {y}: {}", value.unwrap_or_else(color))
             }
             _ if doc.stopped => format!("Stopped · {} resumes", shortcut("window.again")),

@@ -24,6 +24,16 @@ pub fn busy(ui: &mut egui::Ui, what: &str) {
     });
 }
 
+/// Returns a name as it begins a line: with a capital, except for a symbol or a unit.
+pub fn sentence(name: &str) -> String {
+    let mut rest = name.chars();
+    let first = rest.next().filter(char::is_ascii_lowercase);
+    first.map_or_else(
+        || name.to_owned(),
+        |first| format!("{}{}", first.to_ascii_uppercase(), rest.as_str()),
+    )
+}
+
 /// Formats a number in few characters.
 pub fn short(value: f64) -> String {
     let size = value.abs();

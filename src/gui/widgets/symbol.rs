@@ -1,14 +1,10 @@
-//! The paper's symbols with their explanation on hover, and numbers in groups.
+//! What the paper's symbols mean, and numbers in groups.
 
 use crate::measure::{Measurement, Parameter, parameters};
+use crate::present::number::Digits;
 
-/// A symbol; on hover: name, meaning, formula, formula with the current numbers, class and table.
-pub fn symbol(ui: &mut egui::Ui, parameter: &'static Parameter, measurement: &Measurement) {
-    ui.add(egui::Label::new(egui::RichText::new(parameter.symbol).monospace()).selectable(false))
-        .on_hover_ui(|ui| explain(ui, parameter, measurement));
-}
-
-/// The tooltip of a symbol.
+/// Shows the tooltip of a figure: name, meaning, formula, the formula with the current numbers, class and
+/// table.
 pub fn explain(ui: &mut egui::Ui, parameter: &Parameter, measurement: &Measurement) {
     ui.set_max_width(380.0);
     ui.strong(format!("{}: {}", parameter.symbol, parameter.name));
@@ -19,8 +15,10 @@ pub fn explain(ui: &mut egui::Ui, parameter: &Parameter, measurement: &Measureme
         ui.label(format!(
             "= {} = {}",
             with_numbers(parameter.formula, measurement),
-            parameter.format(parameter.value(measurement))
+            parameter.text(parameter.value(measurement), Digits::All)
         ));
+    } else if let Some(value) = parameter.value(measurement) {
+        ui.label(format!("= {}", parameter.text(Some(value), Digits::All)));
     }
     ui.separator();
     ui.weak(format!(

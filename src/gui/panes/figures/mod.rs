@@ -1,13 +1,18 @@
-//! The septet Δ and the triplet Λ of what is on view.
+//! The septet Δ and the triplet Λ of what is on view: four of them on cards, the others in rows.
 
+mod card;
 mod export;
 
 use crate::gui::action::actions;
-use crate::gui::document::{Current, Document};
+use crate::gui::document::Document;
 use crate::gui::edits::Request;
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
-use crate::gui::widgets::symbol::symbol;
+use crate::gui::theme::{ROW, tokens};
+use crate::gui::widgets::common::sentence;
+use crate::gui::widgets::symbol::explain;
+use crate::gui::widgets::value_row::{Value, ValueRow};
 use crate::measure::{Class, DELTA, LAMBDA, Parameter, parameter};
+use crate::present::number::Digits;
 
 /// The figures of the picture on view.
 #[derive(Default)]
@@ -31,101 +36,80 @@ impl Pane for FiguresPane {
     };
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        delta(ui, cx.doc);
-        ui.add_space(8.0);
-        lambda(ui, cx.doc);
+        let doc: &Document = cx.doc;
+        let room = ui.available_height();
+        ui.spacing_mut().item_spacing.y = SPACE;
+        let kernel = doc.figures(doc.which).map(|figures| {
+            let render = &figures.now.setup.render;
+            format!("Timed kernel: {}", render.kernel.description())
+        });
+        for symbol in CARDS {
+            let is_time = parameter(symbol).class == Class::T;
+            let note = kernel.as_deref().filter(|_| is_time).unwrap_or("");
+            card::card(ui, parameter(symbol), doc, cx.edits, note);
+        }
+        if room >= height_with_rows() {
+            rows(ui, doc);
+        }
+        let about = "Show all parameters of the paper's Tables 1 to 3.";
+        let size = egui::vec2(ui.available_width(), ROW);
+        let button = egui::Button::new("All figures").min_size(size);
+        let button = ui.add(button).on_hover_text(about);
+        if button.accessible_name("Show all figures").clicked() {
+            cx.edits.request(Request::Show("parameters"));
+        }
     }
 }
 
-/// Whether a value can still change while rays are being counted.
-fn is_provisional(parameter: &Parameter, current: &Current) -> bool {
-    let from_rays = matches!(parameter.class, Class::R | Class::D | Class::T);
-    let from_build = parameter.symbol.starts_with("T_CB");
-    !current.complete && from_rays && !from_build
+/// The figures on cards: the costs of tracing, and what decides them.
+const CARDS: [&str; 4] = ["N_RPRT", "N_AT", "N_LS", "T_TR"];
+
+/// Space between cards.
+const SPACE: f32 = 8.0;
+
+/// The figures of Δ and Λ that have no card.
+fn others() -> impl Iterator<Item = &'static Parameter> {
+    let all = DELTA.iter().chain(&LAMBDA);
+    all.filter(|symbol| !CARDS.contains(symbol))
+        .map(|symbol| parameter(symbol))
 }
 
-/// A value; one that can still change has an ellipsis and is in italics.
-pub fn value(ui: &mut egui::Ui, parameter: &Parameter, current: &Current) {
-    let text = parameter.format(parameter.value(&current.shown.measurement));
-    let text = egui::RichText::new(text).monospace();
-    if is_provisional(parameter, current) {
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 2.0;
-            ui.label(text.italics());
-            ui.label("…")
-                .on_hover_text("Provisional: rays are still being counted");
-        });
-    } else {
-        ui.label(text);
-    }
+/// The height of all ten figures and the button.
+fn height_with_rows() -> f32 {
+    let cards = CARDS.len() as f32 * (card::HEIGHT + SPACE);
+    cards + others().count() as f32 * ROW + SPACE + ROW
 }
 
-/// Whose figures these are, and whether they are final.
-pub fn standing(ui: &mut egui::Ui, doc: &Document, current: &Current) {
-    let mut text = if current.complete {
-        "complete".to_owned()
-    } else if doc.stopped {
-        "… provisional (stopped)".to_owned()
-    } else {
-        "… provisional".to_owned()
-    };
-    if doc.is_previous() {
-        text += " · previous settings";
-    }
-    ui.label(egui::RichText::new(text).strong())
-        .on_hover_text(current.settings_text());
-}
-
-fn delta(ui: &mut egui::Ui, doc: &mut Document) {
-    let Some(current) = &doc.current else {
-        ui.weak("No figures yet");
-        return;
-    };
-    standing(ui, doc, current);
-    egui::Grid::new("delta")
-        .num_columns(3)
-        .striped(true)
-        .show(ui, |ui| {
-            for p in DELTA.map(parameter) {
-                symbol(ui, p, &current.shown.measurement);
-                ui.label(p.name);
-                value(ui, p, current);
-                ui.end_row();
+/// Shows the figures that have no card.
+fn rows(ui: &mut egui::Ui, doc: &Document) {
+    let figures = doc.figures(doc.which);
+    let t = tokens(ui);
+    ui.vertical(|ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        for parameter in others() {
+            let value = figures
+                .as_ref()
+                .and_then(|f| parameter.value(&f.now.measurement));
+            let is_current = figures.as_ref().is_some_and(|f| f.are_current);
+            let text = parameter.text(value, Digits::Three);
+            let label = ValueRow {
+                name: &sentence(parameter.name),
+                symbol: parameter.symbol,
+                values: &[Value {
+                    color: if is_current { t.text } else { t.hint },
+                    width: VALUE,
+                    text,
+                }],
+                height: ROW,
+                striped: false,
+            };
+            let label = label.show(ui);
+            if let Some(figures) = &figures {
+                label.on_hover_ui(|ui| explain(ui, parameter, &figures.now.measurement));
             }
-        });
+        }
+    });
 }
 
-fn lambda(ui: &mut egui::Ui, doc: &mut Document) {
-    let Some(current) = &doc.current else {
-        ui.weak("No times yet");
-        return;
-    };
-    standing(ui, doc, current);
-    egui::Grid::new("lambda")
-        .num_columns(4)
-        .striped(true)
-        .show(ui, |ui| {
-            for title in ["", "", "CPU", "wall"] {
-                ui.label(title).on_hover_text(match title {
-                    "CPU" => "Time of all threads together",
-                    "wall" => "Wall-clock time",
-                    _ => "",
-                });
-            }
-            ui.end_row();
-            for p in LAMBDA.map(parameter) {
-                symbol(ui, p, &current.shown.measurement);
-                ui.label(p.name);
-                value(ui, p, current);
-                match p.symbol {
-                    "T_CB" => value(ui, parameter("T_CB_WALL"), current),
-                    "T_TR" => value(ui, parameter("T_TR_WALL"), current),
-                    _ => {}
-                }
-                ui.end_row();
-            }
-        });
-    let used = current.shown.setup.render.kernel.description();
-    ui.weak(format!("Timed kernel: {used}"))
-        .on_hover_text("How timed passes walk rays through the tree; chosen under Picture");
-}
+/// Width of the values of the rows.
+const VALUE: f32 = 56.0;

@@ -5,14 +5,13 @@ use crate::gui::document::Document;
 use crate::gui::edits::{Content, Export, MakeFile};
 use crate::present::export::encoded;
 use image::ImageFormat;
-use std::sync::Arc;
 
 /// The picture as far as it is rendered.
 pub fn picture(doc: &Document) -> Export {
     let content = match &doc.current {
         None => Content::Nothing("there is no picture yet".into()),
         Some(current) => {
-            let picture = Arc::clone(&current.shown.picture);
+            let picture = current.on_view().picture;
             let make: MakeFile = Box::new(move |extension| {
                 encoded(&picture, format_of(extension)).map_err(|error| error.to_string())
             });

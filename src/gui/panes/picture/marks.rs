@@ -6,6 +6,7 @@ use crate::gui::action::tip;
 use crate::gui::document::inspect::Inspect;
 use crate::gui::document::tasks::Latest;
 use crate::gui::document::{Current, Document};
+use crate::gui::theme::hint;
 use crate::gui::widgets::symbol::grouped;
 use crate::present::overlay::{BOX_EDGES, CELL_COLOR, NODES_PER_RAY, REFERRING_COLOR};
 use crate::primitive::Shape as _;
@@ -23,7 +24,7 @@ pub struct PictureMarks {
     texture: Option<(DimmedKey, TextureHandle)>,
 }
 
-/// Number of the picture and range of nodes a ray.
+/// Number of the picture and range of nodes per ray.
 type DimmedKey = (u64, [u32; 2]);
 
 /// What lies over the pixels without a ray in the range.
@@ -49,14 +50,18 @@ impl PictureMarks {
         self.outlines ^= true;
     }
 
-    /// The switch for the outlines, and what the marks mean.
-    pub fn controls(&mut self, ui: &mut egui::Ui, doc: &Document) {
-        ui.checkbox(&mut self.outlines, "Selection")
+    /// The switch for the outlines.
+    pub fn outline_switch(&mut self, ui: &mut egui::Ui) {
+        ui.checkbox(&mut self.outlines, "Outline selection")
             .on_hover_text(tip(
                 "Outline the selected node's cell (solid) and the selected object's box (dashed) as \
                  the picture's camera sees them, hidden parts included.",
                 "picture.outline-selection",
             ));
+    }
+
+    /// Says which pixels are hatched, if any are.
+    pub fn note(&self, ui: &mut egui::Ui, doc: &Document) {
         let Some((key, range)) = key(&doc.inspect, doc.current.as_ref()) else {
             return;
         };
@@ -66,9 +71,9 @@ impl PictureMarks {
                 "{} pixels with a ray of {nodes} nodes; others hatched",
                 grouped(dimmed.marked)
             ),
-            None => format!("pixels with a ray of {nodes} nodes: not known yet"),
+            None => format!("Counting the pixels with a ray of {nodes} nodes"),
         };
-        ui.label(&text).on_hover_text(&text);
+        ui.add(egui::Label::new(hint(text)).wrap());
     }
 
     /// Paints the marks over a picture that lies in `rect`.
@@ -150,7 +155,7 @@ fn dimmed([width, height]: [u32; 2], marked: &[u32]) -> Dimmed {
     }
 }
 
-/// The edges of a box over the picture, on a dark ground so that they are seen on any colour.
+/// The edges of a box over the picture, on a dark ground so that they are seen on any color.
 fn outline(
     painter: &egui::Painter,
     rect: Rect,

@@ -73,7 +73,10 @@ pub fn show(ui: &mut Ui, doc: &Document, edits: &mut Edits, height: f32) {
     let clicked = list.show(
         ui,
         |i| row(scene, steps[i], &path.steps[steps[i]]),
-        |i, painter, rect, _| icon(painter, rect, &path.steps[steps[i]], orders[steps[i]], n),
+        |i, painter, rect, color| {
+            let order = (orders[steps[i]], n);
+            icon(painter, rect, &path.steps[steps[i]], order, color);
+        },
     );
     if let Some(i) = clicked {
         let step = steps[i];
@@ -132,13 +135,12 @@ fn row(scene: &Scene, i: usize, step: &Step) -> Row {
 }
 
 /// A fork for an inner node; for a leaf a square in the color of its box in the 3D view.
-fn icon(painter: &Painter, number: Rect, step: &Step, order: usize, n: usize) {
-    let gray = Color32::from_gray(150);
+fn icon(painter: &Painter, number: Rect, step: &Step, (order, n): (usize, usize), text: Color32) {
     let middle = pos2(number.right() + 9.0, number.center().y);
     let square = Rect::from_center_size(middle, vec2(9.0, 9.0));
     match step {
         Step::Inner(_) => {
-            let stroke = Stroke::new(1.5, gray);
+            let stroke = Stroke::new(1.5, text);
             let fork = middle - vec2(0.0, 1.0);
             painter.line_segment([square.center_top(), fork], stroke);
             painter.line_segment([fork, square.left_bottom()], stroke);
@@ -147,6 +149,8 @@ fn icon(painter: &Painter, number: Rect, step: &Step, order: usize, n: usize) {
         Step::Leaf(leaf) => {
             let [r, g, b] = order_color(order, n);
             let color = Color32::from_rgb(r, g, b);
+            // The colors of leaves are made for a dark ground.
+            painter.rect_filled(square.expand(2.0), 2.0, Color32::from_gray(24));
             if leaf.objects == 0 {
                 let stroke = Stroke::new(1.5, color);
                 painter.rect_stroke(square, 0.0, stroke, egui::StrokeKind::Inside);

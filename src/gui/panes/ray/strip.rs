@@ -1,11 +1,11 @@
 //! The steps of a ray along its parameter t: a block per step. Leaves lie on the ray one after the other;
 //! the inner nodes that lead to a leaf stand above it.
 
-use crate::gui::theme::tokens;
+use crate::gui::theme::Tokens;
 use crate::gui::widgets::step_text;
 use crate::present::overlay::order_color;
 use crate::trace::{RayPath, Step};
-use egui::{Align2, Color32, Rect, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{Align2, Color32, Rect, Sense, Stroke, StrokeKind, Theme, Ui, pos2, vec2};
 use std::ops::Range;
 
 /// The height of the strip in points.
@@ -13,7 +13,10 @@ pub const HEIGHT: f32 = 40.0;
 
 /// The height of the blocks of inner nodes, and where the blocks of leaves end.
 const INNER: f32 = 9.0;
-const LEAVES: f32 = 25.0;
+const LEAVES: f32 = 23.0;
+
+/// Behind the blocks, in both themes: the colors of leaves are made for the dark ground of the 3D view.
+const GROUND: Color32 = Color32::from_rgb(24, 27, 33);
 
 /// The least width of a leaf's block in points.
 const LEAST: f32 = 4.0;
@@ -124,8 +127,7 @@ pub fn show(ui: &mut Ui, path: Option<&RayPath>, step: usize, leaves_only: bool)
     response
         .widget_info(|| egui::WidgetInfo::slider(steps > 0, (step + 1).min(steps) as f64, name));
     let rect = whole.shrink2(vec2(8.0, 3.0));
-    let t = tokens(ui);
-    ui.painter().rect_filled(whole, 0.0, t.ground);
+    ui.painter().rect_filled(whole, 4.0, GROUND);
     let path = path?;
     let layout = Layout::new(path, rect.width());
     paint(ui, rect, path, &layout, step, leaves_only);
@@ -153,7 +155,7 @@ pub fn show(ui: &mut Ui, path: Option<&RayPath>, step: usize, leaves_only: bool)
 }
 
 fn paint(ui: &Ui, rect: Rect, path: &RayPath, layout: &Layout, step: usize, leaves_only: bool) {
-    let (t, painter) = (tokens(ui), ui.painter());
+    let (t, painter) = (Tokens::of(Theme::Dark), ui.painter());
     let n = layout.leaves.len();
     let mut order = 0;
     for block in &layout.blocks {
@@ -201,7 +203,7 @@ fn paint(ui: &Ui, rect: Rect, path: &RayPath, layout: &Layout, step: usize, leav
 
 /// Marks the hits, the closest one with a wedge, and writes where the strip begins and ends.
 fn marks(ui: &Ui, rect: Rect, path: &RayPath, layout: &Layout) {
-    let (t, painter) = (tokens(ui), ui.painter());
+    let (t, painter) = (Tokens::of(Theme::Dark), ui.painter());
     let tests = path.leaves().flat_map(|leaf| &leaf.tests);
     for hit in tests.filter_map(|test| test.hit) {
         let Some(x) = layout.place(hit) else {

@@ -4,7 +4,7 @@
 use super::camera::ViewCamera;
 use super::ray_task::Before;
 use super::settings::Cells;
-use super::side_view::side_view;
+use super::side_view;
 use super::view::View3d;
 use crate::gui::document::Document;
 use std::sync::Arc;
@@ -54,9 +54,15 @@ impl View3d {
             && !self.ray_task.is_beside(&picked.record, picked.ray)
         {
             let (scene, tree) = (&current.shown.scene, &current.shown.tree);
-            let to = side_view(&self.camera, scene, tree, picked.path());
+            let (from, path) = (self.camera.camera, picked.path());
+            // Where it sees the ray well, such as that of the pixel beside the last, it stays.
+            let to = if side_view::is_beside(&self.camera, scene, tree, path) {
+                from
+            } else {
+                side_view::side_view(&self.camera, scene, tree, path)
+            };
             let beside = (Arc::clone(&picked.record), picked.ray);
-            self.ray_task.glide(beside, [self.camera.camera, to], now);
+            self.ray_task.glide(beside, [from, to], now);
         }
         // With reduced motion there are no animations.
         let is_animated = ctx.global_style().animation_time > 0.0;

@@ -10,6 +10,9 @@ use crate::trace::{RayPath, Scratch, Step, any_hit};
 /// The share of the pane's width or height that the ray spans.
 const SPAN: f64 = 0.7;
 
+/// The shares that are good enough to leave the camera where it is.
+const WELL_SPANNED: std::ops::RangeInclusive<f64> = 0.6..=0.8;
+
 /// How far a view may lean from the perpendicular of the ray, in radians: 65° of 90° are left.
 const LEAN: f64 = 25.0 * std::f64::consts::PI / 180.0;
 
@@ -63,6 +66,18 @@ pub fn side_view(from: &ViewCamera, scene: &Scene, tree: &Tree, path: &RayPath) 
         }
     }
     best.map_or(from.camera, |(_, camera)| camera)
+}
+
+/// Returns whether a camera sees a ray well already: from the side, in full and large enough.
+pub fn is_beside(view: &ViewCamera, scene: &Scene, tree: &Tree, path: &RayPath) -> bool {
+    let ends = shown_part(path, &tree.root_cell());
+    let [forward, ..] = view.frame();
+    let along = forward.dot((ends[1] - ends[0]).normalize_or(forward)).abs();
+    let in_pane = |[x, y]: [f64; 2]| x.abs() <= view.aspect && y.abs() <= 1.0;
+    along <= 0.5
+        && WELL_SPANNED.contains(&span(view, ends))
+        && ends.iter().all(|end| view.place(*end).is_some_and(in_pane))
+        && hidden_points(scene, tree, ends, view.camera.from) == 0
 }
 
 /// Directions from the ray to an eye, each with how late it is tried.
@@ -187,6 +202,18 @@ mod tests {
                         assert!(x.abs() <= view.aspect && y.abs() <= 1.0, "{x} {y}");
                     }
                     rays += 1;
+                    if hidden_points(&scene, &tree, ends, view.camera.from) == 0 {
+                        assert!(is_beside(&view, &scene, &tree, path), "{name} {pixel:?}");
+                    }
+                    let along = ViewCamera {
+                        camera: Camera {
+                            from: path.ray.origin,
+                            at: path.ray.at(1.0),
+                            ..view.camera
+                        },
+                        ..view
+                    };
+                    assert!(!is_beside(&along, &scene, &tree, path));
                     hits += u32::from(path.hit.is_hit());
                     let eye = view.camera.from;
                     free += u32::from(hidden_points(&scene, &tree, ends, eye) == 0);

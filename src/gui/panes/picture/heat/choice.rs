@@ -1,15 +1,14 @@
-//! What the picture pane shows of every pixel, as the user chose it.
+//! How the picture pane shows heatmaps, as the user chose it.
 
 use crate::measure::heat::{Heatmap, RayFilter, heatmaps};
 use crate::present::overlay::{COLORMAPS, HeatScale, Range, Scale};
 use std::collections::BTreeMap;
 
-/// The choice. Heatmaps and colour maps go by their place in their registries.
+/// How heatmaps are shown. Which one is shown is chosen in the document. Heatmaps and color maps are
+/// named by their place in their registries.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// `None` for the picture alone.
-    pub heatmap: Option<usize>,
-    /// Kept for the heatmaps that tell rays apart while one is shown that does not.
+    /// Kept while a heatmap is shown that does not distinguish kinds of rays.
     rays: RayFilter,
     pub scale: Scale,
     /// Of values, and of differences.
@@ -18,14 +17,13 @@ pub struct Choice {
     pub differences: bool,
     /// How much of the picture the heatmap hides, 0 to 1.
     pub opacity: f32,
-    /// By heatmap, and whether of differences: numbers of one make no range for another.
+    /// By heatmap, and whether of differences: the values of one have another range than those of another.
     locked: BTreeMap<(usize, bool), [f64; 2]>,
 }
 
 impl Default for Choice {
     fn default() -> Self {
         Choice {
-            heatmap: None,
             rays: RayFilter::default(),
             scale: Scale::default(),
             colors: [false, true].map(|diverging| {
@@ -40,29 +38,16 @@ impl Default for Choice {
 }
 
 impl Choice {
-    /// The heatmap, with its place in the registry.
-    pub fn heatmap(&self) -> Option<(usize, &'static Heatmap)> {
-        let place = self.heatmap?;
-        Some((place, &heatmaps()[place]))
-    }
-
-    /// Goes through the picture and all heatmaps in a circle.
-    pub fn turn(&mut self, forward: bool) {
-        let all = heatmaps().len() + 1;
-        let at = self.heatmap.map_or(0, |place| place + 1);
-        let next = (at + if forward { 1 } else { all - 1 }) % all;
-        self.heatmap = next.checked_sub(1);
-    }
-
-    /// The rays that are looked at: all, where the heatmap does not tell those chosen apart.
-    pub fn rays(&self) -> RayFilter {
-        match self.heatmap() {
-            Some((_, heatmap)) if heatmap.filters().contains(&self.rays) => self.rays,
-            _ => RayFilter::All,
+    /// Returns the rays that a heatmap shows: all, if it does not distinguish the chosen ones.
+    pub fn rays(&self, heatmap: &Heatmap) -> RayFilter {
+        if heatmap.filters().contains(&self.rays) {
+            self.rays
+        } else {
+            RayFilter::All
         }
     }
 
-    /// The rays that were chosen, be they told apart by the heatmap or not.
+    /// Returns the chosen rays, whether or not the heatmap on view distinguishes them.
     pub fn chosen_rays(&self) -> RayFilter {
         self.rays
     }
@@ -78,17 +63,17 @@ impl Choice {
         };
     }
 
-    /// The colour map in use, by its place.
+    /// The color map in use, by its place.
     pub fn colors(&self) -> usize {
         self.colors[usize::from(self.differences)]
     }
 
-    /// The colour maps of values and of differences, by their places.
+    /// The color maps of values and of differences, by their places.
     pub fn both_colors(&self) -> [usize; 2] {
         self.colors
     }
 
-    /// The default with these colour maps of values and of differences.
+    /// The default with these color maps of values and of differences.
     pub fn with_colors(colors: [usize; 2]) -> Choice {
         Choice {
             colors,
@@ -100,28 +85,36 @@ impl Choice {
         self.colors[usize::from(self.differences)] = place;
     }
 
-    /// The range that the heatmap is locked to.
-    pub fn locked(&self) -> Option<[f64; 2]> {
-        self.locked.get(&(self.heatmap?, self.differences)).copied()
+    /// Returns the range that a heatmap is locked to.
+    pub fn locked(&self, heatmap: usize) -> Option<[f64; 2]> {
+        self.locked.get(&(heatmap, self.differences)).copied()
     }
 
-    pub fn range(&self) -> Range {
-        self.locked()
+    pub fn range(&self, heatmap: usize) -> Range {
+        self.locked(heatmap)
             .map_or(Range::Automatic, |[lo, hi]| Range::Fixed { lo, hi })
     }
 
-    /// Locks the heatmap to a range, or unlocks it.
-    pub fn lock(&mut self, range: Option<[f64; 2]>) {
-        match (self.heatmap, range) {
-            (Some(place), Some(range)) => {
-                self.locked.insert((place, self.differences), range);
+    /// Locks a heatmap to a range, or unlocks it.
+    pub fn lock(&mut self, heatmap: usize, range: Option<[f64; 2]>) {
+        let key = (heatmap, self.differences);
+        match range {
+            Some(range) => {
+                self.locked.insert(key, range);
             }
-            (Some(place), None) => {
-                self.locked.remove(&(place, self.differences));
+            None => {
+                self.locked.remove(&key);
             }
-            (None, _) => {}
         }
     }
+}
+
+/// Returns the heatmap after one, or before it, in a circle of the picture alone and all heatmaps.
+pub fn next_heatmap(now: Option<usize>, forward: bool) -> Option<usize> {
+    let all = heatmaps().len() + 1;
+    let at = now.map_or(0, |place| place + 1);
+    let next = (at + if forward { 1 } else { all - 1 }) % all;
+    next.checked_sub(1)
 }
 
 /// The range on view, to lock to. A single value gets room: a locked range has two ends.
@@ -135,36 +128,32 @@ mod tests {
 
     #[test]
     fn turning_meets_every_heatmap_once_and_the_picture() {
-        let mut choice = Choice::default();
+        let mut heatmap = None;
         let mut met = Vec::new();
         for _ in 0..heatmaps().len() {
-            choice.turn(true);
-            met.push(choice.heatmap.unwrap());
+            heatmap = next_heatmap(heatmap, true);
+            met.push(heatmap.unwrap());
         }
         assert_eq!(met, (0..heatmaps().len()).collect::<Vec<_>>());
-        choice.turn(true);
-        assert_eq!(choice.heatmap, None);
-        choice.turn(false);
-        assert_eq!(choice.heatmap, Some(heatmaps().len() - 1));
+        assert_eq!(next_heatmap(heatmap, true), None);
+        assert_eq!(next_heatmap(None, false), Some(heatmaps().len() - 1));
     }
 
     #[test]
     fn a_lock_belongs_to_one_heatmap_and_rays_to_those_that_tell_them_apart() {
-        let mut choice = Choice {
-            heatmap: Some(0),
-            ..Choice::default()
-        };
-        choice.lock(Some([1.0, 2.0]));
+        let mut choice = Choice::default();
+        choice.lock(0, Some([1.0, 2.0]));
         choice.set_rays(RayFilter::Shadow);
-        assert_eq!(choice.range(), Range::Fixed { lo: 1.0, hi: 2.0 });
-        assert_eq!(choice.rays(), RayFilter::Shadow);
+        assert_eq!(choice.range(0), Range::Fixed { lo: 1.0, hi: 2.0 });
+        assert_eq!(choice.rays(&heatmaps()[0]), RayFilter::Shadow);
         let time = heatmaps().iter().position(|h| h.symbol == "T_PIXEL");
-        choice.heatmap = time;
-        assert_eq!(choice.range(), Range::Automatic);
-        assert_eq!(choice.rays(), RayFilter::All);
-        choice.heatmap = Some(0);
-        assert_eq!(choice.rays(), RayFilter::Shadow);
-        choice.lock(None);
-        assert_eq!(choice.range(), Range::Automatic);
+        let time = time.expect("a heatmap of times");
+        assert_eq!(choice.range(time), Range::Automatic);
+        assert_eq!(choice.rays(&heatmaps()[time]), RayFilter::All);
+        choice.differences = true;
+        assert_eq!(choice.range(0), Range::Automatic);
+        choice.differences = false;
+        choice.lock(0, None);
+        assert_eq!(choice.range(0), Range::Automatic);
     }
 }

@@ -5,23 +5,23 @@ use crate::gui::document::tasks::Latest;
 use egui::{Color32, TextureHandle, TextureId, TextureOptions};
 use std::sync::Arc;
 
+/// The tint of what is about to change.
+pub const DIM: Color32 = Color32::from_gray(140);
+
 #[derive(Default)]
 pub struct Layer {
     values: Latest<ValuesKey, Values>,
     looks: Latest<LookKey, Look>,
     /// What is on view; `None` for the picture alone, and while there is nothing to show yet.
     pub look: Option<Arc<Look>>,
-    /// Holds the colours of the look with this key.
+    /// Holds the colors of the look with this key.
     texture: Option<(LookKey, TextureHandle)>,
 }
 
 impl Layer {
-    /// Forgets a look of other pictures than these.
-    pub fn keep_only(&mut self, number: Option<u64>, minus: Option<u64>) {
-        self.look = self.look.take().filter(|look| {
-            let shown = look.key.values;
-            Some(shown.number) == number && shown.minus == minus
-        });
+    /// Forgets a look that is of none of the pictures on view.
+    pub fn keep_if(&mut self, keeps: impl FnOnce(&ValuesKey) -> bool) {
+        self.look = self.look.take().filter(|look| keeps(&look.key.values));
     }
 
     /// The values of this key, made in the background.
@@ -34,7 +34,7 @@ impl Layer {
         self.values.get(&key, ctx, make)
     }
 
-    /// Shows values in colours as soon as those are there; until then the look before stays, with
+    /// Shows values in colors as soon as those are there; until then the look before stays, with
     /// its own legend.
     pub fn show(&mut self, key: LookKey, values: Arc<Values>, ctx: &egui::Context) {
         if let Some(look) = self.looks.get(&key, ctx, move || Look::of(key, values)) {
@@ -42,7 +42,7 @@ impl Layer {
         }
     }
 
-    /// Colours to draw over the picture; `None` while there are none.
+    /// Colors to draw over the picture; `None` while there are none.
     pub fn texture(&mut self, ctx: &egui::Context) -> Option<TextureId> {
         let look = self.look.as_ref()?;
         let fits = |texture: &TextureHandle| texture.size() == look.pixels.size;
@@ -63,7 +63,9 @@ impl Layer {
     }
 }
 
-/// How much a heatmap hides of the picture below, 0 to 1, as a tint.
-pub fn tint(opacity: f32) -> Color32 {
-    Color32::WHITE.gamma_multiply(opacity)
+/// Returns the tint of a heatmap that hides so much of the picture below, from 0 to 1. A heatmap that is
+/// about to change is dim.
+pub fn tint(opacity: f32, is_old: bool) -> Color32 {
+    let tint = if is_old { DIM } else { Color32::WHITE };
+    tint.gamma_multiply(opacity)
 }

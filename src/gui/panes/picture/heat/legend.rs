@@ -1,92 +1,110 @@
-//! The legend below the picture: what the colours mean, how many pixels have them, and where the
-//! pointer's and the picked pixel's values lie.
+//! The legend below the picture: what the colors mean, how many pixels have them, and where the values
+//! of the pointer and of the picked pixel lie.
 
 use super::look::Look;
-use super::{HeatView, Progress};
+use super::{HeatView, Progress, chosen, is_timed};
 use crate::gui::document::Document;
+use crate::gui::theme::hint;
 use crate::gui::widgets::hidden::HIDDEN;
 use crate::gui::widgets::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::gui::widgets::symbol::grouped;
 use egui::{Color32, Painter, Rect, Shape, Stroke, pos2, vec2};
 
-/// Heights in points.
-const HISTOGRAM: f32 = 34.0;
+/// Height of the color bar in points.
 const BAR: f32 = 12.0;
-/// Of the whole legend, until it was laid out once: in a short pane, and in others.
-const USUAL: [f32; 2] = [106.0, 152.0];
-/// A pane of less than this is short.
-const SHORT: f32 = 480.0;
+/// Height of a line of the legend.
+const LINE: f32 = 20.0;
 /// A mark's half width.
 const MARK: f32 = 5.0;
 
-impl HeatView {
-    /// Height to keep free for the legend; none without a heatmap.
-    pub fn legend_height(&self) -> f32 {
-        if self.choice.heatmap.is_none() {
-            0.0
+/// How much the legend says.
+#[derive(Clone, Copy, PartialEq)]
+enum Size {
+    /// One line and the scale.
+    Short,
+    Full,
+}
+
+impl Size {
+    /// The full legend where the picture leaves room for it below.
+    fn in_room(room: f32) -> Size {
+        if room >= Size::Full.height() {
+            Size::Full
         } else {
-            let [short, usual] = USUAL;
-            self.legend_height
-                .max(if self.short { short } else { usual })
+            Size::Short
         }
     }
 
-    /// Whether a lesson asks for what the heatmap tells.
-    pub fn is_secret(&self, doc: &Document) -> bool {
-        let heatmap = self.choice.heatmap();
-        heatmap.is_some_and(|(_, heatmap)| doc.asked.hides_heatmap(heatmap.symbol))
+    fn histogram(self) -> f32 {
+        match self {
+            Size::Short => 18.0,
+            Size::Full => 34.0,
+        }
     }
 
-    /// Shows the legend of what is on view, or why there is nothing yet.
-    pub fn legend(&mut self, ui: &mut egui::Ui, doc: &Document, hovered: Option<[u32; 2]>) {
-        if self.choice.heatmap.is_none() {
+    fn scale(self) -> f32 {
+        self.histogram() + BAR + TICK + NUMBERS
+    }
+
+    fn height(self) -> f32 {
+        let lines = match self {
+            Size::Short => 1.0,
+            // The title, three lines of terms, and the marks.
+            Size::Full => 5.0,
+        };
+        lines * LINE + self.scale()
+    }
+}
+
+/// Returns the height to keep free below a picture that leaves this room.
+pub fn height(room: f32) -> f32 {
+    Size::in_room(room).height()
+}
+
+impl HeatView {
+    /// Shows the legend of what is on view, or why there is nothing yet. `room` is what the picture
+    /// leaves free below it.
+    pub fn legend(
+        &mut self,
+        ui: &mut egui::Ui,
+        doc: &Document,
+        room: f32,
+        hovered: Option<[u32; 2]>,
+    ) {
+        let size = Size::in_room(room);
+        let area = vec2(ui.available_width(), size.height());
+        // The same height whatever it says: the picture above never moves.
+        let (rect, _) = ui.allocate_exact_size(area, egui::Sense::hover());
+        let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(rect));
+        ui.spacing_mut().item_spacing.y = 0.0;
+        ui.spacing_mut().interact_size.y = LINE;
+        if doc.hides_heatmap() {
+            ui.label(hint(HIDDEN));
             return;
         }
-        let short = ui.max_rect().height() < SHORT;
-        if short != self.short {
-            (self.short, self.legend_height) = (short, 0.0);
-        }
-        let shown = ui.vertical(|ui| {
-            ui.spacing_mut().item_spacing.y = 1.0;
-            ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
-            if self.is_secret(doc) {
-                ui.set_min_height(self.legend_height());
-                ui.weak(HIDDEN);
-                return;
-            }
-            match self.look().cloned() {
-                Some(look) => self.contents(ui, &look, doc, hovered),
-                None => {
-                    // The picture keeps its size while its values are on their way.
-                    ui.set_min_height(self.legend_height());
-                    self.waiting(ui, doc);
-                }
-            }
-        });
-        let height = shown.response.rect.height();
-        if height != self.legend_height {
-            self.legend_height = height;
-            ui.ctx().request_repaint();
+        match self.look().cloned() {
+            Some(look) => self.contents(&mut ui, &look, doc, size, hovered),
+            None => self.waiting(&mut ui, doc),
         }
     }
 
     fn waiting(&mut self, ui: &mut egui::Ui, doc: &Document) {
-        let Some((_, heatmap)) = self.choice.heatmap() else {
+        let Some((_, heatmap)) = chosen(doc) else {
             return;
         };
         ui.strong(format!("{} · {}", heatmap.symbol, heatmap.name));
         ui.add(egui::Label::new(self.note(doc)).wrap());
-        if self.is_timed() {
+        if is_timed(doc) {
             self.timing_button(ui);
         }
     }
 
-    /// Stops the pass that takes the times, or begins it anew.
+    /// Stops measuring times, or begins again.
     fn timing_button(&mut self, ui: &mut egui::Ui) {
         let (name, about) = match self.timing().progress() {
             Progress::Waiting | Progress::Done => return,
-            Progress::Running(_) => ("Cancel timing", "Stop taking the time of every pixel."),
-            Progress::Ended(_) => ("Take times", "Take the time of every pixel after all."),
+            Progress::Running(_) => ("Cancel timing", "Stop measuring the time of every pixel."),
+            Progress::Ended(_) => ("Measure times", "Measure the time of every pixel."),
         };
         if ui.button(name).on_hover_text(about).clicked() {
             match self.timing().progress() {
@@ -96,55 +114,83 @@ impl HeatView {
         }
     }
 
-    fn contents(&self, ui: &mut egui::Ui, look: &Look, doc: &Document, hovered: Option<[u32; 2]>) {
-        self.words(ui, look);
+    fn contents(
+        &self,
+        ui: &mut egui::Ui,
+        look: &Look,
+        doc: &Document,
+        size: Size,
+        hovered: Option<[u32; 2]>,
+    ) {
         let picked = doc.current.as_ref().and_then(|c| c.picked_pixel());
-        scale(ui, look, hovered, picked);
-        let text = |pixel: Option<[u32; 2]>| {
-            let none = || format!("– {}", look.heatmap().unit);
-            pixel.map_or_else(none, |pixel| look.value_text(pixel))
-        };
-        marked(ui, Mark::Pointer, &format!("Pointer: {}", text(hovered)));
-        let mut words = format!("Picked: {}", text(picked));
-        let ranked = doc.current.as_ref().and_then(|c| self.rank_of_picked(c));
-        if let Some(ranked) = ranked {
+        let rank = self.order.rank(look.key.values, picked);
+        let rank = rank.map_or_else(String::new, |ranked| {
             let (rank, of) = (grouped(ranked.rank + 1), grouped(ranked.of));
-            words += &format!(" · rank {rank} of {of}");
+            format!(" · rank {rank} of {of}")
+        });
+        let about = self.about(look);
+        match size {
+            Size::Short => {
+                ui.horizontal(|ui| {
+                    ui.strong(look.title()).on_hover_text(about);
+                    let to_the_left = egui::Layout::right_to_left(egui::Align::Center);
+                    ui.with_layout(to_the_left, |ui| {
+                        if let Some(number) = picked.and_then(|pixel| look.number_text(pixel)) {
+                            ui.label(hint(format!("{number}{rank}")));
+                            marked(ui, Mark::Picked);
+                        }
+                    });
+                });
+                scale(ui, look, size, hovered, picked);
+            }
+            Size::Full => {
+                ui.strong(look.title()).on_hover_text(about);
+                let terms = vec2(ui.available_width(), 3.0 * LINE);
+                let (rect, _) = ui.allocate_exact_size(terms, egui::Sense::hover());
+                let mut area = ui.new_child(egui::UiBuilder::new().max_rect(rect));
+                area.add(egui::Label::new(hint(self.terms(look))).wrap());
+                scale(ui, look, size, hovered, picked);
+                let text = |pixel: Option<[u32; 2]>| {
+                    let none = || format!("– {}", look.heatmap().unit);
+                    pixel.map_or_else(none, |pixel| look.value_text(pixel))
+                };
+                ui.horizontal(|ui| {
+                    ui.spacing_mut().item_spacing.x = 4.0;
+                    marked(ui, Mark::Picked);
+                    ui.label(hint(format!("Picked: {}{rank}", text(picked))));
+                    ui.add_space(12.0);
+                    marked(ui, Mark::Pointer);
+                    ui.label(hint(format!("Pointer: {}", text(hovered))));
+                });
+            }
         }
-        marked(ui, Mark::Picked, &words);
     }
 
-    /// What is shown in which unit, of which rays and how: three lines, or one in a short pane,
-    /// whose tooltip has the rest.
-    fn words(&self, ui: &mut egui::Ui, look: &Look) {
-        let heatmap = look.heatmap();
-        let title = look.title();
-        let mut terms = look.terms();
+    /// What is shown in which unit, of which rays, and how.
+    fn terms(&self, look: &Look) -> String {
+        let mut terms = format!("{} · {}", look.heatmap().unit, look.terms());
         if self.choice.opacity < 1.0 {
             let percent = self.choice.opacity * 100.0;
             terms += &format!(" · {percent:.0} % over the picture");
         }
-        let (unit, meaning) = (heatmap.unit, heatmap.meaning);
-        let (span, whole) = (look.span(), look.whole());
-        let without = look.without();
-        let about = format!("{meaning}\nIn {unit} · {terms}\n{span}\n{whole}");
-        if self.short {
-            let without = without.map_or_else(String::new, |text| format!("{text} · "));
-            ui.horizontal(|ui| {
-                ui.strong(title).on_hover_text(&about);
-                ui.label(format!("{unit} · {without}{terms}"))
-                    .on_hover_text(&about);
-            });
-        } else {
-            let without = without.map_or_else(String::new, |text| format!("; {text}"));
-            ui.strong(title).on_hover_text(&about);
-            ui.label(format!("{unit} · {terms}")).on_hover_text(&about);
-            ui.label(format!("{span}{without}")).on_hover_text(&about);
+        terms += &format!(" · {}", look.span());
+        if let Some(without) = look.without() {
+            terms += &format!(" · {without}");
         }
+        terms
+    }
+
+    fn about(&self, look: &Look) -> String {
+        format!(
+            "{}\n{}\n{}",
+            look.heatmap().meaning,
+            self.terms(look),
+            look.whole()
+        )
     }
 }
 
-/// What stands at a value of the colour bar; told apart by shape.
+/// What stands at a value of the color bar; told apart by shape.
 #[derive(Clone, Copy)]
 enum Mark {
     /// A filled triangle.
@@ -177,22 +223,24 @@ impl Mark {
     }
 }
 
-/// A line of text behind the mark that it explains.
-fn marked(ui: &mut egui::Ui, mark: Mark, text: &str) {
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 4.0;
-        let (rect, _) = ui.allocate_exact_size(vec2(2.0 * MARK, 14.0), egui::Sense::hover());
-        let visuals = ui.visuals();
-        let (ink, ground) = (visuals.text_color(), visuals.panel_fill);
-        mark.draw(ui.painter(), rect.center() + vec2(0.0, MARK), ink, ground);
-        ui.label(text);
-    });
+/// Shows the mark that the text beside it explains.
+fn marked(ui: &mut egui::Ui, mark: Mark) {
+    let (rect, _) = ui.allocate_exact_size(vec2(2.0 * MARK, 14.0), egui::Sense::hover());
+    let visuals = ui.visuals();
+    let (ink, ground) = (visuals.text_color(), visuals.panel_fill);
+    mark.draw(ui.painter(), rect.center() + vec2(0.0, MARK), ink, ground);
 }
 
-/// Histogram, colour bar and numbers on one axis.
-fn scale(ui: &mut egui::Ui, look: &Look, hovered: Option<[u32; 2]>, picked: Option<[u32; 2]>) {
-    let size = vec2(ui.available_width(), HISTOGRAM + BAR + TICK + NUMBERS);
-    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+/// Histogram, color bar and numbers on one axis.
+fn scale(
+    ui: &mut egui::Ui,
+    look: &Look,
+    size: Size,
+    hovered: Option<[u32; 2]>,
+    picked: Option<[u32; 2]>,
+) {
+    let area = vec2(ui.available_width(), size.scale());
+    let (rect, response) = ui.allocate_exact_size(area, egui::Sense::hover());
     let Some(range) = &look.scale else {
         return;
     };
@@ -205,7 +253,7 @@ fn scale(ui: &mut egui::Ui, look: &Look, hovered: Option<[u32; 2]>, picked: Opti
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
     let most = look.histogram.iter().copied().max().unwrap_or(0);
     let mut about = format!(
-        "{name}\nColumns: how many pixels have these colours, by the logarithm; the highest {} \
+        "{name}\nColumns: how many pixels have these colors, by the logarithm; the highest {} \
          pixels",
         grouped(most as usize)
     );
@@ -224,8 +272,11 @@ fn scale(ui: &mut egui::Ui, look: &Look, hovered: Option<[u32; 2]>, picked: Opti
         visuals.weak_text_color(),
         visuals.panel_fill,
     );
-    let bar = Rect::from_min_size(axis.min + vec2(0.0, HISTOGRAM), vec2(axis.width(), BAR));
-    columns(&painter, look, bar, soft);
+    let bar = Rect::from_min_size(
+        axis.min + vec2(0.0, size.histogram()),
+        vec2(axis.width(), BAR),
+    );
+    columns(&painter, look, bar, size.histogram() - 4.0, soft);
     color_bar(
         &painter,
         &crate::present::overlay::COLORMAPS[look.key.colors],
@@ -233,7 +284,7 @@ fn scale(ui: &mut egui::Ui, look: &Look, hovered: Option<[u32; 2]>, picked: Opti
     );
     painter.rect_stroke(bar, 0.0, Stroke::new(1.0, soft), egui::StrokeKind::Outside);
     numbers(&painter, range, look.beyond, bar, rect, ink);
-    let room = HISTOGRAM - 2.0;
+    let room = size.histogram() - 2.0;
     for (mark, pixel) in [(Mark::Picked, picked), (Mark::Pointer, hovered)] {
         if let Some(place) = pixel.and_then(|pixel| look.place(pixel)) {
             let x = bar.left() + place as f32 * bar.width();
@@ -246,13 +297,13 @@ fn scale(ui: &mut egui::Ui, look: &Look, hovered: Option<[u32; 2]>, picked: Opti
 }
 
 /// One column for each stretch of the bar, as high as the logarithm of its pixels: rare values are
-/// what is looked for.
-fn columns(painter: &Painter, look: &Look, bar: Rect, color: Color32) {
+/// what people look for.
+fn columns(painter: &Painter, look: &Look, bar: Rect, highest: f32, color: Color32) {
     let most = look.histogram.iter().copied().max().unwrap_or(0) as f32;
     let step = bar.width() / look.histogram.len() as f32;
     for (i, &count) in look.histogram.iter().enumerate() {
         if count > 0 {
-            let height = (HISTOGRAM - 4.0) * (1.0 + count as f32).ln() / (1.0 + most).ln();
+            let height = highest * (1.0 + count as f32).ln() / (1.0 + most).ln();
             let corner = pos2(bar.left() + i as f32 * step, bar.top() - height);
             let column = Rect::from_min_size(corner, vec2(step, height));
             painter.rect_filled(column, 0.0, color);

@@ -1,4 +1,4 @@
-//! A heatmap worked out for the screen: values, colours, histogram, order of expense.
+//! A heatmap worked out for the screen: values, colors, histogram, order of cost.
 
 use crate::measure::heat::{
     HeatImage, HeatStatistics, Heatmap, PixelCounts, RayFilter, Whole, heatmaps,
@@ -21,7 +21,7 @@ pub struct ValuesKey {
     pub rays: RayFilter,
 }
 
-/// Which values, and in which colours.
+/// Which values, and in which colors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LookKey {
     pub values: ValuesKey,
@@ -62,8 +62,8 @@ impl Values {
         })
     }
 
-    /// All pixels that have a value, the most expensive first; of equals, the upper left first.
-    pub fn by_expense(&self) -> Vec<u32> {
+    /// All pixels that have a value, the costliest first; of equals, the upper left first.
+    pub fn by_cost(&self) -> Vec<u32> {
         let values = &self.image.values;
         let mut order: Vec<u32> = (0..values.len() as u32)
             .filter(|&i| !values[i as usize].is_nan())
@@ -79,14 +79,14 @@ impl Values {
 /// Columns of the histogram.
 const BINS: usize = 96;
 
-/// Values in colours.
+/// Values in colors.
 pub struct Look {
     pub key: LookKey,
     pub values: Arc<Values>,
     /// `None` where no pixel has a value.
     pub scale: Option<HeatScale>,
     pub pixels: Arc<ColorImage>,
-    /// How many pixels lie in each stretch of the colour bar.
+    /// How many pixels lie in each stretch of the color bar.
     pub histogram: Vec<u64>,
     /// How many pixels lie below the range, and how many above.
     pub beyond: [usize; 2],
@@ -150,7 +150,7 @@ impl Look {
         Some(format!("{sign}{}", exact(value)))
     }
 
-    /// Where a pixel's value lies on the colour bar, 0 to 1.
+    /// Where a pixel's value lies on the color bar, 0 to 1.
     pub fn place(&self, [x, y]: [u32; 2]) -> Option<f64> {
         let value = self.values.image.get(x, y)?;
         self.scale?.place(f64::from(value))
@@ -173,21 +173,21 @@ impl Look {
     /// The span of the pixels' values.
     pub fn span(&self) -> String {
         self.values.statistics.map_or_else(
-            || "no pixel has a value".to_owned(),
+            || "No pixel has a value".to_owned(),
             |found| {
                 let [lowest, highest] = [found.lowest, found.highest].map(exact);
                 let mean = significant(found.mean);
-                format!("a pixel: {lowest} to {highest}, mean {mean}")
+                format!("From {lowest} to {highest}, mean {mean}")
             },
         )
     }
 
-    /// How many pixels have no value, and their colour; `None` if all have one.
+    /// How many pixels have no value, and their color; `None` if all have one.
     pub fn without(&self) -> Option<String> {
         let with = self.values.statistics.map_or(0, |found| found.pixels);
         let without = self.values.image.values.len() - with;
         let diverging = COLORMAPS[self.key.colors].diverging;
-        let color = if diverging { "grey" } else { "white" };
+        let color = if diverging { "gray" } else { "white" };
         (without > 0).then(|| format!("{color}: no value ({})", grouped(without as f64)))
     }
 

@@ -1,26 +1,30 @@
-//! Heatmaps in the picture pane: [`choice`] is what the user chose, [`look`] what comes of it,
-//! [`controls`] and [`legend`] are the widgets above and below the picture.
+//! Heatmaps in the picture pane: [`choice`] is how the user wants them, [`look`] is what results from it,
+//! [`menu`] and [`legend`] are the widgets above and below the picture. Which heatmap is shown is chosen
+//! in the document.
 
 mod choice;
-mod controls;
 mod export;
 mod kept;
 mod layer;
-mod legend;
+pub mod legend;
 mod look;
+pub mod menu;
+mod order;
 
 use crate::gui::document::comparing::{View, Which};
 use crate::gui::document::picture_job::{PictureJob, Progress};
-use crate::gui::document::tasks::Latest;
 use crate::gui::document::{Current, Document};
 use crate::gui::widgets::symbol::grouped;
 use crate::jobs::{Stage, TimePixels};
-use crate::measure::heat::{Heatmap, PIXEL_COUNTS_LIMIT, Source};
+use crate::measure::heat::{Heatmap, PIXEL_COUNTS_LIMIT, Source, heatmaps};
 use crate::present::overlay::Range;
 use choice::Choice;
+pub use choice::next_heatmap;
 use egui::{Color32, TextureId};
+pub use layer::DIM;
 use layer::Layer;
 use look::{Look, LookKey, Values, ValuesKey};
+use order::Order;
 use std::sync::Arc;
 
 /// The heatmaps over the picture, or over the pictures of two compared trees.
@@ -35,14 +39,7 @@ pub struct HeatView {
     timings: [PictureJob<TimePixels>; 2],
     /// What legend and keys are about.
     on: On,
-    orders: Latest<ValuesKey, Vec<u32>>,
-    /// Steps down the order of expense that were asked for.
-    steps: i64,
-    ranked: Option<Ranked>,
-    /// Height of the legend in points as last laid out.
-    legend_height: f32,
-    /// Whether the pane is too short for all of the legend.
-    short: bool,
+    order: Order,
 }
 
 /// What the pane shows of two trees.
@@ -59,19 +56,9 @@ impl Default for On {
     }
 }
 
-/// A pixel found by its rank.
-struct Ranked {
-    key: ValuesKey,
-    pixel: [u32; 2],
-    /// 0 for the most expensive.
-    rank: usize,
-    /// How many pixels have a value.
-    of: usize,
-}
-
 impl HeatView {
-    /// Brings what is on view up to date with choice and pictures. Until new colours are there, the
-    /// last ones of the same picture stay, with their own legend.
+    /// Brings what is on view up to date with choice and pictures. Until new colors are there, the last
+    /// ones stay with their own legend, if they are of the same picture or of one that looks the same.
     pub fn update(&mut self, ctx: &egui::Context, doc: &Document) {
         let comparing = doc.other.is_some();
         self.on = match doc.comparing.view {
@@ -80,12 +67,17 @@ impl HeatView {
         };
         self.choice.differences = self.on == On::Difference;
         let both = doc.both();
-        let [a, b] = both.map(|side| side.map(|current| current.number));
+        let keeps = |side: Option<&Current>, number| {
+            side.is_some_and(|current| current.is_held() || current.number == number)
+        };
+        let [a, b] = both;
         let [of_a, of_b] = &mut self.layers;
-        of_a.keep_only(a, None);
-        of_b.keep_only(b, None);
-        self.difference.keep_only(b, a);
-        let Some((place, heatmap)) = self.choice.heatmap() else {
+        of_a.keep_if(|key| keeps(a, key.number));
+        of_b.keep_if(|key| keeps(b, key.number));
+        self.difference.keep_if(|key| {
+            keeps(b, key.number) && key.minus.is_some_and(|number| keeps(a, number))
+        });
+        let Some((place, heatmap)) = chosen(doc) else {
             self.timings.iter_mut().for_each(PictureJob::drop_unneeded);
             self.layers = Default::default();
             self.difference = Layer::default();
@@ -97,7 +89,7 @@ impl HeatView {
                 number: current.number,
                 minus: None,
                 heatmap: place,
-                rays: self.choice.rays(),
+                rays: self.choice.rays(heatmap),
             };
             let values = self.values(which, key, heatmap, current, doc, ctx)?;
             Some((key, values))
@@ -172,7 +164,7 @@ impl HeatView {
     }
 
     fn look_key(&self, values: ValuesKey, span: Option<Range>) -> LookKey {
-        let range = self.choice.range();
+        let range = self.choice.range(values.heatmap);
         let spanning = span.filter(|_| range == Range::Automatic);
         LookKey {
             values,
@@ -191,81 +183,43 @@ impl HeatView {
         }
     }
 
-    /// Picks the pixel that keys or buttons asked for, once the order of expense is known; whether
-    /// it did.
-    pub fn go(&mut self, ctx: &egui::Context, current: &mut Current) -> bool {
-        if self.steps == 0 {
-            return false;
+    /// Goes to a pixel later or earlier in the order of cost, as soon as the order is known.
+    pub fn step_by_cost(&mut self, by: i64) {
+        self.order.step(by);
+    }
+
+    /// Returns the pixel that keys or buttons asked for, once the order of cost is known.
+    pub fn costly_pixel(&mut self, doc: &Document, ctx: &egui::Context) -> Option<[u32; 2]> {
+        if !self.order.is_asked() {
+            return None;
         }
-        let shown = self.look().cloned();
-        let chosen = shown.filter(|look| {
+        let current = doc.current.as_ref()?;
+        let shown = self.chosen_look(doc).cloned();
+        if let Some(look) = shown.filter(|look| look.key.values.number == current.number) {
+            return self.order.pixel(&look, current.picked_pixel(), ctx);
+        }
+        // What was chosen a moment ago is worth waiting for; what is yet to be rendered is not.
+        let is_on_its_way = current.pixel_counts.is_some() && !is_timed(doc);
+        if chosen(doc).is_none() || !is_on_its_way {
+            self.order.forget();
+        }
+        None
+    }
+
+    /// Returns the look of the heatmap and rays that are chosen; `None` while it is being made.
+    fn chosen_look(&self, doc: &Document) -> Option<&Arc<Look>> {
+        let (place, heatmap) = chosen(doc)?;
+        let rays = self.choice.rays(heatmap);
+        self.look().filter(|look| {
             let key = look.key.values;
-            self.choice.heatmap == Some(key.heatmap) && key.rays == self.choice.rays()
-        });
-        let Some(look) = chosen else {
-            // What was chosen a moment ago is worth waiting for; what is still to be traced, not.
-            let is_chosen = self.choice.heatmap.is_some();
-            if !is_chosen || current.pixel_counts.is_none() || self.is_timed() {
-                self.steps = 0;
-            }
-            return false;
-        };
-        let key = look.key.values;
-        let values = Arc::clone(&look.values);
-        let Some(order) = self.orders.get(&key, ctx, move || values.by_expense()) else {
-            return false;
-        };
-        let steps = std::mem::take(&mut self.steps);
-        // From a pixel that was not found by its rank, the way begins at the top.
-        let rank = match self.rank_of_picked(current) {
-            Some(ranked) => ranked.rank as i64 + steps,
-            None => steps - 1,
-        };
-        let Some(last) = order.len().checked_sub(1) else {
-            return false;
-        };
-        let rank = rank.clamp(0, last as i64) as usize;
-        let (width, at) = (look.values.image.width, order[rank]);
-        let pixel = [at % width, at / width];
-        self.ranked = Some(Ranked {
-            key,
-            pixel,
-            rank,
-            of: order.len(),
-        });
-        current.pick(pixel);
-        true
+            key.heatmap == place && key.rays == rays
+        })
     }
 
-    /// Whether the times of pixels were chosen.
-    fn is_timed(&self) -> bool {
-        self.choice
-            .heatmap()
-            .is_some_and(|(_, heatmap)| matches!(heatmap.source, Source::Time))
-    }
-
-    /// The rank of the picked pixel, if it was found by it.
-    fn rank_of_picked(&self, current: &Current) -> Option<&Ranked> {
-        let picked = current.picked_pixel()?;
-        let key = self.look()?.key.values;
-        self.ranked
-            .as_ref()
-            .filter(|ranked| ranked.pixel == picked && ranked.key == key)
-    }
-
-    /// The heatmap on view, by its place in the registry; `None` for the picture alone.
-    pub fn shown(&self) -> Option<usize> {
-        self.choice.heatmap
-    }
-
-    /// Takes over which heatmap the document shows.
-    pub fn follow(&mut self, doc: &Document) {
-        self.choice.heatmap = doc.heatmap;
-    }
-
-    /// Shows the next heatmap or the previous one; the picture is one of the circle.
-    pub fn turn(&mut self, forward: bool) {
-        self.choice.turn(forward);
+    /// Whether the colors on view are of an earlier picture, or of settings that have changed.
+    fn is_old(&self, doc: &Document) -> bool {
+        let in_front = doc.current.as_ref();
+        doc.is_previous() || in_front.is_some_and(Current::is_held)
     }
 
     /// Switches between colors by the value and by its logarithm.
@@ -273,46 +227,40 @@ impl HeatView {
         self.choice.turn_scale();
     }
 
-    /// Picks a pixel later or earlier in the order of cost, as soon as the order is known.
-    pub fn step_by_cost(&mut self, by: i64) {
-        self.steps += by;
-    }
-
     /// Keeps the range on view from now on, or lets it follow the values again.
-    pub fn toggle_lock(&mut self) {
-        let range = match (self.choice.locked(), self.range_on_view()) {
+    pub fn toggle_lock(&mut self, doc: &Document) {
+        let Some(place) = doc.heatmap else {
+            return;
+        };
+        let range = match (self.choice.locked(place), self.range_on_view(doc)) {
             (Some(_), _) => None,
             (None, Some(range)) => Some(range),
             (None, None) => return,
         };
-        self.choice.lock(range);
+        self.choice.lock(place, range);
     }
 
-    /// The ends of the colour bar, if it is of the heatmap that was chosen.
-    fn range_on_view(&self) -> Option<[f64; 2]> {
-        let look = self.look()?;
-        let chosen = self.choice.heatmap == Some(look.key.values.heatmap);
-        let scale = look.scale.as_ref().filter(|_| chosen)?;
+    /// The ends of the color bar, if it is of the heatmap that was chosen.
+    fn range_on_view(&self, doc: &Document) -> Option<[f64; 2]> {
+        let look = self.chosen_look(doc)?;
+        let scale = look.scale.as_ref()?;
         Some(choice::range_of(scale, look.heatmap()))
     }
 
-    /// Whether the picture is shown alone.
-    pub fn is_picture(&self) -> bool {
-        self.choice.heatmap.is_none()
-    }
-
-    /// Shows the picture alone.
-    pub fn show_picture(&mut self) {
-        self.choice.heatmap = None;
-    }
-
-    /// Colours to draw over a picture, and how; `None` while it is to be seen alone.
-    pub fn texture(&mut self, which: Which, ctx: &egui::Context) -> Option<(TextureId, Color32)> {
+    /// Returns colors to draw over a picture, and how; `None` while it is shown alone.
+    pub fn texture(
+        &mut self,
+        which: Which,
+        doc: &Document,
+        ctx: &egui::Context,
+    ) -> Option<(TextureId, Color32)> {
+        let is_old = self.is_old(doc);
         let layer = match self.on {
             On::Picture(_) => &mut self.layers[which as usize],
             On::Difference => &mut self.difference,
         };
-        Some((layer.texture(ctx)?, layer::tint(self.choice.opacity)))
+        let tint = layer::tint(self.choice.opacity, is_old);
+        Some((layer.texture(ctx)?, tint))
     }
 
     /// The values of a pixel in words, for the status line: of both trees where both are on view.
@@ -329,7 +277,7 @@ impl HeatView {
         })
     }
 
-    /// The pass whose standing matters now.
+    /// The measurement of times whose standing matters now.
     fn timing(&mut self) -> &mut PictureJob<TimePixels> {
         let [a, b] = &mut self.timings;
         match self.on {
@@ -343,48 +291,57 @@ impl HeatView {
     /// Why there is nothing to show yet.
     fn note(&mut self, doc: &Document) -> String {
         let Some(current) = &doc.current else {
-            return "counting … begins when there is a picture".to_owned();
+            return "Counting begins when there is a picture.".to_owned();
         };
         if let (On::Difference, [Some(a), Some(b)]) = (self.on, doc.both()) {
             let size = |side: &Current| (side.shown.picture.width, side.shown.picture.height);
             if size(a) != size(b) {
-                return "No difference: the pictures have another size.".to_owned();
+                return "No difference: the pictures have different sizes.".to_owned();
             }
         }
         if is_too_large(current) {
             let limit = grouped(PIXEL_COUNTS_LIMIT as usize);
             return format!("Only pictures of up to {limit} pixels are counted pixel by pixel.");
         }
-        if self.is_timed() {
+        if is_timed(doc) {
             return match self.timing().progress() {
-                Progress::Running(done) => {
-                    format!("timing every pixel … {:.0} %", done * 100.0)
-                }
+                Progress::Running(done) => format!("Timing every pixel: {:.0} %", done * 100.0),
                 Progress::Ended(why) => format!("Not timed: {why}"),
                 Progress::Waiting | Progress::Done if doc.stopped && !current.done => {
                     "Not timed: the picture was cancelled. Resume it first.".to_owned()
                 }
                 Progress::Waiting | Progress::Done => match doc.measuring() {
-                    Some(what) => format!("timing … begins when the {what} has ended"),
-                    None => "timing … begins when the picture is finished".to_owned(),
+                    Some(what) => format!("Timing begins when the {what} has ended."),
+                    None => "Timing begins when the picture is finished.".to_owned(),
                 },
             };
         }
         if current.pixel_counts.is_some() {
             return match self.on {
-                On::Picture(_) => "colouring …".to_owned(),
-                On::Difference => "counting the other tree …".to_owned(),
+                On::Picture(_) => "Coloring".to_owned(),
+                On::Difference => "Counting the other tree".to_owned(),
             };
         }
         match &doc.work {
             Some(work) if work.stage == Stage::Counting => {
                 let fraction = work.status().map_or(1.0, |status| status.fraction);
-                format!("counting … {:.0} %", fraction * 100.0)
+                format!("Counting: {:.0} %", fraction * 100.0)
             }
-            Some(_) => "counting … begins when the picture is traced".to_owned(),
+            Some(_) => "Counting begins when the picture is rendered.".to_owned(),
             None => "Not counted: the picture was cancelled. Resume it first.".to_owned(),
         }
     }
+}
+
+/// Returns the heatmap that the document shows, with its place in the registry.
+fn chosen(doc: &Document) -> Option<(usize, &'static Heatmap)> {
+    let place = doc.heatmap?;
+    Some((place, &heatmaps()[place]))
+}
+
+/// Whether the times of pixels are chosen.
+fn is_timed(doc: &Document) -> bool {
+    chosen(doc).is_some_and(|(_, heatmap)| matches!(heatmap.source, Source::Time))
 }
 
 fn is_too_large(current: &Current) -> bool {
