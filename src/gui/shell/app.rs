@@ -6,14 +6,13 @@ use super::exporting::Exports;
 use super::files::Files;
 use super::first_start::{FirstStart, Way};
 use super::kept::KeptFile;
-use super::layout::{self, LAYOUT_FILE, Layout, PaneId};
+use super::layout::{self, LAYOUT_FILE, Layout, PaneId, TITLE_ROW};
 use super::palette::{Command, Palette};
-use super::present::{self, Presenting};
+use super::presenting::{BAR, Presenting};
 use super::progress::WorkInProgress;
 use super::recent::Recent;
 use super::status::StatusLine;
 use super::tasks::{Task, TaskId, task};
-use super::tiles::TITLE_ROW;
 use super::title::Title;
 use super::workspaces::Workspaces;
 use super::{help, keys, top_bar};
@@ -591,7 +590,7 @@ impl eframe::App for App {
         let presents = self.presenting.is_some();
         if !presents {
             egui::Panel::top("top bar")
-                .exact_size(present::BAR)
+                .exact_size(BAR)
                 .show(ui, |ui| self.top_bar(ui));
             self.strip(ui);
             self.working.line(ui, ui.available_rect_before_wrap());
@@ -599,13 +598,13 @@ impl eframe::App for App {
         if let Some(pane) = self.maximized {
             egui::CentralPanel::default().show(ui, |ui| self.pane_with_header(ui, pane));
         } else if presents {
-            present::show(self, ui);
+            self.present(ui);
         } else {
             self.drawer(ui);
             self.task(ui);
         }
         if presents {
-            present::sliding_bar(self, &ctx);
+            self.sliding_bar(&ctx);
         }
         self.message(&ctx);
         if self.doc.in_lesson {

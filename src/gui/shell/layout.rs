@@ -11,6 +11,9 @@ use std::collections::BTreeMap;
 /// The name of the file it is kept in.
 pub const LAYOUT_FILE: &str = "layout.json";
 
+/// The height of a pane's title row in points.
+pub const TITLE_ROW: f32 = 36.0;
+
 /// The smallest window, in points.
 pub const LEAST_SIZE: [f32; 2] = [640.0, 400.0];
 

@@ -13,6 +13,7 @@ mod keys;
 mod layout;
 mod palette;
 mod present;
+mod presenting;
 mod progress;
 mod recent;
 mod save_as;

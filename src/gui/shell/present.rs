@@ -3,21 +3,18 @@
 
 use super::app::App;
 use super::layout;
+use super::presenting::{BAR, SCALE};
 use crate::gui::document::comparing::Which;
 use crate::gui::document::{Current, Document, Fact};
 use crate::gui::theme;
 use crate::gui::widgets::hidden::HIDDEN;
 use crate::measure::parameter;
 use crate::present::number::Digits;
-use egui::{Rect, RichText, UiBuilder, ViewportCommand, pos2, vec2};
+use egui::{Rect, RichText, UiBuilder, pos2, vec2};
 
-/// How much larger everything is.
-const SCALE: f32 = 1.25;
 /// The height of the figures, and the distance of picture and 3D view, in points of the usual size.
 const FIGURES: f32 = 88.0;
 const GAP: f32 = 8.0;
-/// The height of the top bar, in points.
-pub const BAR: f32 = 40.0;
 /// So near the upper edge the pointer calls the bar.
 const EDGE: f32 = 6.0;
 
@@ -29,73 +26,56 @@ const SHOWN: [(&str, &str); 4] = [
     ("T_TR", "rendering time"),
 ];
 
-/// What is to come back after presenting.
-pub struct Presenting {
-    zoom: f32,
-}
-
-impl Presenting {
-    pub fn begin(ctx: &egui::Context) -> Self {
-        let zoom = ctx.zoom_factor();
-        ctx.set_zoom_factor(zoom * SCALE);
-        ctx.send_viewport_cmd(ViewportCommand::Fullscreen(true));
-        Presenting { zoom }
-    }
-
-    pub fn end(self, ctx: &egui::Context) {
-        ctx.set_zoom_factor(self.zoom);
-        ctx.send_viewport_cmd(ViewportCommand::Fullscreen(false));
-    }
-}
-
-/// Shows the task on view for an audience.
-pub fn show(app: &mut App, ui: &mut egui::Ui) {
-    let task = app.layout.current();
-    match task.id {
-        "lessons" => {
-            if let Some(column) = &task.left {
-                app.left_column(ui, column);
+impl App {
+    /// Shows the task on view for an audience.
+    pub(super) fn present(&mut self, ui: &mut egui::Ui) {
+        let task = self.layout.current();
+        match task.id {
+            "lessons" => {
+                if let Some(column) = &task.left {
+                    self.left_column(ui, column);
+                }
+                self.tiles(ui);
             }
-            app.tiles(ui);
-        }
-        "ray" => {
-            if let Some(row) = &task.below {
-                app.row_below(ui, row);
+            "ray" => {
+                if let Some(row) = &task.below {
+                    self.row_below(ui, row);
+                }
+                halves(self, ui);
             }
-            halves(app, ui);
+            "explore" => {
+                figures(ui, &self.doc);
+                halves(self, ui);
+            }
+            "compare" => {
+                figures(ui, &self.doc);
+                self.tiles(ui);
+            }
+            _ => self.tiles(ui),
         }
-        "explore" => {
-            figures(ui, &app.doc);
-            halves(app, ui);
-        }
-        "compare" => {
-            figures(ui, &app.doc);
-            app.tiles(ui);
-        }
-        _ => app.tiles(ui),
     }
-}
 
-/// Shows the top bar over what is presented, while the pointer is at the upper edge.
-pub fn sliding_bar(app: &mut App, ctx: &egui::Context) {
-    let seen = seen(ctx);
-    if seen == 0.0 {
-        return;
+    /// Shows the top bar over what is presented, while the pointer is at the upper edge.
+    pub(super) fn sliding_bar(&mut self, ctx: &egui::Context) {
+        let seen = seen(ctx);
+        if seen == 0.0 {
+            return;
+        }
+        let width = ctx.content_rect().width();
+        egui::Area::new(egui::Id::unique("sliding bar"))
+            .order(egui::Order::Middle)
+            .constrain(false)
+            .fixed_pos([0.0, (seen - 1.0) * BAR])
+            .show(ctx, |ui| {
+                let rect = Rect::from_min_size(ui.max_rect().min, vec2(width, BAR));
+                let (fill, line) = (ui.visuals().panel_fill, ui.visuals().window_stroke);
+                ui.painter().rect_filled(rect, 0.0, fill);
+                ui.painter().hline(rect.x_range(), rect.bottom(), line);
+                let inside = rect.shrink2(vec2(8.0, 2.0));
+                ui.scope_builder(UiBuilder::new().max_rect(inside), |ui| self.top_bar(ui));
+                ui.expand_to_include_rect(rect);
+            });
     }
-    let width = ctx.content_rect().width();
-    egui::Area::new(egui::Id::unique("sliding bar"))
-        .order(egui::Order::Middle)
-        .constrain(false)
-        .fixed_pos([0.0, (seen - 1.0) * BAR])
-        .show(ctx, |ui| {
-            let rect = Rect::from_min_size(ui.max_rect().min, vec2(width, BAR));
-            let (fill, line) = (ui.visuals().panel_fill, ui.visuals().window_stroke);
-            ui.painter().rect_filled(rect, 0.0, fill);
-            ui.painter().hline(rect.x_range(), rect.bottom(), line);
-            let inside = rect.shrink2(vec2(8.0, 2.0));
-            ui.scope_builder(UiBuilder::new().max_rect(inside), |ui| app.top_bar(ui));
-            ui.expand_to_include_rect(rect);
-        });
 }
 
 /// How much of the bar is to be seen: 0 to 1.

@@ -1,13 +1,10 @@
 //! Where a task shows its panes: columns and rows of fixed size, and tiles.
 
 use super::app::App;
-use super::layout::{self, Column, PaneId};
+use super::layout::{self, Column, PaneId, TITLE_ROW};
 use crate::gui::icons;
 use crate::gui::theme::IconButton;
 use egui_tiles::{SimplificationOptions, Tile, TileId, UiResponse};
-
-/// The height of a pane's title row in points.
-pub const TITLE_ROW: f32 = 36.0;
 
 impl App {
     /// Draws the column at the left.
