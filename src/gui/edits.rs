@@ -2,7 +2,6 @@
 //! pane has been drawn.
 
 use super::document::Document;
-use crate::scene::SceneSource;
 
 /// A change of the document.
 type Edit = Box<dyn FnOnce(&mut Document)>;
@@ -41,8 +40,6 @@ pub enum Request {
     Stage(Vec<Vec<&'static str>>),
     /// Run an action.
     Run(&'static str),
-    /// Open a scene, or a workspace.
-    Open(SceneSource),
     /// Ask for a file name and write this to it.
     Export(Box<Export>),
     /// Put a text on the clipboard.

@@ -86,8 +86,8 @@ fn truth(question: &Question, figures: &Figures) -> Option<String> {
 
 /// Goes to the next step of the lesson; other panes have such a button, too.
 fn next(window: &mut Window<'_>) {
-    let mut all = window.query_all_by_label("Next");
-    let button = all.find(|node| node.rect().right() < 420.0);
+    let of_lesson = |node: &egui_kittest::Node<'_>| node.rect().right() < 420.0;
+    let button = window.query_all_by_label("Next").find(of_lesson);
     button.expect("the button of the column").click();
     window.run_steps(3);
 }

@@ -607,17 +607,17 @@ fn same_but_camera(a: &Setup, b: &Setup) -> bool {
 }
 
 impl Document {
-    /// Picks a pixel of the picture in front.
-    pub fn pick(&mut self, pixel: [u32; 2]) {
-        if let Some(current) = &mut self.current {
-            current.pick(pixel);
-        }
-    }
-
     /// Selects a node of the tree on view.
     pub fn select_node(&mut self, node: Option<u32>) {
         if let Some(current) = &mut self.current {
             current.selection.node = node;
+        }
+    }
+
+    /// Picks a pixel of the picture in front.
+    pub fn pick(&mut self, pixel: [u32; 2]) {
+        if let Some(current) = &mut self.current {
+            current.pick(pixel);
         }
     }
 

@@ -292,7 +292,6 @@ impl App {
                 Request::Task(id) => self.switch(id),
                 Request::Stage(slots) => self.layout.stage(&slots),
                 Request::Run(id) => self.run(id, ctx),
-                Request::Open(source) => self.files.open(source, ctx, &mut self.doc),
                 Request::Export(export) => self.exports.ask(*export, &mut self.doc),
                 Request::Copy(text) => self.clipboard.copy(text, ctx),
             }
