@@ -2,7 +2,7 @@
 //! for screen readers.
 
 use crate::harness::{
-    Window, described, has, open, open_sized, open_with_graphics, press, small, wait,
+    Window, described, has, open, open_pane, open_sized, open_with_graphics, press, small, wait,
 };
 use bspscope::gui::StartOptions;
 use egui::accesskit::Role;
@@ -153,8 +153,7 @@ fn every_widget_has_a_name() {
         "All parameters",
     ];
     for pane in panes {
-        search(&mut window, &format!("show {pane}"));
-        window.key_press(egui::Key::Enter);
+        open_pane(&mut window, pane);
         window.run_steps(20);
         checked += named(&window, pane);
     }

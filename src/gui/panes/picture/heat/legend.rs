@@ -8,7 +8,6 @@ use crate::gui::theme::hint;
 use crate::gui::widgets::hidden::HIDDEN;
 use crate::gui::widgets::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::gui::widgets::symbol::grouped;
-use crate::measure::heat::heatmaps;
 use egui::{Color32, Painter, Rect, Shape, Stroke, pos2, vec2};
 
 /// Height of the color bar in points.
