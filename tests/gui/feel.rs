@@ -147,10 +147,10 @@ fn every_widget_has_a_name() {
     }
     let panes = [
         "Outline",
-        "Leaf histograms",
+        "Histograms",
         "Icicle",
         "Split cost",
-        "All parameters",
+        "All figures",
     ];
     for pane in panes {
         open_pane(&mut window, pane);
