@@ -41,7 +41,7 @@ fn check_is_disabled(window: &Window<'_>) -> bool {
 fn predict(window: &mut Window<'_>, question: &Question) {
     match &question.answer {
         Answer::Number { .. } => type_number(window, "1000000"),
-        Answer::Choice(choices) => window.get_by_label(&choices[0].text).click(),
+        Answer::Choice(choices) => click_in_column(window, &choices[0].text),
     }
     window.run_steps(3);
 }
@@ -84,11 +84,11 @@ fn truth(question: &Question, figures: &Figures) -> Option<String> {
     })
 }
 
-/// Goes to the next step of the lesson; other panes have such a button, too.
-fn next(window: &mut Window<'_>) {
+/// Clicks in the lesson's column; other places have such a button, too.
+fn click_in_column(window: &mut Window<'_>, label: &str) {
     let of_lesson = |node: &egui_kittest::Node<'_>| node.rect().right() < 420.0;
-    let button = window.query_all_by_label("Next").find(of_lesson);
-    button.expect("the button of the column").click();
+    let button = window.query_all_by_label(label).find(of_lesson);
+    button.expect("a button of the column").click();
     window.run_steps(3);
 }
 
@@ -121,7 +121,7 @@ fn take_whole(lesson: &Lesson) {
             }
         }
         if place < last {
-            next(&mut window);
+            click_in_column(&mut window, "Next");
         }
     }
     assert!(asked >= 4);
