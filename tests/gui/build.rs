@@ -35,7 +35,8 @@ fn check_boxes(window: &mut Window<'_>, tree: &Tree, moment: Moment) {
     let [shown, leaves] = [cells.len() - undecided, tree.nodes().len() / 2 + 1].map(grouped);
     let shown = format!("{shown} of {leaves} leaves shown");
     wait(window, &shown, |w| has(w, &shown));
-    let dotted = format!("dotted white: {undecided} cells not decided yet");
+    let cells = if undecided == 1 { "cell" } else { "cells" };
+    let dotted = format!("dotted white: {undecided} {cells} not decided yet");
     assert_eq!(has(window, &dotted), undecided > 0, "{dotted}");
 }
 

@@ -5,13 +5,14 @@ use crate::geometry::Axis;
 use crate::gui::action::{Gesture, actions, tip};
 use crate::gui::document::Document;
 use crate::gui::document::inspect::{TreeKey, WhatIf};
-use crate::gui::pane::{Cx, Pane, PaneAction};
-use crate::gui::widgets::common::{nice_step, no_picture, short, waiting};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
+use crate::gui::widgets::common::{no_picture, short, waiting};
+use crate::gui::widgets::linear_axis::Marks;
 use crate::gui::widgets::symbol::grouped;
 use crate::present::number::{Digits, counted};
 use crate::structure::{NodeCost, SplitCost};
 use egui::{Color32, vec2};
-use egui_plot::{AxisHints, GridMark, HLine, LineStyle, Plot, PlotPoint, Text, VLine};
+use egui_plot::{AxisHints, HLine, LineStyle, Plot, PlotPoint, Text, VLine};
 use std::sync::Arc;
 
 /// Points of a drawn curve: more than a screen is wide.
@@ -37,6 +38,7 @@ impl Pane for CostPane {
     const ID: &'static str = "split-cost";
     const TITLE: &'static str = "Split cost";
     const ABOUT: &'static str = "The cost of every plane that could split the selected node.";
+    const REVEALS: &'static [Fact] = &[Fact::Tree];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "split-cost.undo-what-if" Here NONE [Delete] "Remove the tried plane" => |_, cx| cx.edits.add(|doc| doc.inspect.what_if = None);
     };
@@ -293,42 +295,5 @@ impl Drawn {
             response.on_hover_text_at_pointer(plane_text(axis, &curve.at(at)));
         }
         tried
-    }
-}
-
-/// The round numbers of an axis.
-#[derive(Clone, Copy)]
-struct Marks {
-    range: [f64; 2],
-    step: f64,
-}
-
-impl Marks {
-    /// At most about so many numbers in a range.
-    fn new(range: [f64; 2], most: f32) -> Self {
-        let [lo, hi] = range;
-        let step = nice_step((hi - lo) / f64::from(most.max(2.0)));
-        Marks { range, step }
-    }
-
-    fn all(self) -> Vec<GridMark> {
-        let Marks {
-            range: [lo, hi],
-            step,
-        } = self;
-        let first = (lo / step).ceil();
-        (0..)
-            .map(|i| (first + f64::from(i)) * step)
-            .take_while(|&value| value <= hi)
-            .map(|value| GridMark {
-                value,
-                step_size: step,
-            })
-            .collect()
-    }
-
-    fn text(self, value: f64) -> String {
-        let digits = (-self.step.log10().floor()).clamp(0.0, 12.0) as usize;
-        format!("{value:.digits$}")
     }
 }

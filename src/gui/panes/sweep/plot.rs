@@ -1,6 +1,7 @@
 //! A parameter against the depth, one curve per method and leaf size.
 
 use super::shown::Shown;
+use crate::gui::widgets::linear_axis::Marks;
 use crate::gui::widgets::log_axis;
 use crate::present::chart::{Curve, curves, is_wide};
 use egui::{Color32, Rect, Sense, vec2};
@@ -92,9 +93,13 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
         .x_grid_spacer(depths)
         .custom_x_axes(vec![depth_axis])
         .custom_y_axes(vec![axis]);
-    if logarithmic {
-        plot = plot.y_grid_spacer(log_axis::marks);
-    }
+    plot = if logarithmic {
+        plot.y_grid_spacer(log_axis::marks)
+    } else {
+        // A number for every 32 points of the height.
+        let most = ui.available_height() / 32.0;
+        plot.y_grid_spacer(move |input| Marks::new(input.bounds.into(), most).all())
+    };
     let drawn = plot.show(ui, |plot| {
         if let Some(depth) = rule {
             plot.vline(VLine::new("rule", depth).color(ink).width(1.0));

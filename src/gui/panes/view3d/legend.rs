@@ -50,7 +50,7 @@ pub struct Legend<'a> {
 
 /// Whether an unfolded legend leaves most of a view to be seen.
 pub fn fits(view: Rect) -> bool {
-    view.width() >= 340.0 && view.height() >= 420.0
+    view.width() >= 340.0 && view.height() >= 560.0
 }
 
 /// Shows the legend in the lower left corner of the view; says whether it is to be folded or unfolded.
@@ -156,8 +156,8 @@ fn lines(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
         }
         if boxes.undecided > 0 {
             ui.label(format!(
-                "dotted white: {} cells not decided yet",
-                grouped(boxes.undecided)
+                "dotted white: {} not decided yet",
+                step_text::count(boxes.undecided as u32, "cell", "cells")
             ));
         }
         let shown = boxes.instances.len() - boxes.undecided - boxes.coarse;
