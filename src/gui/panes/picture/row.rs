@@ -70,12 +70,12 @@ impl Row {
         let now = ui.input(|i| i.time);
         let Some((work, status)) = doc.work.as_ref().and_then(|w| Some((w, w.status()?))) else {
             self.busy_since = None;
-            ui.add_space(ROW);
+            empty_slot(ui);
             return;
         };
         let since = *self.busy_since.get_or_insert(now);
         if now - since < PATIENCE {
-            ui.add_space(ROW);
+            empty_slot(ui);
             let left = since + PATIENCE - now;
             ui.ctx().request_repaint_after_secs(left as f32);
             return;
@@ -91,6 +91,11 @@ impl Row {
         );
         progress_ring(ui, status.fraction, &about);
     }
+}
+
+/// Takes the room of the ring.
+fn empty_slot(ui: &mut egui::Ui) {
+    ui.allocate_exact_size(egui::vec2(ROW, ROW), egui::Sense::hover());
 }
 
 /// The menu of the picture and its heatmaps.
