@@ -2,8 +2,7 @@
 //! figures; a lesson keeps its column. The top bar slides in at the upper edge.
 
 use super::app::App;
-use super::layout;
-use super::presenting::{BAR, SCALE};
+use super::places::{self, TOP_BAR};
 use crate::gui::document::comparing::Which;
 use crate::gui::document::{Current, Document, Fact};
 use crate::gui::theme;
@@ -12,6 +11,8 @@ use crate::measure::parameter;
 use crate::present::number::Digits;
 use egui::{Rect, RichText, UiBuilder, pos2, vec2};
 
+/// How much larger everything is.
+const SCALE: f32 = 1.25;
 /// The height of the figures, and the distance of picture and 3D view, in points of the usual size.
 const FIGURES: f32 = 88.0;
 const GAP: f32 = 8.0;
@@ -26,56 +27,54 @@ const SHOWN: [(&str, &str); 4] = [
     ("T_TR", "rendering time"),
 ];
 
-impl App {
-    /// Shows the task on view for an audience.
-    pub(super) fn present(&mut self, ui: &mut egui::Ui) {
-        let task = self.layout.current();
-        match task.id {
-            "lessons" => {
-                if let Some(column) = &task.left {
-                    self.left_column(ui, column);
-                }
-                self.tiles(ui);
+/// Shows the task on view for an audience.
+pub fn show(app: &mut App, ui: &mut egui::Ui) {
+    let task = app.layout.current();
+    match task.id {
+        "lessons" => {
+            if let Some(column) = &task.left {
+                app.left_column(ui, column);
             }
-            "ray" => {
-                if let Some(row) = &task.below {
-                    self.row_below(ui, row);
-                }
-                halves(self, ui);
-            }
-            "explore" => {
-                figures(ui, &self.doc);
-                halves(self, ui);
-            }
-            "compare" => {
-                figures(ui, &self.doc);
-                self.tiles(ui);
-            }
-            _ => self.tiles(ui),
+            app.tiles(ui);
         }
+        "ray" => {
+            if let Some(row) = &task.below {
+                app.row_below(ui, row);
+            }
+            halves(app, ui);
+        }
+        "explore" => {
+            figures(ui, &app.doc);
+            halves(app, ui);
+        }
+        "compare" => {
+            figures(ui, &app.doc);
+            app.tiles(ui);
+        }
+        _ => app.tiles(ui),
     }
+}
 
-    /// Shows the top bar over what is presented, while the pointer is at the upper edge.
-    pub(super) fn sliding_bar(&mut self, ctx: &egui::Context) {
-        let seen = seen(ctx);
-        if seen == 0.0 {
-            return;
-        }
-        let width = ctx.content_rect().width();
-        egui::Area::new(egui::Id::unique("sliding bar"))
-            .order(egui::Order::Middle)
-            .constrain(false)
-            .fixed_pos([0.0, (seen - 1.0) * BAR])
-            .show(ctx, |ui| {
-                let rect = Rect::from_min_size(ui.max_rect().min, vec2(width, BAR));
-                let (fill, line) = (ui.visuals().panel_fill, ui.visuals().window_stroke);
-                ui.painter().rect_filled(rect, 0.0, fill);
-                ui.painter().hline(rect.x_range(), rect.bottom(), line);
-                let inside = rect.shrink2(vec2(8.0, 2.0));
-                ui.scope_builder(UiBuilder::new().max_rect(inside), |ui| self.top_bar(ui));
-                ui.expand_to_include_rect(rect);
-            });
+/// Shows the top bar over what is presented, while the pointer is at the upper edge.
+pub fn sliding_bar(app: &mut App, ctx: &egui::Context) {
+    let seen = seen(ctx);
+    if seen == 0.0 {
+        return;
     }
+    let width = ctx.content_rect().width();
+    egui::Area::new(egui::Id::unique("sliding bar"))
+        .order(egui::Order::Middle)
+        .constrain(false)
+        .fixed_pos([0.0, (seen - 1.0) * TOP_BAR])
+        .show(ctx, |ui| {
+            let rect = Rect::from_min_size(ui.max_rect().min, vec2(width, TOP_BAR));
+            let (fill, line) = (ui.visuals().panel_fill, ui.visuals().window_stroke);
+            ui.painter().rect_filled(rect, 0.0, fill);
+            ui.painter().hline(rect.x_range(), rect.bottom(), line);
+            let inside = rect.shrink2(vec2(8.0, 2.0));
+            ui.scope_builder(UiBuilder::new().max_rect(inside), |ui| app.top_bar(ui));
+            ui.expand_to_include_rect(rect);
+        });
 }
 
 /// How much of the bar is to be seen: 0 to 1.
@@ -83,7 +82,7 @@ fn seen(ctx: &egui::Context) -> f32 {
     let id = egui::Id::unique("presented bar");
     let was = ctx.data(|data| data.get_temp::<bool>(id)).unwrap_or(false);
     let pointer = ctx.pointer_hover_pos();
-    let near = pointer.is_some_and(|at| at.y <= if was { BAR + EDGE } else { EDGE });
+    let near = pointer.is_some_and(|at| at.y <= if was { TOP_BAR + EDGE } else { EDGE });
     // What was opened from the bar hangs from it.
     let stays = was && (egui::Popup::is_any_open(ctx) || ctx.text_edit_focused());
     let is = near || stays;
@@ -100,7 +99,7 @@ fn halves(app: &mut App, ui: &mut egui::Ui) {
         let left = Rect::from_min_size(all.min, vec2(half, all.height()));
         let right = Rect::from_min_max(pos2(all.right() - half, all.top()), all.max);
         for (id, rect) in [("picture", left), ("view3d", right)] {
-            if let Some(pane) = layout::pane(id) {
+            if let Some(pane) = places::pane(id) {
                 ui.scope_builder(UiBuilder::new().id_salt(id).max_rect(rect), |ui| {
                     app.pane(ui, pane);
                 });

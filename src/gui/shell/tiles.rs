@@ -1,7 +1,7 @@
 //! Where a task shows its panes: columns and rows of fixed size, and tiles.
 
 use super::app::App;
-use super::layout::{self, Column, PaneId, TITLE_ROW};
+use super::places::{self, Column, PaneId, TITLE_ROW};
 use crate::gui::icons;
 use crate::gui::theme::IconButton;
 use egui_tiles::{SimplificationOptions, Tile, TileId, UiResponse};
@@ -17,15 +17,14 @@ impl App {
 
     /// Draws the row below.
     pub(super) fn row_below(&mut self, ui: &mut egui::Ui, row: &Column) {
-        // Its panes divide the height among themselves.
         let frame = egui::Frame::new().fill(ui.visuals().panel_fill);
-        let frame = frame.inner_margin(egui::Margin::symmetric(8, 0));
+        // Its panes divide the height among themselves.
         egui::Panel::bottom("row below")
             .exact_size(row.size(ui.ctx().content_rect().size()))
             .resizable(false)
-            .frame(frame)
+            .frame(frame.inner_margin(egui::Margin::symmetric(8, 0)))
             .show(ui, |ui| {
-                for pane in row.panes.iter().filter_map(|id| layout::pane(id)) {
+                for pane in row.panes.iter().filter_map(|id| places::pane(id)) {
                     self.pane(ui, pane);
                 }
             });
@@ -110,6 +109,6 @@ impl egui_tiles::Behavior<PaneId> for Behavior<'_> {
     }
 
     fn simplification_options(&self) -> SimplificationOptions {
-        layout::simplification()
+        places::simplification()
     }
 }

@@ -1,23 +1,21 @@
-//! Presenting as a state: the full screen and larger type, and what comes back after it.
+//! The full screen with larger type, and the way back.
 
 use egui::ViewportCommand;
 
 /// How much larger everything is.
 pub const SCALE: f32 = 1.25;
-/// The height of the top bar, in points.
-pub const BAR: f32 = 40.0;
 
 /// What is to come back after presenting.
-pub struct Presenting {
+pub struct FullScreen {
     zoom: f32,
 }
 
-impl Presenting {
+impl FullScreen {
     pub fn begin(ctx: &egui::Context) -> Self {
         let zoom = ctx.zoom_factor();
         ctx.set_zoom_factor(zoom * SCALE);
         ctx.send_viewport_cmd(ViewportCommand::Fullscreen(true));
-        Presenting { zoom }
+        FullScreen { zoom }
     }
 
     pub fn end(self, ctx: &egui::Context) {
