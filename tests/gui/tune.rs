@@ -1,7 +1,7 @@
 //! The task Tune: the search for the best tree, its ranking, and what can be done with a row.
 
 use crate::harness::{Window, click, finish, has, open_sized, press, small, wait};
-use crate::painted::{assert_whole, texts_in};
+use crate::painted::{assert_not_shortened, assert_whole, texts_in};
 use bspscope::structure::{MaxDepth, Method};
 use egui::{Key, Modifiers, Rect, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -161,6 +161,34 @@ fn goal_and_all_methods_are_in_view_and_nothing_is_cut() {
         for tab in ["Depth & leaf size", "Time by term", "Speed and error"] {
             let tab = window.get_by_label(tab).rect();
             assert!(tab.left() >= left && tab.top() > 0.35 * size[1], "{tab}");
+        }
+    }
+}
+
+#[test]
+fn no_text_of_the_studies_is_shortened() {
+    let mut window = on_tune("teaching", [1600.0, 1000.0]);
+    for (tab, run) in [
+        ("Depth & leaf size", "Run sweep"),
+        ("Time by term", "Measure times"),
+        ("Speed and error", "Measure speed and error"),
+    ] {
+        click(&mut window, tab);
+        click(&mut window, run);
+        wait(&mut window, tab, |w| w.query_by_label(run).is_some());
+    }
+    for size in [[1600.0, 1000.0], [1280.0, 720.0]] {
+        window.set_size(size.into());
+        window.run_steps(3);
+        for (tab, shown) in [
+            ("Depth & leaf size", "152 of 152 points"),
+            ("Time by term", "measured T_TR: "),
+            ("Speed and error", "Plot of RMSE against time"),
+        ] {
+            click(&mut window, tab);
+            wait(&mut window, shown, |w| has(w, shown));
+            let top = window.get_by_label(tab).rect().bottom();
+            assert_not_shortened(&window, Rect::everything_below(top));
         }
     }
 }
