@@ -11,6 +11,9 @@ pub enum Scope {
     Everywhere,
     /// While the pointer is over the pane that declares the action.
     Here,
+    /// While a lesson runs, and then nowhere else: the pages of a lesson turn by the keys that
+    /// presenter remotes send.
+    Lesson,
 }
 
 /// An action without its effect.

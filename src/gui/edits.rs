@@ -2,7 +2,6 @@
 //! pane has been drawn.
 
 use super::document::Document;
-use crate::scene::SceneSource;
 
 /// A change of the document.
 type Edit = Box<dyn FnOnce(&mut Document)>;
@@ -36,10 +35,11 @@ pub enum Request {
     Show(&'static str),
     /// Switch to a task.
     Task(&'static str),
+    /// Show these panes beside a lesson: slots from left to right, each with panes from the top; the
+    /// usual ones if there are none.
+    Stage(Vec<Vec<&'static str>>),
     /// Run an action.
     Run(&'static str),
-    /// Open a scene, or a workspace.
-    Open(SceneSource),
     /// Ask for a file name and write this to it.
     Export(Box<Export>),
     /// Put a text on the clipboard.

@@ -3,6 +3,7 @@
 
 use super::action::{Action, Gesture, Info};
 use super::document::Document;
+pub use super::document::Fact;
 use super::edits::Edits;
 use crate::workspace::View;
 use eframe::egui_wgpu::RenderState;
@@ -29,8 +30,10 @@ pub trait Pane: Default + 'static {
     const ALIASES: &'static [&'static str] = &[];
     /// What it shows, in one sentence.
     const ABOUT: &'static str;
-    /// Whether it shows figures that a lesson may ask for.
-    const SHOWS_FIGURES: bool = true;
+    /// The facts that it shows. While a lesson asks for one of them, the pane is hidden.
+    const REVEALS: &'static [Fact] = Fact::ALL;
+    /// Whether it fills its place and scrolls by itself.
+    const FILLS: bool = false;
     const ACTIONS: &'static [PaneAction<Self>] = &[];
     const GESTURES: &'static [Gesture] = &[];
 
@@ -118,7 +121,8 @@ pub struct Entry {
     pub title: &'static str,
     pub aliases: &'static [&'static str],
     pub about: &'static str,
-    pub shows_figures: bool,
+    pub reveals: &'static [Fact],
+    pub fills: bool,
     pub gestures: &'static [Gesture],
     infos: fn() -> Vec<Info>,
     pub make: fn() -> Box<dyn AnyPane>,
@@ -131,7 +135,8 @@ impl Entry {
             title: P::TITLE,
             aliases: P::ALIASES,
             about: P::ABOUT,
-            shows_figures: P::SHOWS_FIGURES,
+            reveals: P::REVEALS,
+            fills: P::FILLS,
             gestures: P::GESTURES,
             infos: || P::ACTIONS.iter().map(|action| action.info).collect(),
             make: || Box::new(P::default()),

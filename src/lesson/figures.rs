@@ -49,8 +49,9 @@ impl Difference {
 }
 
 /// One of the two trees of a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Side {
+    #[default]
     A,
     B,
 }

@@ -55,6 +55,7 @@ struct RawStep {
     camera: Option<Spanned<RawCamera>>,
     pixel: Option<Spanned<[u32; 2]>>,
     heatmap: Option<Spanned<String>>,
+    front: Option<Spanned<String>>,
     view: Option<Spanned<String>>,
     #[serde(default)]
     panes: Vec<Spanned<String>>,
@@ -272,12 +273,21 @@ fn subject(block: &Block, raw: &RawStep, folder: Option<&Path>) -> Result<Subjec
             found.ok_or_else(|| format!("no heatmap is called '{name}'"))
         })
     });
+    let front = raw.front.as_ref().map(|front| {
+        block.with(front, |front| match front.as_str() {
+            "a" => Ok(Side::A),
+            "b" if raw.b.is_some() => Ok(Side::B),
+            "b" => Err("there is no tree b in this step".to_owned()),
+            _ => Err(format!("expected 'a' or 'b', found '{front}'")),
+        })
+    });
     Ok(Subject {
         a: block.with(&raw.a, side)?,
         b: raw.b.as_ref().map(|b| block.with(b, side)).transpose()?,
         pixel: pixel.transpose()?,
         look: Look {
             heatmap: symbol.transpose()?,
+            front: front.transpose()?.unwrap_or_default(),
             view: block.named(raw.view.as_slice()).pop(),
             panes: block.named(&raw.panes),
             panels: block.named(&raw.panels),

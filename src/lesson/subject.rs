@@ -1,5 +1,6 @@
 //! The subject of a step of a lesson: a scene, one or two trees, and a picture.
 
+use super::figures::Side;
 use crate::setup::Setup;
 
 /// What is built, rendered and shown.
@@ -18,6 +19,8 @@ pub struct Subject {
 pub struct Look {
     /// Symbol of the heatmap to show with the answer.
     pub heatmap: Option<&'static str>,
+    /// The tree in front: the 3D view, the heatmap and the panes are about it.
+    pub front: Side,
     /// How two pictures are shown.
     pub view: Option<Named>,
     /// Panes to bring to the front.

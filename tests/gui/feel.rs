@@ -1,18 +1,14 @@
 //! What makes the window good to work with: a layout that is remembered, the command palette, names
 //! for screen readers.
 
-use crate::harness::{
-    Window, click, has, open, open_sized, open_with_graphics, press, small, wait,
-};
+use crate::harness::{Window, has, open, open_sized, open_with_graphics, press, small, wait};
 use bspscope::gui::StartOptions;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{By, NodeT as _, Queryable as _};
 
-/// Waits for the picture, whichever panels are shown.
+/// Waits for the picture.
 fn finish(window: &mut Window<'_>) {
-    wait(window, "the picture", |w| {
-        w.query_by_label("finished").is_some()
-    });
+    wait(window, "the picture", |w| w.state().is_finished());
 }
 
 /// Opens the palette and types.
@@ -27,25 +23,38 @@ fn is_open(window: &Window<'_>) -> bool {
     window.query_by_label("Search for a command").is_some()
 }
 
+/// The name of the build method in the top bar.
+fn method(window: &Window<'_>) -> String {
+    let list = window.get_by_label("Build method");
+    list.accesskit_node().value().unwrap_or_default()
+}
+
+/// The depth that the slider in the top bar says.
+fn depth(window: &Window<'_>) -> f64 {
+    let mut sliders = window.query_all_by_role(Role::Slider);
+    let slider = sliders.next().expect("the slider of the depth");
+    slider.accesskit_node().numeric_value().expect("a number")
+}
+
 #[test]
 fn the_palette_does_what_is_typed_and_chosen() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
+    let before = method(&window);
     search(&mut window, "next build");
     window.key_press(egui::Key::Enter);
-    wait(&mut window, "the method", |w| has(w, "balls:1 · sah-cut"));
+    wait(&mut window, "the method", |w| method(w) != before);
     assert!(!is_open(&window));
-    search(&mut window, "method objectmedian");
+    // The second of two, by an arrow key, undoes what the first one does.
+    let before = depth(&window);
+    search(&mut window, "depth: one level");
     window.key_press(egui::Key::Enter);
-    wait(&mut window, "the method", |w| has(w, "· object-median ·"));
-    // The second of two, by an arrow key.
-    search(&mut window, "bar on the");
+    wait(&mut window, "the depth", |w| depth(w) != before);
+    search(&mut window, "depth: one level");
     window.key_press(egui::Key::ArrowDown);
     window.run_steps(2);
     window.key_press(egui::Key::Enter);
-    wait(&mut window, "the right bar to go", |w| {
-        w.query_by_label("leaves").is_none()
-    });
+    wait(&mut window, "the depth", |w| depth(w) == before);
     search(&mut window, "heatmap none");
     window.key_press(egui::Key::Escape);
     window.run_steps(3);
@@ -88,16 +97,19 @@ fn kept(folder: &std::path::Path) -> StartOptions {
 #[test]
 fn the_layout_is_remembered_and_reset() {
     let folder = tempfile::tempdir().unwrap();
+    // This is not the first start.
+    std::fs::write(folder.path().join("hint.json"), "true").unwrap();
     let mut window = open(kept(folder.path()));
     finish(&mut window);
-    let left = |w: &Window<'_>| has(w, "spheres: 10");
-    let outline = |w: &Window<'_>| has(w, "node 0");
-    assert!(left(&window) && outline(&window));
-    press(&mut window, egui::Modifiers::COMMAND, egui::Key::B);
-    click(&mut window, "Icicle");
-    wait(&mut window, "the bar to go", |w| !left(w));
+    let drawer = |w: &Window<'_>| has(w, "Root margin");
+    let icicle = |w: &Window<'_>| w.query_by_label("Icicle of the tree").is_some();
+    assert!(!drawer(&window) && !icicle(&window));
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::I);
+    search(&mut window, "icicle");
+    window.key_press(egui::Key::Enter);
+    wait(&mut window, "both", |w| drawer(w) && icicle(w));
     // The harness starts in the dark, whatever was kept.
-    assert!(window.query_by_label("Light").is_some());
+    assert!(window.ctx.theme() == egui::Theme::Dark);
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::T);
     window.run_steps(3);
     drop(window);
@@ -107,47 +119,45 @@ fn the_layout_is_remembered_and_reset() {
 
     let mut window = open(kept(folder.path()));
     finish(&mut window);
-    assert!(!left(&window) && !outline(&window));
-    assert!(window.query_by_label("Icicle of the tree").is_some());
+    assert!(drawer(&window) && icicle(&window));
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::D);
-    wait(&mut window, "the bar", |w| left(w) && outline(w));
+    wait(&mut window, "neither", |w| !drawer(w) && !icicle(w));
     drop(window);
 
     std::fs::write(&file, "{\"tiles\": 3").unwrap();
     let mut window = open(kept(folder.path()));
     finish(&mut window);
-    assert!(left(&window) && outline(&window));
-}
-
-#[test]
-fn folded_panels_stay_folded() {
-    let folder = tempfile::tempdir().unwrap();
-    let mut window = open(kept(folder.path()));
-    finish(&mut window);
-    let header = "Λ  the times";
-    assert!(window.query_by_label("build time").is_some());
-    click(&mut window, header);
-    wait(&mut window, "folding", |w| {
-        w.query_by_label("build time").is_none()
-    });
-    drop(window);
-    let mut window = open(kept(folder.path()));
-    finish(&mut window);
-    assert!(window.query_by_label("build time").is_none());
+    assert!(!drawer(&window) && !icicle(&window));
 }
 
 /// Whatever has the keyboard's focus or takes a click must say what it is.
 #[test]
 fn every_widget_has_a_name() {
-    let mut window = open_sized(small("balls:1"), [1500.0, 1900.0], true);
+    let mut window = open_sized(small("balls:1"), [1600.0, 1000.0], true);
     finish(&mut window);
-    click(&mut window, "Traced picture");
-    wait(&mut window, "the object", |w| has(w, "Hits sphere "));
-    click(&mut window, "All parameters (Tables 1 to 3)");
-    click(&mut window, "node 0");
-    let mut checked = named(&window, "outline");
-    for pane in ["Leaf histograms", "Icicle", "Split cost"] {
-        click(&mut window, pane);
+    let mut checked = 0;
+    for key in [
+        egui::Key::Num2,
+        egui::Key::Num3,
+        egui::Key::Num4,
+        egui::Key::Num5,
+        egui::Key::Num1,
+    ] {
+        press(&mut window, egui::Modifiers::COMMAND, key);
+        finish(&mut window);
+        window.run_steps(5);
+        checked += named(&window, &format!("{key:?}"));
+    }
+    let panes = [
+        "Outline",
+        "Leaf histograms",
+        "Icicle",
+        "Split cost",
+        "All parameters",
+    ];
+    for pane in panes {
+        search(&mut window, &format!("show {pane}"));
+        window.key_press(egui::Key::Enter);
         window.run_steps(20);
         checked += named(&window, pane);
     }
@@ -160,11 +170,9 @@ fn every_widget_has_a_name() {
     window.run_steps(3);
     checked += named(&window, "shortcuts");
     press(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
-    for menu in ["View", "Recent"] {
-        click(&mut window, menu);
-        checked += named(&window, menu);
-        press(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
-    }
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::L);
+    window.run_steps(3);
+    checked += named(&window, "scenes");
     assert!(checked > 300, "{checked} widgets");
 }
 

@@ -1,99 +1,173 @@
 //! Lessons in the window: each is taken from its first step to its last, by mouse and by keys.
 
-use crate::harness::{Window, click, finish, has, open, press, small, wait};
-use bspscope::lesson::{Answer, LESSONS, Lesson, Measurer, Question};
+use crate::harness::{Window, click, has, open, open_sized, press, small, wait};
+use bspscope::lesson::{Answer, Figures, LESSONS, Lesson, Measurer, Question, Step};
 use bspscope::progress::Progress;
+use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::kittest::{By, NodeT as _, Queryable as _};
 
-const HIDDEN: &str = "Hidden until you have made your prediction";
+const HIDDEN: &str = "Hidden until you check your prediction";
 
 /// A window that opens with a lesson.
 fn taking(lesson: &Lesson) -> Window<'static> {
     let mut start = small("tetra:2");
     start.lesson = Some(lesson.clone());
-    open(start)
+    let mut window = open_sized(start, [1600.0, 1000.0], false);
+    window.run_steps(3);
+    window
 }
 
-fn reveal_is_disabled(window: &Window<'_>) -> bool {
-    let button = window.get_by_label("Reveal");
+fn named(name: &str) -> Lesson {
+    let known = LESSONS.iter().find(|lesson| lesson.name == name);
+    known.expect("a lesson of this name").read()
+}
+
+fn finish(window: &mut Window<'_>) {
+    wait(window, "the picture", |w| w.state().is_finished());
+}
+
+/// Waits until the step is measured.
+fn measure(window: &mut Window<'_>) {
+    wait(window, "the figures", |w| !has(w, "measuring…"));
+}
+
+fn check_is_disabled(window: &Window<'_>) -> bool {
+    let button = window.get_by_label("Check");
     button.accesskit_node().is_disabled()
 }
 
 /// Predicts something, right or wrong.
 fn predict(window: &mut Window<'_>, question: &Question) {
     match &question.answer {
-        Answer::Number { .. } => {
-            let field = window.get_by_label("Your prediction");
-            field.focus();
-            window.run_steps(2);
-            window.get_by_label("Your prediction").type_text("1000000");
-        }
+        Answer::Number { .. } => type_number(window, "1000000"),
         Answer::Choice(choices) => window.get_by_label(&choices[0].text).click(),
     }
     window.run_steps(3);
 }
 
+fn type_number(window: &mut Window<'_>, number: &str) {
+    window.get_by_label("Your prediction").focus();
+    window.run_steps(2);
+    window.get_by_label("Your prediction").type_text(number);
+    window.run_steps(2);
+}
+
 /// The line that tells what became of the prediction.
 fn verdict(window: &Window<'_>) -> Option<String> {
-    let node = window
-        .query_all_by_label_contains("You predicted: ")
-        .next()?;
+    let mut nodes = window.query_all_by_label_contains(": you said ");
+    let node = nodes.find(|node| node.accesskit_node().role() == Role::Label)?;
     node.accesskit_node().label().or(node.value())
+}
+
+/// The answer as the lesson measures it without a window; `None` where times decide.
+fn truth(question: &Question, figures: &Figures) -> Option<String> {
+    if question.answer.formulas().iter().any(|f| f.is_timed()) {
+        return None;
+    }
+    Some(match &question.answer {
+        Answer::Number { formula, .. } => formula.write(formula.value(figures), Default::default()),
+        Answer::Choice(choices) => {
+            let right = question.answer.right_choices(figures);
+            choices[right[0]].text.clone()
+        }
+    })
 }
 
 fn take_whole(lesson: &Lesson) {
     let mut window = taking(lesson);
-    window.run_steps(3);
     let mut measurer = Measurer::default();
     let mut asked = 0;
     let last = lesson.steps.len() - 1;
     for (place, step) in lesson.steps.iter().enumerate() {
         let of = lesson.steps.len();
         assert!(has(&window, &step.title), "{}", step.title);
-        assert!(has(&window, &format!("step {} of {of}", place + 1)));
+        let at = format!("{} of {of}", place + 1);
+        assert!(window.query_by_label(&at).is_some(), "{at}");
         if let Some(question) = &step.question {
             asked += 1;
-            assert!(has(&window, HIDDEN), "{}", step.title);
-            assert!(!has(&window, "the tree in seven figures"));
-            wait(&mut window, "measured", |w| !has(w, "measuring …"));
-            assert!(reveal_is_disabled(&window), "no prediction yet");
+            measure(&mut window);
+            assert!(check_is_disabled(&window), "no prediction yet");
             assert!(verdict(&window).is_none());
+            let figures = measurer.measure(lesson, step, &Progress::new()).unwrap();
+            assert_nothing_tells(&mut window, step, &figures);
             predict(&mut window, question);
-            wait(&mut window, "Reveal", |w| !reveal_is_disabled(w));
-            click(&mut window, "Reveal");
+            click(&mut window, "Check");
             let told = verdict(&window).expect("the answer");
-            assert!(!has(&window, HIDDEN));
-            let timed = question.answer.formulas().iter().any(|f| f.is_timed());
-            if !timed {
+            if let Some(truth) = truth(question, &figures) {
                 // The window measures what the command line does.
-                let figures = measurer.measure(lesson, step, &Progress::new()).unwrap();
-                let truth = match &question.answer {
-                    Answer::Number { formula, .. } => {
-                        formula.write(formula.value(&figures), Default::default())
-                    }
-                    Answer::Choice(choices) => choices[question.answer.right_choices(&figures)[0]]
-                        .text
-                        .clone(),
-                };
                 assert!(
-                    told.ends_with(&format!("It is: {truth}.")),
+                    told.ends_with(&format!("measured {truth}")),
                     "{told}, {truth}"
                 );
             }
         }
         if place < last {
-            click(&mut window, "Go on");
+            click(&mut window, "Next");
         }
     }
     assert!(asked >= 4);
     assert!(has(&window, &format!(" of {asked} predictions were right")));
-    click(&mut window, "Leave the lesson");
+    click(&mut window, "Exit lesson");
     finish(&mut window);
-    assert!(has(&window, "the tree in seven figures"));
-    assert!(window.query_by_label("Leave the lesson").is_none());
-    let mut lists = window.query_all_by_role(egui::accesskit::Role::ComboBox);
-    assert!(lists.any(|list| list.value().as_deref() == Some("Scene: tetra:2")));
+    assert!(window.query_by_label("Exit lesson").is_none());
+    assert!(has(&window, "tetra:2"));
+}
+
+/// Every text and value of the window outside the lesson's column and the top bar, which holds no figure.
+fn texts(window: &Window<'_>) -> Vec<String> {
+    let nodes = window.query_all(By::new().recursive(true));
+    let outside = nodes.filter(|node| node.rect().left() > 420.0 && node.rect().top() > 40.0);
+    let texts = outside.flat_map(|node| {
+        let node = node.accesskit_node();
+        [node.label(), node.value(), node.description()]
+    });
+    texts.flatten().collect()
+}
+
+/// The numbers in a text, as they are written.
+fn numbers(text: &str) -> impl Iterator<Item = &str> {
+    let belongs = |c: char| c.is_ascii_digit() || c == '.' || c == '\u{a0}';
+    let pieces = text.split(move |c| !belongs(c));
+    pieces.map(|piece| piece.trim_matches(['.', '\u{a0}']))
+}
+
+/// No pane tells a figure that decides the answer, whichever pane is opened.
+fn assert_nothing_tells(window: &mut Window<'_>, step: &Step, figures: &Figures) {
+    let question = step.question.as_ref().expect("a question");
+    let names = question
+        .answer
+        .formulas()
+        .into_iter()
+        .flat_map(|f| f.names());
+    // Small numbers stand everywhere, as settings and counts of panes.
+    let secrets: Vec<String> = names
+        .filter(|name| !name.is_given() && !name.is_timed())
+        .filter_map(|name| Some(name.write(name.value(figures)?)))
+        .filter(|text| text.len() > 1)
+        .collect();
+    let mut opened = 0;
+    for pane in [
+        "Figures",
+        "Comparison",
+        "All figures",
+        "Rays of the pixel",
+        "Steps of the ray",
+        "Outline",
+        "Histograms",
+    ] {
+        if window.query_by_label(pane).is_some() {
+            click(window, pane);
+            opened += 1;
+        }
+        for text in texts(window) {
+            let told = secrets
+                .iter()
+                .find(|secret| numbers(&text).any(|n| n == *secret));
+            assert_eq!(told, None, "{}: {pane} says {text}", step.title);
+        }
+    }
+    assert!(opened > 3, "only {opened} panes were opened");
 }
 
 #[test]
@@ -113,7 +187,7 @@ fn keys_will_do() {
     for known in LESSONS {
         assert!(has(&window, &known.read().title));
     }
-    press(&mut window, Modifiers::COMMAND, Key::J);
+    press(&mut window, Modifiers::COMMAND, Key::Num1);
     assert!(!has(&window, &LESSONS[1].read().title));
 
     press(&mut window, Modifiers::COMMAND, Key::K);
@@ -123,29 +197,100 @@ fn keys_will_do() {
     window.run_steps(3);
     window.key_press(Key::Enter);
     window.run_steps(3);
-    let lesson = LESSONS.iter().find(|l| l.name == "one-ray").unwrap().read();
+    let lesson = named("one-ray");
     assert!(has(&window, &lesson.steps[0].title));
     // Nothing is told before there is a prediction.
     press(&mut window, Modifiers::ALT, Key::Enter);
-    press(&mut window, Modifiers::ALT, Key::PageDown);
+    press(&mut window, Modifiers::NONE, Key::PageDown);
     assert!(has(&window, &lesson.steps[0].title) && verdict(&window).is_none());
     // The field has the focus.
     window.event(egui::Event::Text("12".into()));
     window.run_steps(2);
-    wait(&mut window, "Reveal", |w| !reveal_is_disabled(w));
+    wait(&mut window, "Check", |w| !check_is_disabled(w));
     press(&mut window, Modifiers::ALT, Key::Enter);
     window.run_steps(2);
     let told = verdict(&window).expect("the answer");
-    assert_eq!(told, "Right. You predicted: 12. It is: 12.");
-    press(&mut window, Modifiers::ALT, Key::PageDown);
+    assert!(told.ends_with(": you said 12, measured 12"), "{told}");
+    press(&mut window, Modifiers::NONE, Key::PageDown);
     assert!(has(&window, &lesson.steps[1].title));
-    press(&mut window, Modifiers::ALT, Key::PageUp);
+    press(&mut window, Modifiers::NONE, Key::PageUp);
     window.run_steps(2);
     // What was told stays so.
     assert_eq!(verdict(&window), Some(told));
     press(&mut window, Modifiers::COMMAND, Key::J);
     finish(&mut window);
     assert!(!has(&window, &lesson.steps[0].title));
+}
+
+/// Presenter remotes send the page keys, which select rays elsewhere.
+#[test]
+fn page_keys_turn_steps_and_select_no_ray() {
+    let lesson = named("one-ray");
+    let place = lesson
+        .steps
+        .iter()
+        .position(|s| s.title == "More than one ray");
+    let place = place.expect("a step with several rays");
+    let mut window = taking(&lesson);
+    for step in &lesson.steps[..place] {
+        measure(&mut window);
+        predict(&mut window, step.question.as_ref().expect("a question"));
+        click(&mut window, "Check");
+        press(&mut window, Modifiers::NONE, Key::PageDown);
+    }
+    measure(&mut window);
+    predict(&mut window, lesson.steps[place].question.as_ref().unwrap());
+    click(&mut window, "Check");
+    wait(&mut window, "the rays", |w| has(w, "Ray 1: primary"));
+    let selected = |window: &Window<'_>| {
+        let rays = window.query_all_by_label_contains("Ray ");
+        let mut rays = rays.filter(|ray| ray.accesskit_node().is_selected() == Some(true));
+        rays.next().and_then(|ray| ray.accesskit_node().label())
+    };
+    let before = selected(&window);
+    press(&mut window, Modifiers::NONE, Key::PageDown);
+    assert!(has(&window, &lesson.steps[place + 1].title));
+    press(&mut window, Modifiers::NONE, Key::PageUp);
+    wait(&mut window, "the rays", |w| has(w, "Ray 1: primary"));
+    assert_eq!(selected(&window), before);
+    // Without a lesson, the key selects the next ray.
+    press(&mut window, Modifiers::COMMAND, Key::J);
+    finish(&mut window);
+    assert!(window.query_by_label("Next").is_none());
+}
+
+#[test]
+fn the_column_is_wide_enough_to_be_read() {
+    for size in [[1600.0, 1000.0], [1280.0, 720.0]] {
+        let lesson = named("what-a-tree-saves");
+        let mut start = small("tetra:2");
+        start.lesson = Some(lesson.clone());
+        let mut window = open_sized(start, size, false);
+        window.run_steps(3);
+        let text = window.get_by_label_contains("The picture shows a pyramid");
+        let rect = text.rect();
+        assert!(rect.width() > 340.0 && rect.right() < 420.0, "{rect:?}");
+        let rows = (rect.height() / 26.0).round();
+        assert!(rows >= 4.0 && (rect.height() - 26.0 * rows).abs() < 2.0);
+        let picture = window.get_by_label("Traced picture").rect();
+        let half = (size[0] - 420.0) / 2.0;
+        assert!(picture.left() > 420.0 && (picture.width() - half).abs() < 30.0);
+    }
+}
+
+/// The text about B stands beside B, and the heatmap is B's.
+#[test]
+fn what_the_text_is_about_is_in_front() {
+    let lesson = named("what-a-tree-saves");
+    let mut window = taking(&lesson);
+    assert!(window.query_by_label("Tree B").is_none());
+    measure(&mut window);
+    predict(&mut window, lesson.steps[0].question.as_ref().unwrap());
+    click(&mut window, "Check");
+    click(&mut window, "Next");
+    window.run_steps(3);
+    let b = window.get_by_label("Tree B").accesskit_node();
+    assert!(b.is_selected() == Some(true) || b.toggled() == Some(egui::accesskit::Toggled::True));
 }
 
 #[test]
@@ -155,20 +300,15 @@ fn what_was_there_comes_back() {
     let mut window = open(start);
     finish(&mut window);
     press(&mut window, Modifiers::COMMAND, Key::E);
-    wait(&mut window, "both", |w| has(w, "May be compared"));
+    wait(&mut window, "both", |w| w.state().is_finished());
     click(&mut window, "Tree B");
     press(&mut window, Modifiers::COMMAND, Key::M);
-    wait(&mut window, "both", |w| {
-        has(w, "B: balls:1 · sah-cut") && has(w, "May be compared")
-    });
-    let settings = |window: &Window<'_>| -> Vec<String> {
-        let sides = ["A: balls:1", "B: balls:1"];
-        let nodes = sides.map(|side| window.get_by_label_contains(side));
-        let nodes = nodes.iter();
-        nodes.map(|n| n.accesskit_node().label().unwrap()).collect()
+    finish(&mut window);
+    let method = |window: &Window<'_>| {
+        let method = window.get_by_label("Build method");
+        method.accesskit_node().value()
     };
-    let before = settings(&window);
-    assert!(before[0].contains("N_OILF 3"), "{before:?}");
+    let before = method(&window);
     press(&mut window, Modifiers::COMMAND, Key::K);
     window
         .get_by_label("Search for a command")
@@ -176,21 +316,24 @@ fn what_was_there_comes_back() {
     window.run_steps(3);
     window.key_press(Key::Enter);
     window.run_steps(3);
-    wait(&mut window, "measured", |w| !has(w, "measuring …"));
+    measure(&mut window);
     assert!(window.query_by_label("Tree B").is_none(), "one tree alone");
     // Other settings than the step's are pointed out, and can be set back.
-    window
-        .get_by_role_and_label(egui::accesskit::Role::SpinButton, "N_OILF")
-        .set_value_accesskit(5.0);
-    wait(&mut window, "changed", |w| has(w, "no longer the step's"));
-    click(&mut window, "Set them again");
-    wait(&mut window, "set back", |w| !has(w, "no longer the step's"));
-    click(&mut window, "Leave the lesson");
-    wait(&mut window, "both", |w| {
-        has(w, "B: balls:1 · sah-cut") && has(w, "May be compared")
+    press(&mut window, Modifiers::COMMAND, Key::ArrowRight);
+    wait(&mut window, "changed", |w| {
+        has(w, "You changed the settings")
     });
+    click(&mut window, "Restore the step's settings");
+    wait(&mut window, "set back", |w| {
+        !has(w, "You changed the settings")
+    });
+    click(&mut window, "Exit lesson");
     finish(&mut window);
-    assert_eq!(settings(&window), before);
+    assert!(window.query_by_label("Tree B").is_some());
+    assert_eq!(method(&window), before);
+    let task = window.get_by_label("Compare").accesskit_node();
+    assert_eq!(task.is_selected(), Some(true));
+    assert!(window.query_by_label("Exit lesson").is_none());
 }
 
 #[test]
@@ -202,77 +345,41 @@ fn a_file_that_is_no_lesson_is_told_by_line() {
     std::fs::write(&path, text).unwrap();
     let mut window = open(small("tetra:2"));
     press(&mut window, Modifiers::COMMAND, Key::J);
-    let enter = |window: &mut Window<'_>| {
-        window.run_steps(2);
-        let field = window.get_by_label("Path of a lesson");
-        field.focus();
-        window.run_steps(2);
-        window
-            .get_by_label("Path of a lesson")
-            .type_text(path.to_str().unwrap());
-        window.run_steps(2);
-        window.key_press(Key::Enter);
-        window.run_steps(4);
-    };
-    enter(&mut window);
+    window.run_steps(2);
+    window.get_by_label("Path of a lesson").focus();
+    window.run_steps(2);
+    window
+        .get_by_label("Path of a lesson")
+        .type_text(path.to_str().unwrap());
+    window.run_steps(2);
+    window.key_press(Key::Enter);
+    window.run_steps(4);
     assert!(has(&window, "mine.md:9: no pane is called 'Inline'"));
 }
 
 #[test]
-fn the_hint_comes_once_and_never_again() {
-    const HINT: &str = "Three things to try";
-    let folder = tempfile::tempdir().unwrap();
-    let start = || {
-        let mut start = small("tetra:2");
-        start.remember = true;
-        start.settings_folder = Some(folder.path().to_owned());
-        start
-    };
-    let first = LESSONS[0].read();
-    {
-        let mut window = open(start());
-        window.run_steps(3);
-        assert!(has(&window, HINT));
-        assert!(has(&window, "Ctrl+M") && has(&window, "Ctrl+E"));
-        // Looked at, but not dismissed.
-    }
-    {
-        let mut window = open(start());
-        window.run_steps(3);
-        click(&mut window, &format!("First lesson: {}", first.title));
-        window.run_steps(3);
-        assert!(has(&window, &first.steps[0].title) && !has(&window, HINT));
-    }
-    let mut window = open(start());
-    window.run_steps(3);
-    assert!(!has(&window, HINT), "dismissed");
-
-    std::fs::remove_file(folder.path().join("hint.json")).unwrap();
-    let mut window = open(start());
-    window.run_steps(3);
-    assert!(has(&window, HINT));
-    press(&mut window, Modifiers::NONE, Key::Escape);
-    window.run_steps(2);
-    assert!(!has(&window, HINT));
-    let mut window = open(start());
-    window.run_steps(3);
-    assert!(!has(&window, HINT), "Esc dismisses it, too");
-    // Nothing is remembered: a hint could not be dismissed for good, so there is none.
+fn a_card_starts_its_lesson() {
     let mut window = open(small("tetra:2"));
+    press(&mut window, Modifiers::COMMAND, Key::Num5);
+    window.run_steps(2);
+    let lesson = LESSONS[1].read();
+    click(&mut window, &format!("Lesson: {}", lesson.title));
     window.run_steps(3);
-    assert!(!has(&window, HINT));
+    assert!(has(&window, &lesson.steps[0].title));
 }
 
+/// What is asked is hidden; what is not stays.
 #[test]
-fn the_list_stands_in_the_place_of_the_settings() {
-    let mut window = open(small("tetra:2"));
-    finish(&mut window);
-    assert!(has(&window, "Root margin"));
-    click(&mut window, "Lessons");
-    wait(&mut window, "the list", |w| {
-        has(w, &LESSONS[0].read().title)
-    });
-    assert!(!has(&window, "Root margin"));
-    click(&mut window, "Close");
-    wait(&mut window, "the settings", |w| has(w, "Root margin"));
+fn only_what_is_asked_is_hidden() {
+    let lesson = named("one-ray");
+    let mut window = taking(&lesson);
+    measure(&mut window);
+    // A question about a ray.
+    click(&mut window, "Rays of the pixel");
+    assert!(has(&window, HIDDEN));
+    click(&mut window, "Figures");
+    assert!(!has(&window, HIDDEN));
+    predict(&mut window, lesson.steps[0].question.as_ref().unwrap());
+    click(&mut window, "Check");
+    assert!(!has(&window, HIDDEN));
 }

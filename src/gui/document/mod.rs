@@ -3,11 +3,13 @@
 //! Two trees can be compared, A and B. One of them is in front: widgets and panels are about it. The
 //! other waits in [`Document::other`]; the picture of the one in front is rendered first.
 
+mod asked;
 mod build_view;
 mod building;
 pub mod comparing;
 mod history;
 pub mod inspect;
+mod interesting;
 mod keep;
 pub mod notices;
 pub mod picked;
@@ -30,11 +32,12 @@ use crate::jobs::{
     Cache, End, Handle, JobStatus, News, Priority, RenderPicture, Scheduler, Stage, Standing,
     Update,
 };
-use crate::lesson::Lesson;
+use crate::lesson::{Lesson, Secret};
 use crate::measure::model::Region;
 use crate::scene::{CameraOverride, SceneRequest, SceneSource};
 use crate::setup::Setup;
 use crate::structure::{MaxDepth, Method};
+pub use asked::Fact;
 pub use build_view::RATES;
 use comparing::{Comparing, Verdict, Which};
 use egui::util::undoer::Undoer;
@@ -93,12 +96,14 @@ pub struct Document {
     pub hovered: Option<([u32; 2], Option<String>)>,
     /// The task on view.
     pub task: &'static str,
+    /// Whether a pixel is to be picked whose rays are worth following.
+    pub wants_ray: bool,
     /// A lesson that is to begin.
     pub next_lesson: Option<Lesson>,
     /// Whether a lesson is being taken.
     pub in_lesson: bool,
-    /// Whether a lesson waits for a prediction, so that figures are hidden.
-    pub hides_figures: bool,
+    /// What a lesson asks for, until the prediction is checked.
+    pub asked: Secret,
     /// What the user wrote down.
     pub notes: String,
     /// Pixels marked to come back to.
@@ -182,9 +187,10 @@ impl Document {
             region: None,
             hovered: None,
             task: "explore",
+            wants_ray: false,
             next_lesson: start.lesson.clone(),
             in_lesson: false,
-            hides_figures: false,
+            asked: Secret::default(),
             notes: String::new(),
             pinned: Vec::new(),
             restoring: None,
@@ -336,13 +342,6 @@ impl Document {
             before: history.previous(),
             are_current: current.is_some_and(answers) && now.setup == *wanted,
         })
-    }
-
-    /// As [`Document::both`], to be changed.
-    pub fn both_mut(&mut self) -> [Option<&mut Current>; 2] {
-        let front = self.current.as_mut();
-        let behind = self.other.as_mut().and_then(|other| other.current.as_mut());
-        in_order(self.which, front, behind)
     }
 
     /// Asks for another scene, seen by its own camera.
@@ -608,17 +607,17 @@ fn same_but_camera(a: &Setup, b: &Setup) -> bool {
 }
 
 impl Document {
-    /// Picks a pixel of the picture in front.
-    pub fn pick(&mut self, pixel: [u32; 2]) {
-        if let Some(current) = &mut self.current {
-            current.pick(pixel);
-        }
-    }
-
     /// Selects a node of the tree on view.
     pub fn select_node(&mut self, node: Option<u32>) {
         if let Some(current) = &mut self.current {
             current.selection.node = node;
+        }
+    }
+
+    /// Picks a pixel of the picture in front.
+    pub fn pick(&mut self, pixel: [u32; 2]) {
+        if let Some(current) = &mut self.current {
+            current.pick(pixel);
         }
     }
 

@@ -4,15 +4,16 @@ use super::actions::ACTIONS;
 use super::clipboard::Clipboard;
 use super::exporting::Exports;
 use super::files::Files;
-use super::first_hint::{Chosen, FirstHint};
+use super::first_start::{FirstStart, Way};
 use super::kept::KeptFile;
 use super::layout::{self, LAYOUT_FILE, Layout, PaneId};
 use super::palette::{Command, Palette};
+use super::present::{self, Presenting};
 use super::progress::WorkInProgress;
 use super::recent::Recent;
 use super::status::StatusLine;
 use super::tasks::{Task, TaskId, task};
-use super::tiles::{Behavior, TITLE_ROW};
+use super::tiles::TITLE_ROW;
 use super::title::Title;
 use super::workspaces::Workspaces;
 use super::{help, keys, top_bar};
@@ -25,6 +26,7 @@ use crate::gui::icons;
 use crate::gui::pane::{AnyPane, Cx};
 use crate::gui::panes::PANES;
 use crate::gui::theme::{self, IconButton};
+use crate::gui::widgets::hidden;
 use crate::scene::SceneSource;
 use crate::scene::format::names;
 use crate::setup::{Setup, measure_command};
@@ -46,12 +48,12 @@ pub struct App {
     maximized: Option<PaneId>,
     /// The pane under the pointer.
     under_pointer: Option<PaneId>,
-    presenting: bool,
+    presenting: Option<Presenting>,
     pub(super) status: StatusLine,
     pub(super) help_open: bool,
     palette: Palette,
     exports: Exports,
-    first_hint: FirstHint,
+    first_start: FirstStart,
     clipboard: Clipboard,
     title: Title,
     /// The largest window that the graphics adapter can draw, in pixels on a side; 0 before it is known.
@@ -97,12 +99,12 @@ impl App {
             kept_layout: None,
             maximized: None,
             under_pointer: None,
-            presenting: false,
+            presenting: None,
             status: StatusLine::default(),
             help_open: false,
             palette: Palette::default(),
             exports: Exports::default(),
-            first_hint: FirstHint::new(&start),
+            first_start: FirstStart::new(&start),
             clipboard: Clipboard::default(),
             title: Title::default(),
             largest: 0,
@@ -176,8 +178,10 @@ impl App {
     }
 
     pub(super) fn toggle_present(&mut self, ctx: &egui::Context) {
-        self.presenting ^= true;
-        ctx.send_viewport_cmd(egui::ViewportCommand::Fullscreen(self.presenting));
+        match self.presenting.take() {
+            Some(presenting) => presenting.end(ctx),
+            None => self.presenting = Some(Presenting::begin(ctx)),
+        }
     }
 
     pub(super) fn toggle_bottom(&mut self) {
@@ -226,14 +230,13 @@ impl App {
     pub(super) fn escape(&mut self, ctx: &egui::Context) {
         let message = self.palette.close()
             || std::mem::take(&mut self.help_open)
-            || self.first_hint.dismiss()
             || self.doc.failure.take().is_some()
             || self.doc.notices.close()
             || self.maximized.take().is_some();
         if message {
             return;
         }
-        if self.presenting {
+        if self.presenting.is_some() {
             self.toggle_present(ctx);
         } else if self.doc.inspect.undo() || self.doc.cancel() {
         } else if self.layout.task.0 == "ray" {
@@ -288,8 +291,8 @@ impl App {
                     }
                 }
                 Request::Task(id) => self.switch(id),
+                Request::Stage(slots) => self.layout.stage(&slots),
                 Request::Run(id) => self.run(id, ctx),
-                Request::Open(source) => self.files.open(source, ctx, &mut self.doc),
                 Request::Export(export) => self.exports.ask(*export, &mut self.doc),
                 Request::Copy(text) => self.clipboard.copy(text, ctx),
             }
@@ -315,13 +318,20 @@ impl App {
 
     /// Runs the actions that keys ask for everywhere.
     fn keys(&mut self, ctx: &egui::Context) {
+        if self.doc.in_lesson {
+            self.pane_keys(ctx, Scope::Lesson);
+        }
         let shell: Vec<Info> = shell_actions().collect();
         for place in keys::pressed(ctx, &shell, Scope::Everywhere) {
             (ACTIONS[place].run)(self, ctx);
         }
+        self.pane_keys(ctx, Scope::Everywhere);
+    }
+
+    /// Runs the actions of panes that keys ask for in one scope.
+    fn pane_keys(&mut self, ctx: &egui::Context, scope: Scope) {
         for pane in PaneId::all() {
-            let pressed = keys::pressed(ctx, &self.actions[pane.place()], Scope::Everywhere);
-            for place in pressed {
+            for place in keys::pressed(ctx, &self.actions[pane.place()], scope) {
                 self.with_pane(pane, ctx, |pane, cx| pane.act(place, cx));
             }
         }
@@ -337,8 +347,8 @@ impl App {
                 self.with_pane(pane, &ctx, |pane, cx| pane.act(place, cx));
             }
         }
-        if self.doc.hides_figures && pane.entry().shows_figures && !is_view(pane) {
-            ui.weak(HIDDEN);
+        if self.doc.hides(pane.entry().reveals) {
+            hidden::card(ui);
             return;
         }
         self.with_pane(pane, &ctx, |pane, cx| pane.ui(ui, cx));
@@ -346,6 +356,9 @@ impl App {
 
     /// Draws what a pane has in its title row.
     pub(super) fn controls(&mut self, ui: &mut egui::Ui, pane: PaneId) {
+        if self.doc.hides(pane.entry().reveals) {
+            return;
+        }
         let ctx = ui.ctx().clone();
         self.with_pane(pane, &ctx, |pane, cx| pane.controls(ui, cx));
     }
@@ -381,7 +394,7 @@ impl App {
     }
 
     /// Draws panes below each other; the last one scrolls.
-    fn column(&mut self, ui: &mut egui::Ui, panes: &[&str]) {
+    pub(super) fn column(&mut self, ui: &mut egui::Ui, panes: &[&str]) {
         let panes: Vec<PaneId> = panes.iter().filter_map(|id| layout::pane(id)).collect();
         let Some((last, before)) = panes.split_last() else {
             return;
@@ -398,6 +411,10 @@ impl App {
             });
         }
         let pane = *last;
+        if pane.entry().fills {
+            self.pane(ui, pane);
+            return;
+        }
         egui::ScrollArea::vertical()
             .id_salt(pane.entry().id)
             .auto_shrink(false)
@@ -411,10 +428,7 @@ impl App {
             left, right, below, ..
         } = self.layout.current();
         if let Some(column) = left {
-            egui::Panel::left("left column")
-                .exact_size(column.size(window))
-                .resizable(false)
-                .show(ui, |ui| self.column(ui, column.panes));
+            self.left_column(ui, column);
         }
         if let Some(column) = right {
             egui::Panel::right("right column")
@@ -423,28 +437,16 @@ impl App {
                 .show(ui, |ui| self.column(ui, column.panes));
         }
         if let Some(row) = below {
-            // Its panes divide the height among themselves.
-            let frame = egui::Frame::new().fill(ui.visuals().panel_fill);
-            let frame = frame.inner_margin(egui::Margin::symmetric(8, 0));
-            egui::Panel::bottom("row below")
-                .exact_size(row.size(window))
-                .resizable(false)
-                .frame(frame)
-                .show(ui, |ui| {
-                    for pane in row.panes.iter().filter_map(|id| layout::pane(id)) {
-                        self.pane(ui, pane);
-                    }
-                });
+            self.row_below(ui, row);
         }
         self.opened_pane(ui);
-        let mut tiles = self.layout.tiles().clone();
-        egui::CentralPanel::default()
-            .frame(egui::Frame::new().fill(ui.visuals().panel_fill))
-            .show(ui, |ui| {
-                let mut behavior = Behavior { app: self };
-                tiles.ui(&mut behavior, ui);
-            });
-        *self.layout.tiles() = tiles;
+        self.tiles(ui);
+    }
+
+    pub(super) fn top_bar(&mut self, ui: &mut egui::Ui) {
+        let mut edits = Edits::default();
+        top_bar::show(ui, &mut self.doc, &mut self.files, &mut edits);
+        self.requests.extend(edits.apply(&mut self.doc));
     }
 
     /// All settings, beside the panes.
@@ -583,26 +585,41 @@ impl eframe::App for App {
         self.serve(&ctx);
         self.under_pointer = None;
         self.doc.restore_selection();
+        self.doc.pick_interesting();
         self.doc.follow_rays(&ctx);
-        let mut edits = Edits::default();
-        egui::Panel::top("top bar").exact_size(40.0).show(ui, |ui| {
-            top_bar::show(ui, &mut self.doc, &mut self.files, &mut edits);
-        });
-        self.requests.extend(edits.apply(&mut self.doc));
-        self.strip(ui);
-        self.working.line(ui, ui.available_rect_before_wrap());
+        let presents = self.presenting.is_some();
+        if !presents {
+            egui::Panel::top("top bar")
+                .exact_size(present::BAR)
+                .show(ui, |ui| self.top_bar(ui));
+            self.strip(ui);
+            self.working.line(ui, ui.available_rect_before_wrap());
+        }
         if let Some(pane) = self.maximized {
             egui::CentralPanel::default().show(ui, |ui| self.pane_with_header(ui, pane));
+        } else if presents {
+            present::show(self, ui);
         } else {
             self.drawer(ui);
             self.task(ui);
         }
+        if presents {
+            present::sliding_bar(self, &ctx);
+        }
         self.message(&ctx);
         if self.doc.in_lesson {
-            self.first_hint.dismiss();
+            self.first_start.dismiss();
         }
-        if self.first_hint.show(&ctx) == Some(Chosen::FirstLesson) {
-            self.doc.next_lesson = crate::lesson::LESSONS.first().map(|known| known.read());
+        match self.first_start.show(&ctx) {
+            Some(Way::Tour) => {
+                self.doc.next_lesson = crate::lesson::LESSONS.first().map(|known| known.read());
+            }
+            Some(Way::Ray) => {
+                self.doc.wants_ray = true;
+                self.switch("ray");
+            }
+            Some(Way::Scene) => self.files.focus_path(),
+            None => {}
         }
         self.doc.notices.show(&ctx);
         self.ask_where_to_save(&ctx);
@@ -631,14 +648,6 @@ impl eframe::App for App {
         self.layout_file.write(&self.layout);
         self.keep_session(0.0, true);
     }
-}
-
-/// What stands in the place of figures while a lesson waits for a prediction.
-const HIDDEN: &str = "Hidden until you have made your prediction.";
-
-/// Whether a pane is a view of the scene, which a lesson never hides.
-fn is_view(pane: PaneId) -> bool {
-    matches!(pane.entry().id, "picture" | "view3d")
 }
 
 fn shell_actions() -> impl Iterator<Item = Info> {

@@ -16,7 +16,7 @@ pub fn sections(shell: impl Iterator<Item = Info>) -> Vec<Section> {
     let gesture = |g: &Gesture| (g.gesture.to_owned(), g.about);
     let named = |(keys, _): &(String, &str)| !keys.is_empty();
     let all = PANES.iter().flat_map(|entry| entry.actions());
-    let everywhere = shell.chain(all.filter(|info| info.scope == Scope::Everywhere));
+    let everywhere = shell.chain(all.filter(|info| info.scope != Scope::Here));
     let mut lines: Vec<_> = everywhere.map(|info| line(&info)).filter(named).collect();
     lines.push((
         "Drop a file".into(),

@@ -43,6 +43,8 @@ pub fn pressed(ctx: &egui::Context, actions: &[Info], scope: Scope) -> Vec<usize
     let now = Focus::of(ctx);
     let asked = !ctx.memory(|memory| memory.allows_interaction(egui::LayerId::background()));
     let focused = now.widget || before.widget || asked || egui::Popup::is_any_open(ctx);
+    // The field of a prediction has the focus, and has no use for the keys that turn the pages.
+    let in_lesson = scope == Scope::Lesson && !asked;
     let typing = now.text || before.text;
     let mut order: Vec<usize> = (0..actions.len()).collect();
     order.sort_by_key(|&place| !actions[place].modifiers.shift);
@@ -52,7 +54,7 @@ pub fn pressed(ctx: &egui::Context, actions: &[Info], scope: Scope) -> Vec<usize
             .filter(|&place| {
                 let info = &actions[place];
                 info.scope == scope
-                    && (!focused || info.modifiers != Modifiers::NONE)
+                    && (!focused || info.modifiers != Modifiers::NONE || in_lesson)
                     && (!typing || info.while_typing)
                     && info.keys.iter().any(|&key| {
                         if info.is_held {

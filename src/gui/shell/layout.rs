@@ -1,7 +1,7 @@
 //! How the window is laid out: the task on view, the tiles of each task, what is open at the bottom, the
 //! size and the theme. It is kept from run to run.
 
-use super::tasks::{TASKS, Task, TaskId};
+use super::tasks::{TASKS, Task, TaskId, slotted};
 use crate::gui::pane::Entry;
 use crate::gui::panes::PANES;
 use egui_tiles::{SimplificationOptions, Tile, TileId, Tree};
@@ -116,6 +116,16 @@ impl Layout {
         self.tasks.insert(self.task, (task.tiles)());
         self.open = None;
         self.settings = false;
+    }
+
+    /// Sets the panes beside a lesson: slots from left to right; the usual ones if there are none.
+    pub fn stage(&mut self, slots: &[Vec<&'static str>]) {
+        let id = TaskId("lessons");
+        let tiles = match slots {
+            [] => (id.task().tiles)(),
+            slots => slotted(slots),
+        };
+        self.tasks.insert(id, tiles);
     }
 
     /// Whether the task on view shows a pane without opening the bottom.

@@ -119,12 +119,22 @@ fn above(
 
 /// Panes of equal width beside each other.
 fn beside(panes: &[&'static str]) -> Tiles {
+    let slots: Vec<_> = panes.iter().map(|pane| vec![*pane]).collect();
+    slotted(&slots)
+}
+
+/// Slots of equal width from left to right, each with panes of equal height from the top.
+pub fn slotted(slots: &[Vec<&'static str>]) -> Tiles {
     let mut tiles = egui_tiles::Tiles::default();
-    let children = panes.iter().map(|id| {
-        let pane = super::layout::pane(id).expect("tasks name known panes");
-        tiles.insert_pane(pane)
-    });
-    let children: Vec<_> = children.collect();
-    let root = tiles.insert_container(Linear::new(LinearDir::Horizontal, children));
+    let mut columns = Vec::new();
+    for slot in slots {
+        let panes = slot.iter().map(|id| {
+            let pane = super::layout::pane(id).expect("slots name known panes");
+            tiles.insert_pane(pane)
+        });
+        let panes: Vec<_> = panes.collect();
+        columns.push(tiles.insert_container(Linear::new(LinearDir::Vertical, panes)));
+    }
+    let root = tiles.insert_container(Linear::new(LinearDir::Horizontal, columns));
     super::layout::tree(root, tiles)
 }

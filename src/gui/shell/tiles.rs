@@ -1,13 +1,50 @@
-//! How the tiles of a task show their panes.
+//! Where a task shows its panes: columns and rows of fixed size, and tiles.
 
 use super::app::App;
-use super::layout::{self, PaneId};
+use super::layout::{self, Column, PaneId};
 use crate::gui::icons;
 use crate::gui::theme::IconButton;
 use egui_tiles::{SimplificationOptions, Tile, TileId, UiResponse};
 
 /// The height of a pane's title row in points.
 pub const TITLE_ROW: f32 = 36.0;
+
+impl App {
+    /// Draws the column at the left.
+    pub(super) fn left_column(&mut self, ui: &mut egui::Ui, column: &Column) {
+        egui::Panel::left("left column")
+            .exact_size(column.size(ui.ctx().content_rect().size()))
+            .resizable(false)
+            .show(ui, |ui| self.column(ui, column.panes));
+    }
+
+    /// Draws the row below.
+    pub(super) fn row_below(&mut self, ui: &mut egui::Ui, row: &Column) {
+        let frame = egui::Frame::new().fill(ui.visuals().panel_fill);
+        // Its panes divide the height among themselves.
+        egui::Panel::bottom("row below")
+            .exact_size(row.size(ui.ctx().content_rect().size()))
+            .resizable(false)
+            .frame(frame.inner_margin(egui::Margin::symmetric(8, 0)))
+            .show(ui, |ui| {
+                for pane in row.panes.iter().filter_map(|id| layout::pane(id)) {
+                    self.pane(ui, pane);
+                }
+            });
+    }
+
+    /// Draws the tiles of the current task in what is left.
+    pub(super) fn tiles(&mut self, ui: &mut egui::Ui) {
+        let mut tiles = self.layout.tiles().clone();
+        egui::CentralPanel::default()
+            .frame(egui::Frame::new().fill(ui.visuals().panel_fill))
+            .show(ui, |ui| {
+                let mut behavior = Behavior { app: self };
+                tiles.ui(&mut behavior, ui);
+            });
+        *self.layout.tiles() = tiles;
+    }
+}
 
 /// Draws tiles with the window's panes.
 pub struct Behavior<'a> {

@@ -3,8 +3,10 @@
 pub mod color_text;
 pub mod coloring_bar;
 pub mod common;
+pub mod hidden;
 pub mod linear_axis;
 pub mod log_axis;
+pub mod markdown;
 pub mod progress_ring;
 pub mod rounded;
 pub mod rows;

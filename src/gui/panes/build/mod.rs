@@ -4,7 +4,7 @@ use crate::gui::action::{actions, tip};
 use crate::gui::document::Document;
 use crate::gui::document::RATES;
 use crate::gui::edits::{Edits, Request};
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::name_widget;
 use crate::gui::widgets::symbol::grouped;
 use crate::gui::widgets::transport::{self, Button, Transport};
@@ -18,6 +18,7 @@ impl Pane for BuildPane {
     const ID: &'static str = "build";
     const TITLE: &'static str = "Build steps";
     const ABOUT: &'static str = "The tree as it stood at any moment of its build.";
+    const REVEALS: &'static [Fact] = &[Fact::Tree];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "build.show" Everywhere COMMAND [G] "Show the build of the tree step by step, or the finished tree" => |_, cx| {
             if !cx.doc.inspect.build.on {

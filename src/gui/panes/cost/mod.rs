@@ -5,7 +5,7 @@ use crate::geometry::Axis;
 use crate::gui::action::{Gesture, actions, tip};
 use crate::gui::document::Document;
 use crate::gui::document::inspect::{TreeKey, WhatIf};
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::{no_picture, short, waiting};
 use crate::gui::widgets::linear_axis::Marks;
 use crate::gui::widgets::symbol::grouped;
@@ -38,6 +38,7 @@ impl Pane for CostPane {
     const ID: &'static str = "split-cost";
     const TITLE: &'static str = "Split cost";
     const ABOUT: &'static str = "The cost of every plane that could split the selected node.";
+    const REVEALS: &'static [Fact] = &[Fact::Tree];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "split-cost.undo-what-if" Here NONE [Delete] "Remove the tried plane" => |_, cx| cx.edits.add(|doc| doc.inspect.what_if = None);
     };

@@ -6,7 +6,7 @@ mod export;
 use crate::gui::action::actions;
 use crate::gui::document::Document;
 use crate::gui::edits::Request;
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::theme::{ROW, tokens};
 use crate::gui::widgets::common::sentence;
 use crate::gui::widgets::symbol::explain;
@@ -23,6 +23,7 @@ impl Pane for FiguresPane {
     const TITLE: &'static str = "Figures";
     const ALIASES: &'static [&'static str] = &["Δ  the tree in seven figures", "Λ  the times"];
     const ABOUT: &'static str = "The septet Δ of counts and the triplet Λ of times.";
+    const REVEALS: &'static [Fact] = &[Fact::Counters(&DELTA), Fact::Counters(&LAMBDA)];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "figures.export" Everywhere ALT [Num4] "Export the figures: text, JSON, CSV, Markdown, LaTeX" => |_, cx| {
             let export = export::figures(cx.doc, cx.ctx);

@@ -7,7 +7,7 @@ use crate::gui::action::{Gesture, actions, tip};
 use crate::gui::document::Document;
 use crate::gui::document::inspect::{Inspect, LeavesKey, TreeKey};
 use crate::gui::edits::Edits;
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::theme::strong;
 use crate::gui::widgets::common::{no_picture, waiting};
 use crate::gui::widgets::symbol::grouped;
@@ -38,6 +38,7 @@ impl Pane for Histograms {
     const TITLE: &'static str = "Histograms";
     const ALIASES: &'static [&'static str] = &["Leaf histograms"];
     const ABOUT: &'static str = "How leaves and rays are distributed; drag to select.";
+    const REVEALS: &'static [Fact] = &[Fact::AllCounters];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "histograms.clear-ranges" Here NONE [Delete] "Select all leaves again" => |_, cx| cx.edits.add(|doc| doc.inspect.clear_ranges());
     };

@@ -5,7 +5,7 @@
 
 use crate::gui::document::Document;
 use crate::gui::document::inspect::TreeKey;
-use crate::gui::pane::{Cx, Pane};
+use crate::gui::pane::{Cx, Fact, Pane};
 use crate::gui::widgets::coloring_bar::color_bar;
 use crate::gui::widgets::common::{no_picture, short, waiting};
 use crate::gui::widgets::symbol::grouped;
@@ -84,6 +84,7 @@ impl Pane for Icicle {
     const ID: &'static str = "icicle";
     const TITLE: &'static str = "Icicle";
     const ABOUT: &'static str = "The tree as nested bars, one row per depth.";
+    const REVEALS: &'static [Fact] = &[Fact::AllCounters];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         let doc: &Document = cx.doc;

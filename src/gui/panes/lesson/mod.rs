@@ -1,15 +1,17 @@
-//! Lessons in the window: a panel on the left that lists them and takes one, step by step. Until
-//! there is a prediction, no figures are shown; leaving a lesson brings back what was there before.
+//! Lessons: a column that lists them and shows the step that is taken. What a step asks for is hidden
+//! until the prediction is checked; leaving a lesson brings back what was there before.
 
-mod panel;
+mod ask;
+mod list;
 mod running;
+mod scale;
+mod step;
 
 use crate::gui::action::actions;
 use crate::gui::document::Document;
-use crate::gui::edits::Request;
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::edits::{Edits, Request};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::lesson::{LESSONS, Lesson};
-use egui_commonmark::CommonMarkCache;
 use running::Running;
 
 /// The list of lessons and the one that is taken.
@@ -20,33 +22,33 @@ pub struct LessonPane {
     path: String,
     /// Why a lesson could not be opened.
     failure: Option<String>,
-    markdown: CommonMarkCache,
 }
 
 impl Pane for LessonPane {
     const ID: &'static str = "lesson";
     const TITLE: &'static str = "Lesson";
     const ABOUT: &'static str = "Guided tours that ask for a prediction, then measure.";
-    const SHOWS_FIGURES: bool = false;
+    const REVEALS: &'static [Fact] = &[];
+    const FILLS: bool = true;
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "lesson.open" Everywhere COMMAND [J] "List the lessons, or exit the current one" typing => |pane, cx| {
             if pane.running.is_some() {
-                pane.leave(cx);
+                pane.leave(cx.edits);
             } else {
                 cx.edits.request(Request::Task("lessons"));
             }
         };
-        "lesson.check" Everywhere ALT [Enter] "Lesson: check your prediction" typing => |pane, cx| {
+        "lesson.check" Lesson ALT [Enter] "Lesson: check your prediction" typing => |pane, cx| {
             if let Some(running) = &mut pane.running {
-                running.reveal(cx);
+                running.check(cx);
             }
         };
-        "lesson.next" Everywhere ALT [PageDown] "Lesson: go to the next step" typing => |pane, cx| {
+        "lesson.next" Lesson NONE [PageDown] "Lesson: go to the next step" typing => |pane, cx| {
             if let Some(running) = &mut pane.running {
                 running.next(cx);
             }
         };
-        "lesson.back" Everywhere ALT [PageUp] "Lesson: go to the previous step" typing => |pane, cx| {
+        "lesson.back" Lesson NONE [PageUp] "Lesson: go to the previous step" typing => |pane, cx| {
             if let Some(running) = &mut pane.running {
                 running.back(cx);
             }
@@ -54,27 +56,25 @@ impl Pane for LessonPane {
     };
 
     fn update(&mut self, cx: &mut Cx<'_>) {
-        self.take_dropped(cx.ctx, cx.doc);
-        if let Some(lesson) = cx.doc.next_lesson.take() {
-            self.leave(cx);
-            match Running::begin(lesson, cx) {
-                Ok(running) => {
-                    self.failure = None;
-                    self.running = Some(running);
-                }
-                Err(error) => self.failure = Some(error.to_string()),
-            }
-            cx.edits.request(Request::Task("lessons"));
+        self.take_dropped(cx.ctx, cx.edits);
+        if let Some(lesson) = cx.doc.next_lesson.clone() {
+            cx.edits.add(|doc| doc.next_lesson = None);
+            self.begin(lesson, cx);
         }
         if let Some(running) = &mut self.running {
             running.follow(cx);
         }
-        cx.doc.in_lesson = self.running.is_some();
-        cx.doc.hides_figures = self.running.as_ref().is_some_and(Running::asks);
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        panel::show(self, ui, cx);
+        let margin = egui::Margin::symmetric(12, 8);
+        egui::Frame::new().inner_margin(margin).show(ui, |ui| {
+            if self.running.is_some() {
+                step::show(self, ui, cx);
+            } else {
+                list::show(self, ui, cx.edits);
+            }
+        });
     }
 
     fn choices(&self) -> Vec<String> {
@@ -83,24 +83,43 @@ impl Pane for LessonPane {
     }
 
     fn choose(&mut self, place: usize, cx: &mut Cx<'_>) {
-        cx.doc.next_lesson = LESSONS.get(place).map(|known| known.read());
+        start(place, cx.edits);
     }
 }
 
+/// Starts a lesson that comes with the program, by its place in the list.
+fn start(place: usize, edits: &mut Edits) {
+    let lesson = LESSONS.get(place).map(|known| known.read());
+    edits.add(|doc| doc.next_lesson = lesson);
+}
+
 impl LessonPane {
-    /// Opens a lesson's file; what is wrong with it is told in the panel.
-    fn open(&mut self, path: &str, doc: &mut Document) {
+    /// Begins a lesson in the place of the one that is taken, if there is one.
+    fn begin(&mut self, lesson: Lesson, cx: &mut Cx<'_>) {
+        let before = self.running.take().map(Running::into_before);
+        match Running::begin(lesson, before, cx) {
+            Ok(running) => {
+                self.failure = None;
+                self.running = Some(running);
+            }
+            Err(error) => self.failure = Some(error.to_string()),
+        }
+        cx.edits.request(Request::Task("lessons"));
+    }
+
+    /// Opens a lesson's file; the column tells what is wrong with it.
+    fn open(&mut self, path: &str, edits: &mut Edits) {
         match Lesson::open(path) {
             Ok(lesson) => {
                 self.failure = None;
-                doc.next_lesson = Some(lesson);
+                edits.add(|doc: &mut Document| doc.next_lesson = Some(lesson));
             }
             Err(error) => self.failure = Some(error.to_string()),
         }
     }
 
     /// Takes a lesson that was dropped onto the window; other files stay for others.
-    fn take_dropped(&mut self, ctx: &egui::Context, doc: &mut Document) {
+    fn take_dropped(&mut self, ctx: &egui::Context, edits: &mut Edits) {
         let dropped = ctx.input_mut(|input| {
             let files = &mut input.raw.dropped_files;
             let extension = |i: usize| files[i].path().extension();
@@ -108,16 +127,14 @@ impl LessonPane {
             Some(files.remove(place).path().to_owned())
         });
         if let Some(path) = dropped {
-            self.open(&path.to_string_lossy(), doc);
+            self.open(&path.to_string_lossy(), edits);
         }
     }
 
     /// Ends the lesson, if there is one; all is as before it.
-    fn leave(&mut self, cx: &mut Cx<'_>) {
+    fn leave(&mut self, edits: &mut Edits) {
         if let Some(running) = self.running.take() {
-            running.restore(cx);
-            cx.doc.in_lesson = false;
-            cx.doc.hides_figures = false;
+            running.into_before().restore(edits);
         }
     }
 }

@@ -2,11 +2,11 @@
 
 use crate::gui::document::comparing::{View, Which};
 use crate::gui::document::{Current, Document, Wanted};
-use crate::gui::edits::Request;
+use crate::gui::edits::{Edits, Request};
 use crate::gui::pane::{Cx, Entry};
 use crate::lesson::{
-    Answer, Difference, Figures, Lesson, LessonError, Named, Prediction, SideFigures, Step,
-    Subject, Verdict,
+    Answer, Difference, Figures, Lesson, LessonError, Named, Prediction, Secret, Side, SideFigures,
+    Step, Subject, Verdict,
 };
 use crate::measure::heat::heatmaps;
 use crate::setup::Setup;
@@ -36,12 +36,12 @@ pub struct Taken {
     pub chosen: Option<usize>,
     /// What was measured; `None` until it is there.
     pub figures: Option<Figures>,
-    /// What became of the prediction; `None` until the answer is told.
+    /// What became of the prediction; `None` until it is checked.
     pub verdict: Option<Verdict>,
 }
 
 /// What there was before the lesson.
-struct Before {
+pub struct Before {
     wanted: Wanted,
     which: Which,
     view: View,
@@ -51,39 +51,72 @@ struct Before {
     task: &'static str,
 }
 
-impl Running {
-    /// Takes the first step.
-    ///
-    /// # Errors
-    /// The first name that the window has nothing for, with its line.
-    pub fn begin(lesson: Lesson, cx: &mut Cx<'_>) -> Result<Running, LessonError> {
-        if let Some(error) = lesson
-            .steps
-            .iter()
-            .find_map(|step| unknown(&lesson, step, cx.panes))
-        {
-            return Err(error);
-        }
-        let doc = &*cx.doc;
-        let before = Before {
+impl Before {
+    fn of(doc: &Document) -> Self {
+        Before {
             wanted: doc.all_wanted(),
             which: doc.which,
             view: doc.comparing.view,
             heatmap: doc.heatmap,
             pixel: doc.current.as_ref().and_then(Current::picked_pixel),
             task: doc.task,
-        };
+        }
+    }
+
+    /// Ends the lesson: all is as it was.
+    pub fn restore(self, edits: &mut Edits) {
+        edits.request(Request::Stage(Vec::new()));
+        edits.request(Request::Task(self.task));
+        edits.add(move |doc| {
+            doc.in_lesson = false;
+            doc.asked = Secret::default();
+            doc.want(self.wanted);
+            doc.show(self.which);
+            doc.comparing.view = self.view;
+            doc.heatmap = self.heatmap;
+            if let Some(current) = &mut doc.current {
+                match self.pixel {
+                    Some(pixel) => current.pick(pixel),
+                    None => current.unpick(),
+                }
+            }
+        });
+    }
+}
+
+impl Running {
+    /// Takes the first step; `before` is what there was before another lesson that it follows.
+    ///
+    /// # Errors
+    /// The first name that the window has nothing for, with its line. All is as it was before.
+    pub fn begin(
+        lesson: Lesson,
+        before: Option<Before>,
+        cx: &mut Cx<'_>,
+    ) -> Result<Running, LessonError> {
+        let mut steps = lesson.steps.iter();
+        if let Some(error) = steps.find_map(|step| unknown(&lesson, step, cx.panes)) {
+            if let Some(before) = before {
+                before.restore(cx.edits);
+            }
+            return Err(error);
+        }
         let mut running = Running {
             at: 0,
             taken: vec![Taken::default(); lesson.steps.len()],
             wanted: wanted_of(&lesson.steps[0].subject, cx.doc),
             picked: false,
             is_new: true,
-            before,
+            before: before.unwrap_or_else(|| Before::of(cx.doc)),
             lesson,
         };
+        cx.edits.add(|doc| doc.in_lesson = true);
         running.set_up(cx);
         Ok(running)
+    }
+
+    pub fn into_before(self) -> Before {
+        self.before
     }
 
     pub fn step(&self) -> &Step {
@@ -98,7 +131,7 @@ impl Running {
         &mut self.taken[self.at]
     }
 
-    /// Whether a prediction is still to be made.
+    /// Whether a prediction is still to be checked.
     pub fn asks(&self) -> bool {
         self.step().question.is_some() && self.now().verdict.is_none()
     }
@@ -116,7 +149,7 @@ impl Running {
     }
 
     /// Tells the answer, if there is a prediction and all is measured.
-    pub fn reveal(&mut self, cx: &mut Cx<'_>) {
+    pub fn check(&mut self, cx: &mut Cx<'_>) {
         let prediction = self.prediction().filter(|_| self.asks());
         if let (Some(prediction), Some(figures), Some(question)) =
             (prediction, &self.now().figures, &self.step().question)
@@ -152,43 +185,56 @@ impl Running {
 
     /// Sets what the step looks at.
     pub fn set_up(&mut self, cx: &mut Cx<'_>) {
-        let subject = &self.lesson.steps[self.at].subject;
-        self.wanted = wanted_of(subject, cx.doc);
+        let step = &self.lesson.steps[self.at];
+        self.wanted = wanted_of(&step.subject, cx.doc);
         self.picked = false;
         self.is_new = true;
-        cx.doc.want(self.wanted.clone());
-        cx.doc.show(Which::A);
-        let view = subject.look.view.as_ref();
-        if let Some(view) = view.and_then(|named| view_of(&named.name)) {
-            cx.doc.comparing.view = view;
-        }
-        for named in subject.look.panes.iter().chain(&subject.look.panels) {
-            if let Some(pane) = pane_of(cx.panes, &named.name) {
-                cx.edits.request(Request::Show(pane.id));
-            }
-        }
+        let (wanted, front) = (self.wanted.clone(), front(&step.subject));
+        let view = step.subject.look.view.as_ref();
+        let view = view.and_then(|named| view_of(&named.name));
+        cx.edits.add(move |doc| {
+            doc.want(wanted);
+            doc.show(front);
+            doc.comparing.view = view.unwrap_or(View::Wipe);
+        });
         self.look(cx);
     }
 
-    /// Shows what comes with the answer, or not yet.
+    /// Shows what comes with the answer, or hides what would tell it.
     fn look(&self, cx: &mut Cx<'_>) {
         let look = &self.step().subject.look;
-        let told = look.heatmap.filter(|_| !self.asks());
-        let place = told.and_then(|symbol| heatmaps().iter().position(|h| h.symbol == symbol));
-        cx.doc.heatmap = place;
+        let asks = self.asks();
+        let told = look.heatmap.filter(|_| !asks);
+        let heatmap = told.and_then(|symbol| heatmaps().iter().position(|h| h.symbol == symbol));
+        let asked = match asks {
+            true => self.step().secret(),
+            false => Secret::default(),
+        };
+        cx.edits.add(move |doc| {
+            doc.heatmap = heatmap;
+            doc.asked = asked;
+        });
+        cx.edits
+            .request(Request::Stage(slots(&self.step().subject, asks, cx.panes)));
     }
 
     /// Picks the step's pixel once its picture is there, and takes the figures once they are final.
     pub fn follow(&mut self, cx: &mut Cx<'_>) {
-        let doc = &mut *cx.doc;
-        let subject = &self.lesson.steps[self.at].subject;
+        let doc: &Document = cx.doc;
+        let step = &self.lesson.steps[self.at];
+        let subject = &step.subject;
         let is_wanted = |current: &&Current, wanted: &Setup| current.shown.setup == *wanted;
+        let in_front = doc.current.as_ref().filter(|c| is_wanted(c, &doc.wanted));
         if let (Some(pixel), false) = (subject.pixel, self.picked)
-            && let [Some(a), _] = doc.both_mut()
-            && is_wanted(&&*a, &self.wanted.a)
+            && in_front.is_some()
+            && !self.is_changed(doc)
         {
-            a.pick(pixel);
             self.picked = true;
+            cx.edits.add(move |doc| {
+                if let Some(current) = &mut doc.current {
+                    current.pick(pixel);
+                }
+            });
         }
         if self.taken[self.at].figures.is_some() {
             return;
@@ -216,35 +262,45 @@ impl Running {
         });
     }
 
-    /// How many predictions were right, of how many whose answers were told.
+    /// How many predictions were right, of how many that were checked.
     pub fn score(&self) -> (usize, usize) {
         let told = self.taken.iter().filter_map(|taken| taken.verdict.as_ref());
         let right = told.clone().filter(|verdict| verdict.is_right()).count();
         (right, told.count())
     }
+}
 
-    /// Brings back what there was before.
-    pub fn restore(self, cx: &mut Cx<'_>) {
-        let Before {
-            wanted,
-            which,
-            view,
-            heatmap,
-            pixel,
-            task,
-        } = self.before;
-        cx.doc.want(wanted);
-        cx.doc.show(which);
-        cx.doc.comparing.view = view;
-        cx.doc.heatmap = heatmap;
-        cx.edits.request(Request::Task(task));
-        if let Some(current) = &mut cx.doc.current {
-            match pixel {
-                Some(pixel) => current.pick(pixel),
-                None => current.unpick(),
-            }
+/// The tree that a step is about.
+fn front(subject: &Subject) -> Which {
+    match subject.look.front {
+        Side::A => Which::A,
+        Side::B => Which::B,
+    }
+}
+
+/// What stands beside the lesson: the picture, and the panes that the step names; its panels come with
+/// the answer. Where it names nothing, the 3D view, or the picture of B.
+fn slots(subject: &Subject, asks: bool, panes: &'static [Entry]) -> Vec<Vec<&'static str>> {
+    let look = &subject.look;
+    let named = look
+        .panes
+        .iter()
+        .chain(look.panels.iter().filter(|_| !asks));
+    let mut third: Vec<&'static str> = Vec::new();
+    for pane in named.filter_map(|named| pane_of(panes, &named.name)) {
+        if !["picture", "lesson"].contains(&pane.id) && !third.contains(&pane.id) {
+            third.push(pane.id);
         }
     }
+    let view = look.view.as_ref().and_then(|named| view_of(&named.name));
+    if view == Some(View::Beside) && subject.b.is_some() {
+        third.insert(0, "picture");
+        return vec![third];
+    }
+    if third.is_empty() {
+        third.push("view3d");
+    }
+    vec![vec!["picture"], third]
 }
 
 fn side_figures(current: &Current, subject: &Subject) -> SideFigures {
@@ -301,6 +357,15 @@ mod tests {
     use crate::gui::panes::PANES;
     use crate::lesson::LESSONS;
 
+    /// A lesson of one step with these settings.
+    fn lesson(settings: &str) -> Lesson {
+        let text = format!(
+            "+++\ntitle = \"T\"\nabout = \"A\"\n+++\n# S\n```toml\nscene = \"tetra\"\n\
+             a = \"method=none\"\n{settings}\n```\nText\n"
+        );
+        Lesson::parse(&text, "t.md").unwrap()
+    }
+
     #[test]
     fn every_lesson_names_what_the_window_has() {
         for known in LESSONS {
@@ -315,10 +380,23 @@ mod tests {
 
     #[test]
     fn names_that_the_window_lacks_are_told_with_their_line() {
-        let text = "+++\ntitle = \"T\"\nabout = \"A\"\n+++\n# S\n```toml\nscene = \"tetra\"\n\
-                    a = \"method=none\"\npanes = [\n\"Outline\",\n\"Inline\"]\n```\nText\n";
-        let lesson = Lesson::parse(text, "t.md").unwrap();
+        let lesson = lesson("panes = [\n\"Outline\",\n\"Inline\"]");
         let wrong = unknown(&lesson, &lesson.steps[0], PANES).unwrap();
         assert_eq!(wrong.to_string(), "t.md:11: no pane is called 'Inline'");
+    }
+
+    #[test]
+    fn the_step_decides_what_stands_beside_the_lesson() {
+        let slots = |settings: &str, asks| {
+            let lesson = lesson(settings);
+            super::slots(&lesson.steps[0].subject, asks, PANES)
+        };
+        let named = "panes = [\"Outline\"]\npanels = [\"Rays of the pixel\"]";
+        assert_eq!(slots("", false), [vec!["picture"], vec!["view3d"]]);
+        assert_eq!(slots(named, true), [vec!["picture"], vec!["outline"]]);
+        let all = vec!["outline", "rays"];
+        assert_eq!(slots(named, false), [vec!["picture"], all]);
+        let beside = "b = \"method=midpoint\"\nview = \"side by side\"";
+        assert_eq!(slots(beside, true), [vec!["picture"]]);
     }
 }

@@ -3,7 +3,7 @@
 use crate::gui::action::tip;
 use crate::gui::document::{Current, Document};
 use crate::gui::edits::Edits;
-use crate::gui::pane::{Cx, Pane};
+use crate::gui::pane::{Cx, Fact, Pane};
 
 #[derive(Default)]
 pub struct NotesPane;
@@ -12,7 +12,7 @@ impl Pane for NotesPane {
     const ID: &'static str = "notes";
     const TITLE: &'static str = "Notes";
     const ABOUT: &'static str = "Your notes and pinned pixels, saved with the workspace.";
-    const SHOWS_FIGURES: bool = false;
+    const REVEALS: &'static [Fact] = &[];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         let doc: &Document = cx.doc;

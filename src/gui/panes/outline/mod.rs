@@ -8,7 +8,7 @@ use crate::gui::action::{actions, tip};
 use crate::gui::document::Document;
 use crate::gui::document::inspect::TreeKey;
 use crate::gui::document::visits;
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::theme;
 use crate::gui::widgets::common::{no_picture, short, waiting};
 use crate::gui::widgets::symbol::grouped;
@@ -101,6 +101,7 @@ impl Pane for Outline {
     const ID: &'static str = "outline";
     const TITLE: &'static str = "Outline";
     const ABOUT: &'static str = "The nodes of the tree as a table that unfolds.";
+    const REVEALS: &'static [Fact] = &[Fact::AllCounters, Fact::Steps];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "outline.row-up" Here NONE [ArrowUp] "Select the row above" => |pane, _| pane.moves.push(Move::RowUp);
         "outline.row-down" Here NONE [ArrowDown] "Select the row below" => |pane, _| pane.moves.push(Move::RowDown);

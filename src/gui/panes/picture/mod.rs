@@ -15,7 +15,7 @@ use crate::gui::action::{Gesture, actions};
 use crate::gui::document::Document;
 use crate::gui::document::comparing::{Verdict, View};
 use crate::gui::edits::{Edits, Request};
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::measure::heat::heatmaps;
 use crate::workspace;
 use egui::{Color32, ColorImage, Pos2, Rect, TextureHandle, TextureOptions, Vec2, pos2};
@@ -56,6 +56,7 @@ impl Pane for PicturePane {
     const ID: &'static str = "picture";
     const TITLE: &'static str = "Picture";
     const ABOUT: &'static str = "The ray-traced picture, or a heatmap of what each pixel cost.";
+    const REVEALS: &'static [Fact] = &[];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "picture.export" Everywhere ALT [Num1] "Export the picture: PNG or EXR" => |_, cx| {
             let export = export::picture(cx.doc);
@@ -127,7 +128,8 @@ impl Pane for PicturePane {
         if doc.heatmap.is_some() {
             self.heat.legend(ui, doc, room, hovered);
         }
-        let value = hovered.and_then(|pixel| self.heat.value_text(pixel));
+        let told = hovered.filter(|_| !self.heat.is_secret(doc));
+        let value = told.and_then(|pixel| self.heat.value_text(pixel));
         let hovered = hovered.map(|pixel| (pixel, value));
         edits.add(move |doc| doc.hovered = hovered);
     }

@@ -8,7 +8,7 @@ mod strip;
 use crate::gui::action::actions;
 use crate::gui::document::Document;
 use crate::gui::document::walk::Go;
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::rest_of;
 use egui::{Layout, Ui, vec2};
 
@@ -27,6 +27,7 @@ impl Pane for RayPane {
     const TITLE: &'static str = "Steps of the ray";
     const ALIASES: &'static [&'static str] = &["Walk of the ray"];
     const ABOUT: &'static str = "Every node that the selected ray visits, in order, and why.";
+    const REVEALS: &'static [Fact] = &[Fact::Rays, Fact::Steps];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "ray.previous-ray" Everywhere NONE [PageUp] "Select the previous ray of the picked pixel" => |_, cx| cx.edits.add(|doc| doc.next_ray(-1));
         "ray.next-ray" Everywhere NONE [PageDown] "Select the next ray of the picked pixel" => |_, cx| cx.edits.add(|doc| doc.next_ray(1));

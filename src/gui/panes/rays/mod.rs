@@ -5,7 +5,7 @@ mod pixel;
 use crate::gui::action::shortcut;
 use crate::gui::document::Document;
 use crate::gui::edits::Edits;
-use crate::gui::pane::{Cx, Pane};
+use crate::gui::pane::{Cx, Fact, Pane};
 use crate::gui::widgets::rows::{Column, List, Row, chip};
 use crate::gui::widgets::step_text;
 use crate::gui::widgets::symbol::grouped;
@@ -106,6 +106,7 @@ impl Pane for RaysPane {
     const TITLE: &'static str = "Rays of the pixel";
     const ALIASES: &'static [&'static str] = &["Picked pixel"];
     const ABOUT: &'static str = "The picked pixel, its rays and what they did.";
+    const REVEALS: &'static [Fact] = &[Fact::Rays, Fact::Steps];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         let doc: &Document = cx.doc;

@@ -1,7 +1,7 @@
 //! What the scene contains, what rendering it needs, and the load report.
 
 use crate::gui::document::Document;
-use crate::gui::pane::{Cx, Pane};
+use crate::gui::pane::{Cx, Fact, Pane};
 use crate::gui::theme::heading;
 use crate::gui::widgets::common::no_picture;
 use crate::gui::widgets::symbol::grouped;
@@ -15,7 +15,7 @@ impl Pane for ScenePane {
     const TITLE: &'static str = "Scene";
     const ABOUT: &'static str =
         "What the scene contains, what rendering it needs, and the load report.";
-    const SHOWS_FIGURES: bool = false;
+    const REVEALS: &'static [Fact] = &[];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         show(ui, cx.doc);

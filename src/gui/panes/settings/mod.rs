@@ -3,7 +3,7 @@
 use crate::gui::action::tip;
 use crate::gui::document::Document;
 use crate::gui::edits::Edits;
-use crate::gui::pane::{Cx, Pane};
+use crate::gui::pane::{Cx, Fact, Pane};
 use crate::gui::theme::heading;
 use crate::gui::widgets::setting_widget::{Around, rows};
 use crate::scene::CameraOverride;
@@ -20,7 +20,7 @@ impl Pane for SettingsPane {
     const TITLE: &'static str = "Settings";
     const ALIASES: &'static [&'static str] = &["Tree"];
     const ABOUT: &'static str = "How the tree is built and how the picture is rendered.";
-    const SHOWS_FIGURES: bool = false;
+    const REVEALS: &'static [Fact] = &[];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         let doc: &Document = cx.doc;

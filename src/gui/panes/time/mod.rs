@@ -7,7 +7,7 @@ mod study;
 use crate::gui::action::{actions, tip};
 use crate::gui::document::picture_job::{PictureJob, Progress};
 use crate::gui::document::{Current, Document};
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::no_picture;
 use crate::gui::widgets::symbol::grouped;
 use crate::jobs::{CountTerms, End, Scheduler, Standing};
@@ -92,6 +92,7 @@ impl Pane for TimePane {
     const ALIASES: &'static [&'static str] = &["Time"];
     const ABOUT: &'static str =
         "Where the rendering time goes: nodes, hits and misses, by equation (1).";
+    const REVEALS: &'static [Fact] = &[Fact::AllCounters];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "time.run" Here NONE [Enter] "Measure what nodes and tests take; Esc ends it" => |pane, cx| pane.modelling.start(cx.doc);
         "time.next-extent" Here NONE [W] "Show the time of the whole picture, the marked region or the picked pixel" => |pane, _| pane.extent = Extent::ALL[(pane.extent as usize + 1) % Extent::ALL.len()];

@@ -3,7 +3,7 @@
 mod study;
 
 use crate::gui::document::Document;
-use crate::gui::pane::{Cx, Pane};
+use crate::gui::pane::{Cx, Fact, Pane};
 use crate::gui::theme::strong;
 use crate::measure::judge::Tally;
 use crate::present::number::{Digits, counted};
@@ -21,7 +21,7 @@ impl Pane for VerificationPane {
     const ALIASES: &'static [&'static str] = &["Judge"];
     const ABOUT: &'static str =
         "Whether the tree gives the hits of testing every object, for sampled rays.";
-    const SHOWS_FIGURES: bool = false;
+    const REVEALS: &'static [Fact] = &[];
 
     fn update(&mut self, cx: &mut Cx<'_>) {
         self.judging.receive();

@@ -35,6 +35,7 @@ impl View3d {
         current: &Current,
         visits: Option<Result<Arc<PictureVisits>, String>>,
         marks: &marks::Marks,
+        tells: bool,
     ) {
         let (scene, tree) = (&current.shown.scene, &current.shown.tree);
         let center = scene_mesh::center_of(scene);
@@ -110,10 +111,13 @@ impl View3d {
         };
         ui.painter()
             .add(egui_wgpu::Callback::new_paint_callback(rect, frame));
-        if let Some(path) = path {
+        if let Some(path) = path.filter(|_| tells) {
             self.number_leaves(ui, rect, path);
         }
         marks.name(&self.camera, ui, rect);
+        if !tells {
+            return;
+        }
         let mut keys = marks.key();
         keys.extend(self.settings.cut.text(&tree.root_cell()));
         let legend = legend::Legend {

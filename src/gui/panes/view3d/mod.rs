@@ -25,7 +25,7 @@ mod view;
 use crate::gui::action::Gesture;
 use crate::gui::document::Document;
 use crate::gui::edits::Request;
-use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::rest_of;
 use crate::present::overlay::COLORINGS;
 use crate::workspace;
@@ -40,6 +40,7 @@ impl Pane for View3d {
     const ALIASES: &'static [&'static str] = &["3D view"];
     const ABOUT: &'static str =
         "The scene, the leaves of its tree, and the rays of the picked pixel.";
+    const REVEALS: &'static [Fact] = &[];
     const ACTIONS: &'static [PaneAction<Self>] = actions::ACTIONS;
     const GESTURES: &'static [Gesture] = &[
         Gesture {
@@ -109,7 +110,10 @@ impl Pane for View3d {
                 );
             }
             (Some(_), None) => drawing::note(ui, rect, "No scene yet"),
-            (Some(_), Some(current)) => self.draw(ui, rect, current, visits, &marks),
+            (Some(_), Some(current)) => {
+                let tells = !doc.hides(&[Fact::Tree, Fact::Steps]);
+                self.draw(ui, rect, current, visits, &marks, tells);
+            }
         }
     }
 

@@ -5,8 +5,10 @@ use super::look::Look;
 use super::{HeatView, Progress, chosen, is_timed};
 use crate::gui::document::Document;
 use crate::gui::theme::hint;
+use crate::gui::widgets::hidden::HIDDEN;
 use crate::gui::widgets::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::gui::widgets::symbol::grouped;
+use crate::measure::heat::heatmaps;
 use egui::{Color32, Painter, Rect, Shape, Stroke, pos2, vec2};
 
 /// Height of the color bar in points.
@@ -61,6 +63,12 @@ pub fn height(room: f32) -> f32 {
 }
 
 impl HeatView {
+    /// Whether a lesson asks for what the heatmap tells.
+    pub fn is_secret(&self, doc: &Document) -> bool {
+        let heatmap = doc.heatmap.map(|place| &heatmaps()[place]);
+        heatmap.is_some_and(|heatmap| doc.asked.hides_heatmap(heatmap.symbol))
+    }
+
     /// Shows the legend of what is on view, or why there is nothing yet. `room` is what the picture
     /// leaves free below it.
     pub fn legend(
@@ -77,6 +85,10 @@ impl HeatView {
         let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(rect));
         ui.spacing_mut().item_spacing.y = 0.0;
         ui.spacing_mut().interact_size.y = LINE;
+        if self.is_secret(doc) {
+            ui.weak(HIDDEN);
+            return;
+        }
         match self.look().cloned() {
             Some(look) => self.contents(&mut ui, &look, doc, size, hovered),
             None => self.waiting(&mut ui, doc),
