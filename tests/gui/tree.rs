@@ -135,6 +135,10 @@ fn a_picked_object_leads_to_its_leaves() {
     let mut window = open("balls:1", "midpoint", true);
     click(&mut window, "Traced picture");
     wait(&mut window, "the object", |w| has(w, "is in"));
+    // The task Ray is on view, where the legend can be folded.
+    if window.query_by_label("Unfold the legend").is_some() {
+        click(&mut window, "Unfold the legend");
+    }
     assert!(has(&window, "thin red: "));
     window.get_by_label_contains(" is in ").click();
     wait(&mut window, "the leaves", |w| listed_leaves(w) > 0);
