@@ -10,7 +10,7 @@ use eframe::egui_wgpu::RenderState;
 
 /// What a pane works with.
 pub struct Cx<'a> {
-    pub doc: &'a mut Document,
+    pub doc: &'a Document,
     pub edits: &'a mut Edits,
     pub ctx: &'a egui::Context,
     /// All panes.

@@ -1,22 +1,21 @@
-//! Puts the window together: bars, panes of the current task, messages, and the order of a frame.
+//! The window: the document, the panes, and what is kept of them. [`super::frame`] draws it.
 
-use super::actions::ACTIONS;
 use super::clipboard::Clipboard;
 use super::exporting::Exports;
 use super::files::Files;
-use super::first_start::{FirstStart, Way};
+use super::first_start::FirstStart;
+use super::full_screen::FullScreen;
 use super::kept::KeptFile;
-use super::layout::{self, LAYOUT_FILE, Layout, PaneId};
-use super::palette::{Command, Palette};
-use super::present::{self, Presenting};
+use super::layout::{LAYOUT_FILE, Layout};
+use super::palette::Palette;
+use super::places::{self, PaneId, TITLE_ROW};
 use super::progress::WorkInProgress;
 use super::recent::Recent;
 use super::status::StatusLine;
-use super::tasks::{Task, TaskId, task};
-use super::tiles::TITLE_ROW;
+use super::tasks::{TaskId, task};
 use super::title::Title;
 use super::workspaces::Workspaces;
-use super::{help, keys, top_bar};
+use super::{keys, top_bar};
 use crate::gui::StartOptions;
 use crate::gui::action::{self, Info, Scope};
 use crate::gui::document::notices::Notices;
@@ -28,48 +27,53 @@ use crate::gui::panes::PANES;
 use crate::gui::theme::{self, IconButton};
 use crate::gui::widgets::hidden;
 use crate::scene::SceneSource;
-use crate::scene::format::names;
 use crate::setup::{Setup, measure_command};
 use crate::workspace::Workspace;
 
 /// The window.
 pub struct App {
     pub(super) doc: Document,
+    /// The actions of the shell.
+    pub(super) shell: Vec<Info>,
     /// The panes, in the order of [`PANES`].
-    panes: Vec<Box<dyn AnyPane>>,
+    pub(super) panes: Vec<Box<dyn AnyPane>>,
     /// Their actions, likewise.
-    actions: Vec<Vec<Info>>,
+    pub(super) actions: Vec<Vec<Info>>,
     pub(super) files: Files,
     pub(super) layout: Layout,
-    layout_file: KeptFile,
+    pub(super) layout_file: KeptFile,
     /// The layout as it was kept last.
-    kept_layout: Option<Layout>,
+    pub(super) kept_layout: Option<Layout>,
     /// The pane that fills the window.
-    maximized: Option<PaneId>,
+    pub(super) maximized: Option<PaneId>,
     /// The pane under the pointer.
-    under_pointer: Option<PaneId>,
-    presenting: Option<Presenting>,
+    pub(super) under_pointer: Option<PaneId>,
+    pub(super) presenting: Option<FullScreen>,
     pub(super) status: StatusLine,
     pub(super) help_open: bool,
-    palette: Palette,
-    exports: Exports,
-    first_start: FirstStart,
-    clipboard: Clipboard,
-    title: Title,
+    pub(super) palette: Palette,
+    pub(super) exports: Exports,
+    pub(super) first_start: FirstStart,
+    pub(super) clipboard: Clipboard,
+    pub(super) title: Title,
     /// The largest window that the graphics adapter can draw, in pixels on a side; 0 before it is known.
-    largest: usize,
-    working: WorkInProgress,
+    pub(super) largest: usize,
+    pub(super) working: WorkInProgress,
     /// What panes and menus asked for in this frame.
-    requests: Vec<Request>,
+    pub(super) requests: Vec<Request>,
 }
 
 impl App {
-    /// Makes the window's contents and asks for the first scene.
-    pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Self {
+    /// Makes the window's contents, with the actions of the shell, and asks for the first scene.
+    pub(super) fn with_actions(
+        cc: &eframe::CreationContext<'_>,
+        start: StartOptions,
+        shell: Vec<Info>,
+    ) -> Self {
         let ctx = &cc.egui_ctx;
         theme::install(ctx);
         let of_panes = PANES.iter().flat_map(|entry| entry.actions());
-        action::register(shell_actions().chain(of_panes));
+        action::register(shell.iter().copied().chain(of_panes));
         let recent = Recent::kept(KeptFile::new(&start, "recent.json"));
         let mut notices = Notices::default();
         let jobs = tasks::scheduler(ctx);
@@ -91,6 +95,7 @@ impl App {
         }
         let mut app = App {
             doc: Document::new(&start, jobs),
+            shell,
             panes,
             actions: PANES.iter().map(|entry| entry.actions()).collect(),
             files: Files::new(recent, workspaces),
@@ -131,7 +136,7 @@ impl App {
     }
 
     /// All that is shown, as a workspace.
-    fn workspace(&self) -> Workspace {
+    pub(super) fn workspace(&self) -> Workspace {
         let mut workspace = self.doc.workspace();
         for pane in &self.panes {
             pane.save(&mut workspace.view);
@@ -141,7 +146,7 @@ impl App {
     }
 
     /// Shows what a workspace says. A layout that is not known leaves the panes as they are.
-    fn restore(&mut self, workspace: &Workspace, ctx: &egui::Context) {
+    pub(super) fn restore(&mut self, workspace: &Workspace, ctx: &egui::Context) {
         let largest = ctx.input(|i| i.max_texture_side) as u32;
         self.doc.restore(workspace, largest);
         for pane in &mut self.panes {
@@ -174,13 +179,14 @@ impl App {
 
     pub(super) fn toggle_palette(&mut self) {
         let recent = self.files.recent.sources();
-        self.palette.toggle(shell_actions(), &self.panes, recent);
+        let shell = self.shell.iter().copied();
+        self.palette.toggle(shell, &self.panes, recent);
     }
 
     pub(super) fn toggle_present(&mut self, ctx: &egui::Context) {
         match self.presenting.take() {
             Some(presenting) => presenting.end(ctx),
-            None => self.presenting = Some(Presenting::begin(ctx)),
+            None => self.presenting = Some(FullScreen::begin(ctx)),
         }
     }
 
@@ -244,27 +250,8 @@ impl App {
         }
     }
 
-    /// Runs a shell action or a pane's, by its id; an action of a pane brings the pane to the front.
-    fn run(&mut self, id: &str, ctx: &egui::Context) {
-        if let Some(action) = ACTIONS.iter().find(|action| action.info.id == id) {
-            (action.run)(self, ctx);
-            return;
-        }
-        for pane in PaneId::all() {
-            let actions = &self.actions[pane.place()];
-            if let Some(place) = actions.iter().position(|info| info.id == id) {
-                if actions[place].scope == Scope::Here {
-                    self.layout.show(pane);
-                }
-                self.with_pane(pane, ctx, |pane, cx| pane.act(place, cx));
-                return;
-            }
-        }
-        debug_assert!(false, "no action is called {id}");
-    }
-
     /// Calls a pane with the document, then applies its edits.
-    fn with_pane(
+    pub(super) fn with_pane(
         &mut self,
         pane: PaneId,
         ctx: &egui::Context,
@@ -272,7 +259,7 @@ impl App {
     ) {
         let mut edits = Edits::default();
         let mut cx = Cx {
-            doc: &mut self.doc,
+            doc: &self.doc,
             edits: &mut edits,
             ctx,
             panes: PANES,
@@ -281,55 +268,8 @@ impl App {
         self.requests.extend(edits.apply(&mut self.doc));
     }
 
-    /// Does what panes and menus asked for.
-    fn serve(&mut self, ctx: &egui::Context) {
-        for request in std::mem::take(&mut self.requests) {
-            match request {
-                Request::Show(id) => {
-                    if let Some(pane) = layout::pane(id) {
-                        self.layout.show(pane);
-                    }
-                }
-                Request::Task(id) => self.switch(id),
-                Request::Stage(slots) => self.layout.stage(&slots),
-                Request::Run(id) => self.run(id, ctx),
-                Request::Export(export) => self.exports.ask(*export, &mut self.doc),
-                Request::Copy(text) => self.clipboard.copy(text, ctx),
-            }
-            ctx.request_repaint();
-        }
-    }
-
-    /// Does what was chosen in the palette.
-    fn command(&mut self, command: Command, ctx: &egui::Context) {
-        match command {
-            Command::Do(id) => self.run(id, ctx),
-            Command::Method(method) => self.doc.wanted.build.set_method(method),
-            Command::Open(source) => self.files.open(source, ctx, &mut self.doc),
-            Command::Show(id) => self.requests.push(Request::Show(id)),
-            Command::Choose(place, choice) => {
-                let pane = PaneId::all().nth(place);
-                if let Some(pane) = pane {
-                    self.with_pane(pane, ctx, |pane, cx| pane.choose(choice, cx));
-                }
-            }
-        }
-    }
-
-    /// Runs the actions that keys ask for everywhere.
-    fn keys(&mut self, ctx: &egui::Context) {
-        if self.doc.in_lesson {
-            self.pane_keys(ctx, Scope::Lesson);
-        }
-        let shell: Vec<Info> = shell_actions().collect();
-        for place in keys::pressed(ctx, &shell, Scope::Everywhere) {
-            (ACTIONS[place].run)(self, ctx);
-        }
-        self.pane_keys(ctx, Scope::Everywhere);
-    }
-
     /// Runs the actions of panes that keys ask for in one scope.
-    fn pane_keys(&mut self, ctx: &egui::Context, scope: Scope) {
+    pub(super) fn pane_keys(&mut self, ctx: &egui::Context, scope: Scope) {
         for pane in PaneId::all() {
             for place in keys::pressed(ctx, &self.actions[pane.place()], scope) {
                 self.with_pane(pane, ctx, |pane, cx| pane.act(place, cx));
@@ -395,7 +335,7 @@ impl App {
 
     /// Draws panes below each other; the last one scrolls.
     pub(super) fn column(&mut self, ui: &mut egui::Ui, panes: &[&str]) {
-        let panes: Vec<PaneId> = panes.iter().filter_map(|id| layout::pane(id)).collect();
+        let panes: Vec<PaneId> = panes.iter().filter_map(|id| places::pane(id)).collect();
         let Some((last, before)) = panes.split_last() else {
             return;
         };
@@ -421,52 +361,14 @@ impl App {
             .show(ui, |ui| self.pane(ui, pane));
     }
 
-    /// Draws the current task: columns, the bottom, and the tiles in what is left.
-    fn task(&mut self, ui: &mut egui::Ui) {
-        let window = ui.ctx().content_rect().size();
-        let Task {
-            left, right, below, ..
-        } = self.layout.current();
-        if let Some(column) = left {
-            self.left_column(ui, column);
-        }
-        if let Some(column) = right {
-            egui::Panel::right("right column")
-                .exact_size(column.size(window))
-                .resizable(false)
-                .show(ui, |ui| self.column(ui, column.panes));
-        }
-        if let Some(row) = below {
-            self.row_below(ui, row);
-        }
-        self.opened_pane(ui);
-        self.tiles(ui);
-    }
-
     pub(super) fn top_bar(&mut self, ui: &mut egui::Ui) {
         let mut edits = Edits::default();
         top_bar::show(ui, &mut self.doc, &mut self.files, &mut edits);
         self.requests.extend(edits.apply(&mut self.doc));
     }
 
-    /// All settings, beside the panes.
-    fn drawer(&mut self, ui: &mut egui::Ui) {
-        if self.layout.settings
-            && let Some(pane) = layout::pane("settings")
-        {
-            egui::Panel::right("settings")
-                .exact_size(300.0)
-                .resizable(false)
-                .show(ui, |ui| {
-                    egui::ScrollArea::vertical()
-                        .auto_shrink(false)
-                        .show(ui, |ui| self.pane(ui, pane));
-                });
-        }
-    }
-
     /// Keeps the window within what the graphics adapter can draw: a larger one could not be shown.
-    fn limit_size(&mut self, ctx: &egui::Context) {
+    pub(super) fn limit_size(&mut self, ctx: &egui::Context) {
         let largest = ctx.input(|i| i.max_texture_side);
         if largest != self.largest {
             self.largest = largest;
@@ -478,7 +380,7 @@ impl App {
 
     /// Takes note of theme and size, and keeps the layout if it is another; a drag counts when it
     /// is over.
-    fn keep_layout(&mut self, ctx: &egui::Context) {
+    pub(super) fn keep_layout(&mut self, ctx: &egui::Context) {
         self.layout.dark = match ctx.options(|options| options.theme_preference) {
             egui::ThemePreference::Dark => Some(true),
             egui::ThemePreference::Light => Some(false),
@@ -500,7 +402,7 @@ impl App {
     }
 
     /// Asks where to save the workspace, while that was asked for.
-    fn ask_where_to_save(&mut self, ctx: &egui::Context) {
+    pub(super) fn ask_where_to_save(&mut self, ctx: &egui::Context) {
         let mut workspaces = std::mem::take(&mut self.files.workspaces);
         if let Some(path) = workspaces.show(ctx, || self.workspace()) {
             self.files.recent.add(SceneSource::File(path));
@@ -509,161 +411,11 @@ impl App {
     }
 
     /// Keeps what is shown for the next start, once there is something.
-    fn keep_session(&mut self, now: f64, at_once: bool) {
+    pub(super) fn keep_session(&mut self, now: f64, at_once: bool) {
         if self.doc.current.is_some() {
             let mut workspaces = std::mem::take(&mut self.files.workspaces);
             workspaces.keep(now, at_once, || self.workspace());
             self.files.workspaces = workspaces;
         }
     }
-
-    /// Why something failed, until it is closed; over the panes, so that nothing moves.
-    fn message(&mut self, ctx: &egui::Context) {
-        let Some(failure) = &self.doc.failure else {
-            return;
-        };
-        let kept = self.doc.current.is_some();
-        let mut open = true;
-        let mut close = false;
-        egui::Window::new("Problem")
-            .open(&mut open)
-            .anchor(egui::Align2::CENTER_BOTTOM, [0.0, -40.0])
-            .collapsible(false)
-            .resizable(false)
-            .default_width(520.0)
-            .show(ctx, |ui| {
-                ui.strong(&failure.what);
-                ui.add(egui::Label::new(format!("Reason: {}", failure.why)).wrap());
-                if kept {
-                    ui.weak("Nothing else changed.");
-                }
-                close = ui
-                    .button("Dismiss")
-                    .on_hover_text("Close this message.\nShortcut: Esc")
-                    .clicked();
-            });
-        if close || !open {
-            self.doc.failure = None;
-        }
-    }
-}
-
-impl eframe::App for App {
-    fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
-        let opened = self.doc.receive();
-        // A lesson's scenes are not the user's.
-        if !self.doc.in_lesson {
-            for source in opened {
-                self.files.recent.add(source);
-            }
-        }
-        for pane in PaneId::all() {
-            self.with_pane(pane, ctx, |pane, cx| pane.update(cx));
-        }
-        self.files.receive(ctx, &mut self.doc);
-        if let Some((path, workspace)) = self.files.workspaces.receive(&mut self.doc, ctx) {
-            self.restore(&workspace, ctx);
-            self.files.recent.add(SceneSource::File(path));
-        }
-        self.serve(ctx);
-    }
-
-    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
-        let ctx = ui.ctx().clone();
-        keys::note_focus(&ctx);
-        self.clipboard.follow(&ctx, &mut self.doc.notices);
-        self.limit_size(&ctx);
-        self.working.follow(&self.doc, &ctx);
-        self.status.progress = self.working.text();
-        let is_unsaved = self.files.workspaces.is_changed(&self.doc.all_wanted());
-        self.title.follow(&self.doc, is_unsaved, &ctx);
-        if let Some(current) = &self.doc.current {
-            self.doc.inspect.follow(current);
-        }
-        self.doc.remember(ctx.input(|i| i.time));
-        self.keys(&ctx);
-        self.serve(&ctx);
-        self.under_pointer = None;
-        self.doc.restore_selection();
-        self.doc.pick_interesting();
-        self.doc.follow_rays(&ctx);
-        let presents = self.presenting.is_some();
-        if !presents {
-            egui::Panel::top("top bar")
-                .exact_size(present::BAR)
-                .show(ui, |ui| self.top_bar(ui));
-            self.strip(ui);
-            self.working.line(ui, ui.available_rect_before_wrap());
-        }
-        if let Some(pane) = self.maximized {
-            egui::CentralPanel::default().show(ui, |ui| self.pane_with_header(ui, pane));
-        } else if presents {
-            present::show(self, ui);
-        } else {
-            self.drawer(ui);
-            self.task(ui);
-        }
-        if presents {
-            present::sliding_bar(self, &ctx);
-        }
-        self.message(&ctx);
-        if self.doc.in_lesson {
-            self.first_start.dismiss();
-        }
-        match self.first_start.show(&ctx) {
-            Some(Way::Tour) => {
-                self.doc.next_lesson = crate::lesson::LESSONS.first().map(|known| known.read());
-            }
-            Some(Way::Ray) => {
-                self.doc.wants_ray = true;
-                self.switch("ray");
-            }
-            Some(Way::Scene) => self.files.focus_path(),
-            None => {}
-        }
-        self.doc.notices.show(&ctx);
-        self.ask_where_to_save(&ctx);
-        self.exports.show(&mut self.doc, &ctx);
-        help::show(&ctx, shell_actions(), &mut self.help_open);
-        if let Some(command) = self.palette.show(&ctx) {
-            self.command(command, &ctx);
-        }
-        if ctx.input(|i| !i.raw.hovered_files.is_empty()) {
-            drop_hint(&ctx);
-        }
-        self.serve(&ctx);
-        self.doc.send();
-        if !self.doc.in_lesson {
-            self.keep_layout(&ctx);
-            self.keep_session(ctx.input(|i| i.time), false);
-        }
-    }
-
-    fn on_exit(&mut self) {
-        if self.doc.in_lesson {
-            // What is kept is what was there before the lesson.
-            self.run("lesson.open", &egui::Context::default());
-            self.serve(&egui::Context::default());
-        }
-        self.layout_file.write(&self.layout);
-        self.keep_session(0.0, true);
-    }
-}
-
-fn shell_actions() -> impl Iterator<Item = Info> {
-    ACTIONS.iter().map(|action| action.info)
-}
-
-/// Says that a file can be dropped here.
-fn drop_hint(ctx: &egui::Context) {
-    let layer = egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("drop hint"));
-    let (painter, rect) = (ctx.layer_painter(layer), ctx.content_rect());
-    painter.rect_filled(rect, 0.0, egui::Color32::from_black_alpha(160));
-    painter.text(
-        rect.center(),
-        egui::Align2::CENTER_CENTER,
-        format!("Drop the file to open it\n{} or a workspace", names()),
-        egui::FontId::proportional(26.0),
-        egui::Color32::WHITE,
-    );
 }

@@ -1,10 +1,9 @@
 //! How the window is laid out: the task on view, the tiles of each task, what is open at the bottom, the
 //! size and the theme. It is kept from run to run.
 
+use super::places::{PaneId, Tiles, pane, simplification, tree};
 use super::tasks::{TASKS, Task, TaskId, slotted};
-use crate::gui::pane::Entry;
-use crate::gui::panes::PANES;
-use egui_tiles::{SimplificationOptions, Tile, TileId, Tree};
+use egui_tiles::{Tile, TileId};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 
@@ -13,59 +12,6 @@ pub const LAYOUT_FILE: &str = "layout.json";
 
 /// The smallest window, in points.
 pub const LEAST_SIZE: [f32; 2] = [640.0, 400.0];
-
-/// A pane by its place in the registry; in files by its id.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PaneId(usize);
-
-impl PaneId {
-    pub fn entry(self) -> &'static Entry {
-        &PANES[self.0]
-    }
-
-    /// Its place in the registry.
-    pub fn place(self) -> usize {
-        self.0
-    }
-
-    /// All panes.
-    pub fn all() -> impl Iterator<Item = PaneId> {
-        (0..PANES.len()).map(PaneId)
-    }
-}
-
-/// Returns the pane that a name means: an id, or a title of this or an earlier version.
-pub fn pane(name: &str) -> Option<PaneId> {
-    PANES
-        .iter()
-        .position(|entry| entry.is_called(name))
-        .map(PaneId)
-}
-
-/// The tiles of a task.
-pub type Tiles = Tree<PaneId>;
-
-/// Panes in a column or row of fixed size.
-pub struct Column {
-    /// Ids of its panes, from the top.
-    pub panes: &'static [&'static str],
-    /// Its size in points, in windows of 1600 × 1000 and of 1280 × 720.
-    sizes: [f32; 2],
-}
-
-impl Column {
-    pub const fn new(panes: &'static [&'static str], sizes: [f32; 2]) -> Self {
-        Column { panes, sizes }
-    }
-
-    /// Its size along its short side, in a window of this size.
-    pub fn size(&self, window: egui::Vec2) -> f32 {
-        let [large, small] = self.sizes;
-        let share = ((window.x - 1280.0) / 320.0).clamp(0.0, 1.0);
-        let least = 0.4 * window.min_elem();
-        (small + share * (large - small)).min(least.max(small.min(window.x * 0.4)))
-    }
-}
 
 /// The layout of the window.
 #[derive(Clone, PartialEq, Serialize, Deserialize)]
@@ -186,21 +132,6 @@ fn shows(task: &Task, tiles: &Tiles, pane: PaneId) -> bool {
         || tiles.any(|tile| matches!(tile, Tile::Pane(p) if *p == pane))
 }
 
-/// With tabs, panes can be dragged beside or onto each other.
-pub fn simplification() -> SimplificationOptions {
-    SimplificationOptions {
-        all_panes_must_have_tabs: true,
-        ..SimplificationOptions::default()
-    }
-}
-
-/// Makes a tree of tiles.
-pub fn tree(root: TileId, tiles: egui_tiles::Tiles<PaneId>) -> Tiles {
-    let mut tree = Tree::new(egui::Id::unique("panes"), root, tiles);
-    tree.simplify(&simplification());
-    tree
-}
-
 /// Tiles as they are kept: panes by name, because other versions may have others.
 #[derive(Serialize, Deserialize)]
 struct KeptTiles {
@@ -285,6 +216,7 @@ impl egui_tiles::Behavior<PaneId> for OnceEach {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gui::panes::PANES;
 
     /// A layout unlike the default one.
     fn other() -> Layout {

@@ -2,22 +2,20 @@
 //! figures; a lesson keeps its column. The top bar slides in at the upper edge.
 
 use super::app::App;
-use super::layout;
+use super::places::{self, TOP_BAR};
 use crate::gui::document::comparing::Which;
 use crate::gui::document::{Current, Document, Fact};
 use crate::gui::theme;
 use crate::gui::widgets::hidden::HIDDEN;
 use crate::measure::parameter;
 use crate::present::number::Digits;
-use egui::{Rect, RichText, UiBuilder, ViewportCommand, pos2, vec2};
+use egui::{Rect, RichText, UiBuilder, pos2, vec2};
 
 /// How much larger everything is.
 const SCALE: f32 = 1.25;
 /// The height of the figures, and the distance of picture and 3D view, in points of the usual size.
 const FIGURES: f32 = 88.0;
 const GAP: f32 = 8.0;
-/// The height of the top bar, in points.
-pub const BAR: f32 = 40.0;
 /// So near the upper edge the pointer calls the bar.
 const EDGE: f32 = 6.0;
 
@@ -28,25 +26,6 @@ const SHOWN: [(&str, &str); 4] = [
     ("N_LS", "leaves"),
     ("T_TR", "rendering time"),
 ];
-
-/// What is to come back after presenting.
-pub struct Presenting {
-    zoom: f32,
-}
-
-impl Presenting {
-    pub fn begin(ctx: &egui::Context) -> Self {
-        let zoom = ctx.zoom_factor();
-        ctx.set_zoom_factor(zoom * SCALE);
-        ctx.send_viewport_cmd(ViewportCommand::Fullscreen(true));
-        Presenting { zoom }
-    }
-
-    pub fn end(self, ctx: &egui::Context) {
-        ctx.set_zoom_factor(self.zoom);
-        ctx.send_viewport_cmd(ViewportCommand::Fullscreen(false));
-    }
-}
 
 /// Shows the task on view for an audience.
 pub fn show(app: &mut App, ui: &mut egui::Ui) {
@@ -86,9 +65,9 @@ pub fn sliding_bar(app: &mut App, ctx: &egui::Context) {
     egui::Area::new(egui::Id::unique("sliding bar"))
         .order(egui::Order::Middle)
         .constrain(false)
-        .fixed_pos([0.0, (seen - 1.0) * BAR])
+        .fixed_pos([0.0, (seen - 1.0) * TOP_BAR])
         .show(ctx, |ui| {
-            let rect = Rect::from_min_size(ui.max_rect().min, vec2(width, BAR));
+            let rect = Rect::from_min_size(ui.max_rect().min, vec2(width, TOP_BAR));
             let (fill, line) = (ui.visuals().panel_fill, ui.visuals().window_stroke);
             ui.painter().rect_filled(rect, 0.0, fill);
             ui.painter().hline(rect.x_range(), rect.bottom(), line);
@@ -103,7 +82,7 @@ fn seen(ctx: &egui::Context) -> f32 {
     let id = egui::Id::unique("presented bar");
     let was = ctx.data(|data| data.get_temp::<bool>(id)).unwrap_or(false);
     let pointer = ctx.pointer_hover_pos();
-    let near = pointer.is_some_and(|at| at.y <= if was { BAR + EDGE } else { EDGE });
+    let near = pointer.is_some_and(|at| at.y <= if was { TOP_BAR + EDGE } else { EDGE });
     // What was opened from the bar hangs from it.
     let stays = was && (egui::Popup::is_any_open(ctx) || ctx.text_edit_focused());
     let is = near || stays;
@@ -120,7 +99,7 @@ fn halves(app: &mut App, ui: &mut egui::Ui) {
         let left = Rect::from_min_size(all.min, vec2(half, all.height()));
         let right = Rect::from_min_max(pos2(all.right() - half, all.top()), all.max);
         for (id, rect) in [("picture", left), ("view3d", right)] {
-            if let Some(pane) = layout::pane(id) {
+            if let Some(pane) = places::pane(id) {
                 ui.scope_builder(UiBuilder::new().id_salt(id).max_rect(rect), |ui| {
                     app.pane(ui, pane);
                 });

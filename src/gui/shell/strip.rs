@@ -1,7 +1,7 @@
 //! The strip at the bottom: tabs of the panes that no task shows by itself, and how the work stands.
 
 use super::app::App;
-use super::layout::PaneId;
+use super::places::PaneId;
 use egui::containers::menu::MenuButton;
 use egui::{Align, Button, Layout};
 

@@ -1,6 +1,6 @@
 //! The five tasks: what a person wants to do, and which panes that needs.
 
-use super::layout::{Column, Tiles};
+use super::places::{Column, Tiles};
 use egui_tiles::{Linear, LinearDir};
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -105,7 +105,7 @@ fn above(
     (upper, upper_share): (&'static str, f32),
     (lower, lower_share): (&[&'static str], f32),
 ) -> Tiles {
-    let pane = |id: &str| super::layout::pane(id).expect("tasks name known panes");
+    let pane = |id: &str| super::places::pane(id).expect("tasks name known panes");
     let mut tiles = egui_tiles::Tiles::default();
     let upper = tiles.insert_pane(pane(upper));
     let lower = lower.iter().map(|id| tiles.insert_pane(pane(id))).collect();
@@ -114,7 +114,7 @@ fn above(
     both.shares.set_share(upper, upper_share);
     both.shares.set_share(lower, lower_share);
     let root = tiles.insert_container(both);
-    super::layout::tree(root, tiles)
+    super::places::tree(root, tiles)
 }
 
 /// Panes of equal width beside each other.
@@ -129,12 +129,12 @@ pub fn slotted(slots: &[Vec<&'static str>]) -> Tiles {
     let mut columns = Vec::new();
     for slot in slots {
         let panes = slot.iter().map(|id| {
-            let pane = super::layout::pane(id).expect("slots name known panes");
+            let pane = super::places::pane(id).expect("slots name known panes");
             tiles.insert_pane(pane)
         });
         let panes: Vec<_> = panes.collect();
         columns.push(tiles.insert_container(Linear::new(LinearDir::Vertical, panes)));
     }
     let root = tiles.insert_container(Linear::new(LinearDir::Horizontal, columns));
-    super::layout::tree(root, tiles)
+    super::places::tree(root, tiles)
 }

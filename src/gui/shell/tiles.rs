@@ -1,13 +1,10 @@
 //! Where a task shows its panes: columns and rows of fixed size, and tiles.
 
 use super::app::App;
-use super::layout::{self, Column, PaneId};
+use super::places::{self, Column, PaneId, TITLE_ROW};
 use crate::gui::icons;
 use crate::gui::theme::IconButton;
 use egui_tiles::{SimplificationOptions, Tile, TileId, UiResponse};
-
-/// The height of a pane's title row in points.
-pub const TITLE_ROW: f32 = 36.0;
 
 impl App {
     /// Draws the column at the left.
@@ -27,7 +24,7 @@ impl App {
             .resizable(false)
             .frame(frame.inner_margin(egui::Margin::symmetric(8, 0)))
             .show(ui, |ui| {
-                for pane in row.panes.iter().filter_map(|id| layout::pane(id)) {
+                for pane in row.panes.iter().filter_map(|id| places::pane(id)) {
                     self.pane(ui, pane);
                 }
             });
@@ -112,6 +109,6 @@ impl egui_tiles::Behavior<PaneId> for Behavior<'_> {
     }
 
     fn simplification_options(&self) -> SimplificationOptions {
-        layout::simplification()
+        places::simplification()
     }
 }

@@ -51,7 +51,7 @@ impl Pane for AccuracyPane {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let found = self.trading.study.found().cloned();
         ui.horizontal_wrapped(|ui| self.toolbar(ui, doc));
         let Some(found) = found.filter(|found| !found.trade.outcomes.is_empty()) else {

@@ -45,7 +45,7 @@ impl Pane for BuildPane {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         ui.horizontal(|ui| {
             ui.set_min_height(transport::HEIGHT);
             let mut on = doc.inspect.build.on;

@@ -29,7 +29,7 @@ impl Pane for ComparisonPane {
     const ABOUT: &'static str = "The figures of A and B, and whether the comparison is fair.";
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         if doc.other.is_none() {
             let about = "A second tree of the same scene, seen by the same camera, with settings of \
                          its own.";

@@ -3,7 +3,6 @@
 
 use crate::geometry::Axis;
 use crate::gui::action::{Gesture, actions, tip};
-use crate::gui::document::Document;
 use crate::gui::document::inspect::{TreeKey, WhatIf};
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::{no_picture, short, waiting};
@@ -48,7 +47,7 @@ impl Pane for CostPane {
     }];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let Some(current) = &doc.current else {
             no_picture(ui, doc);
             return;

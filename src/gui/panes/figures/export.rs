@@ -11,7 +11,7 @@ use std::sync::Arc;
 type Counts = Vec<Option<Arc<PixelCounts>>>;
 
 /// The figures, in any format of a report.
-pub fn figures(doc: &mut Document, ctx: &egui::Context) -> Export {
+pub fn figures(doc: &Document, ctx: &egui::Context) -> Export {
     let make = report(doc, ctx).map(|(report, _)| {
         let make: MakeFile = Box::new(move |extension| {
             let writer = WRITERS.iter().find(|w| w.extension == extension);
@@ -31,7 +31,7 @@ pub fn figures(doc: &mut Document, ctx: &egui::Context) -> Export {
 }
 
 /// One HTML page: pictures, tables, settings, notes, machine.
-pub fn page(doc: &mut Document, ctx: &egui::Context) -> Export {
+pub fn page(doc: &Document, ctx: &egui::Context) -> Export {
     let make = report(doc, ctx).and_then(|(report, counts)| {
         let notes = doc.notes.clone();
         let current = doc.current.as_ref().ok_or("there is no picture")?;
@@ -61,7 +61,7 @@ fn content(make: Result<MakeFile, String>) -> Content {
 }
 
 /// The final figures: of both trees where they may be compared, else of the one in front.
-fn report(doc: &mut Document, ctx: &egui::Context) -> Result<(Report, Counts), String> {
+fn report(doc: &Document, ctx: &egui::Context) -> Result<(Report, Counts), String> {
     let verdict = doc.verdict(ctx);
     let may_compare = verdict.is_some_and(|verdict| verdict.reasons.is_empty());
     let shown: Vec<&Current> = match (doc.both(), may_compare) {

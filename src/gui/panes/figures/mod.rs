@@ -36,7 +36,7 @@ impl Pane for FiguresPane {
     };
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let room = ui.available_height();
         ui.spacing_mut().item_spacing.y = SPACE;
         let kernel = doc.figures(doc.which).map(|figures| {

@@ -4,7 +4,6 @@
 mod plot;
 
 use crate::gui::action::{Gesture, actions, tip};
-use crate::gui::document::Document;
 use crate::gui::document::inspect::{Inspect, LeavesKey, TreeKey};
 use crate::gui::edits::Edits;
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
@@ -48,7 +47,7 @@ impl Pane for Histograms {
     }];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let Some(current) = &doc.current else {
             no_picture(ui, doc);
             return;

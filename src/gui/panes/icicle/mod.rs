@@ -3,7 +3,6 @@
 //! Pieces narrower than a pixel and a half are not drawn, nor is anything below them, so that a tree of
 //! millions of nodes draws as fast as a small one.
 
-use crate::gui::document::Document;
 use crate::gui::document::inspect::TreeKey;
 use crate::gui::pane::{Cx, Fact, Pane};
 use crate::gui::widgets::coloring_bar::color_bar;
@@ -87,7 +86,7 @@ impl Pane for Icicle {
     const REVEALS: &'static [Fact] = &[Fact::AllCounters];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let Some(current) = &doc.current else {
             no_picture(ui, doc);
             return;

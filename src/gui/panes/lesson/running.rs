@@ -220,7 +220,7 @@ impl Running {
 
     /// Picks the step's pixel once its picture is there, and takes the figures once they are final.
     pub fn follow(&mut self, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let step = &self.lesson.steps[self.at];
         let subject = &step.subject;
         let is_wanted = |current: &&Current, wanted: &Setup| current.shown.setup == *wanted;

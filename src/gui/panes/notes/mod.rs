@@ -15,7 +15,7 @@ impl Pane for NotesPane {
     const REVEALS: &'static [Fact] = &[];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         text(ui, doc, cx.edits);
         pins(ui, doc, cx.edits);
     }

@@ -5,7 +5,6 @@ use find_bar::{FindBar, Step};
 mod find_bar;
 
 use crate::gui::action::{actions, tip};
-use crate::gui::document::Document;
 use crate::gui::document::inspect::TreeKey;
 use crate::gui::document::visits;
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
@@ -115,7 +114,7 @@ impl Pane for Outline {
     };
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let moment = doc.inspect.build.moment();
         let Some(current) = &doc.current else {
             no_picture(ui, doc);

@@ -1,7 +1,6 @@
 //! The paper's experiment, repeated in the background: its tables, printed beside computed.
 
 use crate::gui::action::{actions, tip};
-use crate::gui::document::Document;
 use crate::gui::edits::Request;
 use crate::gui::pane::{Cx, Pane, PaneAction};
 use crate::gui::theme::heading;
@@ -108,7 +107,7 @@ impl Pane for PaperPane {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let experiment = &mut self.experiment;
         choice(ui, experiment);
         standing(ui, experiment, doc.wanted.render.threads, &doc.jobs);

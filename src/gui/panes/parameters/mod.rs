@@ -1,6 +1,6 @@
 //! All parameters of the paper's Tables 1 to 3, and those beside them.
 
-use crate::gui::document::{Document, Figures};
+use crate::gui::document::Figures;
 use crate::gui::pane::{Cx, Pane};
 use crate::gui::theme::{heading, hint, tokens};
 use crate::gui::widgets::common::sentence;
@@ -24,7 +24,7 @@ impl Pane for ParametersPane {
     const ABOUT: &'static str = "All parameters of the paper's Tables 1 to 3.";
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let Some(figures) = doc.figures(doc.which) else {
             ui.weak("No figures yet");
             return;

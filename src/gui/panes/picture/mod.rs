@@ -111,7 +111,7 @@ impl Pane for PicturePane {
     ];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let verdict = doc.other.as_ref().and_then(|_| doc.verdict(cx.ctx));
         let edits = &mut *cx.edits;
         let shown = (&mut self.heat, &mut self.marks);

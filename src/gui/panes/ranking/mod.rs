@@ -22,7 +22,7 @@ impl Pane for RankingPane {
     const ABOUT: &'static str = "The trees that were measured for this scene, the best first.";
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let found = doc.tuning.study.found().cloned();
         let Some(found) = found.filter(|found| !found.rows.is_empty()) else {
             if doc.current.is_none() {

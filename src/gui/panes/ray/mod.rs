@@ -6,7 +6,6 @@ mod steps;
 mod strip;
 
 use crate::gui::action::actions;
-use crate::gui::document::Document;
 use crate::gui::document::walk::Go;
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::rest_of;
@@ -43,7 +42,7 @@ impl Pane for RayPane {
     };
 
     fn ui(&mut self, ui: &mut Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         ui.spacing_mut().item_spacing.y = 0.0;
         let is_wide = ui.available_width() >= WIDE;
         bar::buttons(ui, doc, cx.edits, !is_wide);

@@ -109,7 +109,7 @@ impl Pane for RaysPane {
     const REVEALS: &'static [Fact] = &[Fact::Rays, Fact::Steps];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         // Below the picture there may be no room; *Steps of the ray* has a list of the rays, too.
         if ui.clip_rect().bottom() - ui.cursor().top() < LEAST_HEIGHT {
             return;

@@ -23,7 +23,7 @@ impl Pane for SettingsPane {
     const REVEALS: &'static [Fact] = &[];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let note = |setting: &Setting, setup: &Setup| note(doc, setting, setup);
         let around = Around {
             largest: ui.input(|i| i.max_texture_side).min(16_384) as u32,

@@ -65,7 +65,7 @@ impl Pane for SweepPane {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let found = self.sweeping.study.found().cloned();
         ui.horizontal_wrapped(|ui| self.toolbar(ui, doc, found.as_deref()));
         let Some(found) = found.filter(|found| !found.rows.is_empty()) else {

@@ -104,7 +104,7 @@ impl Pane for TimePane {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         ui.horizontal_wrapped(|ui| self.toolbar(ui, doc));
         let Some(current) = &doc.current else {
             no_picture(ui, doc);

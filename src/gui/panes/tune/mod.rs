@@ -25,7 +25,7 @@ impl Pane for TunePane {
     };
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let is_running = doc.tuning.study.is_running();
         ui.add_enabled_ui(!is_running, |ui| {
             ui.label(heading("Goal"));

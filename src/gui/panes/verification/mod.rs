@@ -29,7 +29,7 @@ impl Pane for VerificationPane {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         let judging = &mut self.judging;
         let mut wanted = !judging.stopped;
         ui.checkbox(&mut wanted, "Check sampled rays")

@@ -33,7 +33,7 @@ pub fn show(view: &mut View3d, ui: &mut Ui, doc: &Document) {
     }
     let title = format!(
         "Cells: {} {}",
-        view.settings.cells.title(),
+        view.settings.cells_in_words(),
         icons::CARET_DOWN
     );
     let (button, _) = MenuButton::new(title).config(config()).ui(ui, |ui| {

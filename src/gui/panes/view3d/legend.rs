@@ -50,7 +50,7 @@ pub struct Legend<'a> {
 
 /// Whether an unfolded legend leaves most of a view to be seen.
 pub fn fits(view: Rect) -> bool {
-    view.width() >= 340.0 && view.height() >= 560.0
+    view.width() >= 340.0 && view.height() >= 420.0
 }
 
 /// Shows the legend in the lower left corner of the view; says whether it is to be folded or unfolded.
@@ -182,6 +182,8 @@ fn lines(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
     }
     if let Some(picked) = legend.picked {
         egui::CollapsingHeader::new("Lines of the rays")
+            // Whether it was opened counts for views of this size alone.
+            .id_salt(roomy)
             .default_open(roomy)
             .show_unindented(ui, |ui| path_key(legend, picked, ui));
     }

@@ -169,13 +169,17 @@ pub fn pick_cell(doc: &Document, shown: &Settings, ray: &Ray) -> Option<u32> {
             Some(leaf) => filter.passes(&leaf),
             None => true,
         };
-    let cells = match shown.cells {
-        Cells::None => Vec::new(),
-        _ => cells_along(tree, ray, filter.to_depth.unwrap_or(u32::MAX)),
-    };
     let of_ray = match &current.picked {
         Some(picked) if shown.cells == Cells::Visited => Some(picked.path()),
         _ => None,
+    };
+    let depth = match (filter.to_depth, of_ray) {
+        (Some(depth), None) => depth,
+        _ => u32::MAX,
+    };
+    let cells = match shown.cells {
+        Cells::None => Vec::new(),
+        _ => cells_along(tree, ray, depth),
     };
     let shown: Vec<u32> = cells
         .into_iter()

@@ -23,7 +23,6 @@ mod steering;
 mod view;
 
 use crate::gui::action::Gesture;
-use crate::gui::document::Document;
 use crate::gui::edits::Request;
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::rest_of;
@@ -71,7 +70,7 @@ impl Pane for View3d {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
-        let doc: &Document = cx.doc;
+        let doc = cx.doc;
         self.follow(doc);
         let marks = marks::Marks::of(doc, ui.ctx());
         let size = rest_of(ui);

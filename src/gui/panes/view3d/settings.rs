@@ -18,18 +18,6 @@ pub enum Cells {
     Visited,
 }
 
-impl Cells {
-    /// Returns the name in menus.
-    pub fn title(self) -> String {
-        match self {
-            Cells::None => "none".to_owned(),
-            Cells::ToDepth(depth) => format!("to depth {depth}"),
-            Cells::All => "all".to_owned(),
-            Cells::Visited => "visited".to_owned(),
-        }
-    }
-}
-
 /// What the 3D view shows.
 #[derive(Clone, Copy)]
 pub struct Settings {
@@ -77,6 +65,17 @@ impl Settings {
         };
     }
 
+    /// Returns which cells are shown, in a few words.
+    pub fn cells_in_words(&self) -> String {
+        match (self.cells, self.drawn().to_depth) {
+            (Cells::None, _) => "none".to_owned(),
+            (Cells::ToDepth(_), Some(depth)) => format!("to depth {depth}"),
+            (Cells::ToDepth(_), None) => "filtered".to_owned(),
+            (Cells::All, _) => "all".to_owned(),
+            (Cells::Visited, _) => "visited".to_owned(),
+        }
+    }
+
     pub fn next_visited(&mut self) {
         let visited = &mut self.filter.visited;
         let at = Visited::ALL.iter().position(|v| v == visited);
@@ -88,8 +87,9 @@ impl Settings {
         self.coloring = &COLORINGS[(at.unwrap_or(0) + 1) % COLORINGS.len()];
     }
 
-    /// Returns the filter of what is drawn. Filters are about leaves: with one, leaves are drawn rather
-    /// than the cells above them.
+    /// Returns the filter of the boxes that are drawn; those of a ray need none. Filters are about leaves:
+    /// with one, leaves are drawn rather than the cells above them. Without a ray, there are no leaves
+    /// that it visited: cells are drawn as at first.
     pub fn drawn(&self) -> Filter {
         let all = Filter {
             moment: self.filter.moment,
@@ -97,6 +97,7 @@ impl Settings {
         };
         let to_depth = match self.cells {
             Cells::ToDepth(depth) if self.filter == all => Some(depth),
+            Cells::Visited if self.filter == all => Some(FIRST_DEPTH),
             _ => None,
         };
         Filter {
@@ -114,8 +115,13 @@ mod tests {
     fn a_filter_of_leaves_shows_leaves() {
         let mut settings = Settings::default();
         assert_eq!(settings.drawn().to_depth, Some(FIRST_DEPTH));
+        settings.cells = Cells::Visited;
+        assert_eq!(settings.drawn().to_depth, Some(FIRST_DEPTH));
+        settings.cells = Cells::ToDepth(3);
+        assert_eq!(settings.cells_in_words(), "to depth 3");
         settings.filter.empty = false;
         assert_eq!(settings.drawn().to_depth, None);
+        assert_eq!(settings.cells_in_words(), "filtered");
     }
 
     #[test]
