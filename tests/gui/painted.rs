@@ -60,20 +60,13 @@ fn collect(shape: &Shape, clip: Rect, part: Rect, found: &mut Vec<Text>) {
     }
 }
 
-/// Asserts that in this part of the window no text is shortened and no number is broken, and that there
-/// are texts.
-pub fn assert_not_shortened(window: &Window<'_>, part: Rect) {
+/// Asserts that in this part of the window, which does not scroll sideways, no text is cut and no number
+/// is broken, and that there are texts.
+pub fn assert_whole(window: &Window<'_>, part: Rect) {
     let texts = texts_in(window, part);
     assert!(texts.len() > 5, "{texts:?}");
     for text in texts {
-        assert!(!text.is_elided && !text.breaks_a_number(), "{text:?}");
-    }
-}
-
-/// As [`assert_not_shortened`], where nothing scrolls: no text is clipped, either.
-pub fn assert_whole(window: &Window<'_>, part: Rect) {
-    assert_not_shortened(window, part);
-    for text in texts_in(window, part) {
-        assert!(!text.is_clipped, "{text:?}");
+        let is_cut = text.is_elided || text.is_clipped;
+        assert!(!is_cut && !text.breaks_a_number(), "{text:?}");
     }
 }
