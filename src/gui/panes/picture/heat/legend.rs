@@ -15,6 +15,8 @@ use egui::{Color32, Painter, Rect, Shape, Stroke, pos2, vec2};
 const BAR: f32 = 12.0;
 /// Height of a line of the legend.
 const LINE: f32 = 20.0;
+/// From this width on, the line of a short legend has room for the terms.
+const WIDE: f32 = 900.0;
 /// A mark's half width.
 const MARK: f32 = 5.0;
 
@@ -138,12 +140,21 @@ impl HeatView {
         let about = self.about(look);
         match size {
             Size::Short => {
+                let is_wide = ui.available_width() >= WIDE;
                 ui.horizontal(|ui| {
                     ui.strong(look.title()).on_hover_text(about);
+                    if is_wide {
+                        let terms = format!("{} · {}", look.heatmap().unit, look.terms());
+                        ui.label(hint(terms));
+                    }
                     let to_the_left = egui::Layout::right_to_left(egui::Align::Center);
                     ui.with_layout(to_the_left, |ui| {
-                        if let Some(number) = picked.and_then(|pixel| look.number_text(pixel)) {
-                            ui.label(hint(format!("{number}{rank}")));
+                        if let Some(pixel) = picked {
+                            let text = match look.number_text(pixel) {
+                                Some(number) if !is_wide => number,
+                                _ => format!("Picked: {}", look.value_text(pixel)),
+                            };
+                            ui.label(hint(format!("{text}{rank}")));
                             marked(ui, Mark::Picked);
                         }
                     });
