@@ -20,7 +20,7 @@ fn on_study<'a>(scene: &str, size: u32) -> Window<'a> {
     start.setup.render.width = size;
     start.setup.render.height = size;
     // There is room for the table or for the error map.
-    let mut window = open_sized(start, [960.0, 1200.0], false);
+    let mut window = open_sized(start, [960.0, 1600.0], false);
     finish(&mut window);
     open_pane(&mut window, "Speed and error");
     window

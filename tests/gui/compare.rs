@@ -120,6 +120,9 @@ fn either_tree_comes_to_the_front_and_the_pixel_stays_picked() {
     let mut window = comparing(false);
     click(&mut window, "Wipe");
     window.get_by_label("Traced picture").click();
+    if window.query_by_label("Rays of the pixel").is_none() {
+        click(&mut window, "More panes");
+    }
     click(&mut window, "Rays of the pixel");
     wait_for(&mut window, "Pixel 24, 24 (");
     assert!(described(&window).starts_with("balls:1 · sah-cut"));
@@ -179,7 +182,7 @@ fn the_difference_is_signed() {
     show_nodes(&mut window);
     click(&mut window, "Difference");
     wait_for(&mut window, "B − A");
-    wait_for(&mut window, "Legend from -");
+    wait_for(&mut window, "Legend from −");
     let difference = nodes("sah-cut").difference(&nodes("midpoint")).unwrap();
     let found = difference.statistics().unwrap();
     let most = found.lowest.abs().max(found.highest.abs());
@@ -187,10 +190,11 @@ fn the_difference_is_signed() {
         found.lowest < 0.0 && found.highest > 0.0,
         "nothing is tested"
     );
-    wait_for(&mut window, &format!("Legend from -{most} to {most} nodes"));
+    wait_for(&mut window, &format!("Legend from −{most} to {most} nodes"));
     window.get_by_label("Traced picture").click();
     let value = difference.get(SIZE / 2, SIZE / 2).unwrap();
-    wait_for(&mut window, &format!("Picked: {value:+} nodes per pixel"));
+    let value = format!("{value:+}").replace('-', "−");
+    wait_for(&mut window, &format!("Picked: {value} nodes per pixel"));
 }
 
 #[test]

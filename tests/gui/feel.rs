@@ -1,7 +1,9 @@
 //! What makes the window good to work with: a layout that is remembered, the command palette, names
 //! for screen readers.
 
-use crate::harness::{Window, has, open, open_sized, open_with_graphics, press, small, wait};
+use crate::harness::{
+    Window, described, has, open, open_pane, open_sized, open_with_graphics, press, small, wait,
+};
 use bspscope::gui::StartOptions;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{By, NodeT as _, Queryable as _};
@@ -14,6 +16,7 @@ fn finish(window: &mut Window<'_>) {
 /// Opens the palette and types.
 fn search(window: &mut Window<'_>, query: &str) {
     press(window, egui::Modifiers::COMMAND, egui::Key::K);
+    assert!(is_open(window), "the palette for {query}");
     let field = window.get_by_role_and_label(Role::TextInput, "Search for a command");
     field.type_text(query);
     window.run_steps(2);
@@ -21,12 +24,6 @@ fn search(window: &mut Window<'_>, query: &str) {
 
 fn is_open(window: &Window<'_>) -> bool {
     window.query_by_label("Search for a command").is_some()
-}
-
-/// The name of the build method in the top bar.
-fn method(window: &Window<'_>) -> String {
-    let list = window.get_by_label("Build method");
-    list.accesskit_node().value().unwrap_or_default()
 }
 
 /// The depth that the slider in the top bar says.
@@ -40,10 +37,10 @@ fn depth(window: &Window<'_>) -> f64 {
 fn the_palette_does_what_is_typed_and_chosen() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
-    let before = method(&window);
+    let before = described(&window);
     search(&mut window, "next build");
     window.key_press(egui::Key::Enter);
-    wait(&mut window, "the method", |w| method(w) != before);
+    wait(&mut window, "the method", |w| described(w) != before);
     assert!(!is_open(&window));
     // The second of two, by an arrow key, undoes what the first one does.
     let before = depth(&window);
@@ -76,7 +73,7 @@ fn the_palette_reaches_panes_without_the_pointer() {
     assert!(!has(&window, "leaves selected"));
     search(&mut window, "select all leaves again");
     window
-        .get_by_label_contains("Leaf histograms: Select all leaves again")
+        .get_by_label_contains("Histograms: Select all leaves again")
         .click();
     wait(&mut window, "the histograms", |w| has(w, "leaves selected"));
     assert!(!is_open(&window));
@@ -150,14 +147,13 @@ fn every_widget_has_a_name() {
     }
     let panes = [
         "Outline",
-        "Leaf histograms",
+        "Histograms",
         "Icicle",
         "Split cost",
-        "All parameters",
+        "All figures",
     ];
     for pane in panes {
-        search(&mut window, &format!("show {pane}"));
-        window.key_press(egui::Key::Enter);
+        open_pane(&mut window, pane);
         window.run_steps(20);
         checked += named(&window, pane);
     }
@@ -214,10 +210,7 @@ fn named(window: &Window<'_>, place: &str) -> usize {
 fn what_is_typed_and_entered_within_a_frame_is_no_shortcut() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
-    let outlines = |window: &Window<'_>| {
-        let node = window.get_by_label("Selection");
-        node.accesskit_node().toggled()
-    };
+    let heatmap = |window: &Window<'_>| has(window, "Legend from");
     let key = |key| egui::Event::Key {
         key,
         physical_key: None,
@@ -225,19 +218,20 @@ fn what_is_typed_and_entered_within_a_frame_is_no_shortcut() {
         repeat: false,
         modifiers: egui::Modifiers::NONE,
     };
-    let before = outlines(&window);
     let picture = window.get_by_label("Traced picture").rect();
     window.hover_at(picture.center());
     window.run_steps(2);
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::L);
     window.run_steps(2);
-    let text = egui::Event::Text("s".to_owned());
-    let events = [key(egui::Key::S), text, key(egui::Key::Enter)];
+    let text = egui::Event::Text("h".to_owned());
+    let events = [key(egui::Key::H), text, key(egui::Key::Enter)];
     window.input_mut().events.extend(events);
     window.run_steps(3);
-    assert_eq!(outlines(&window), before);
-    // Where nothing is typed, the same key does it.
-    window.key_press(egui::Key::S);
+    assert!(!heatmap(&window));
+    // Where nothing is typed, the same key shows a heatmap.
+    press(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
+    window.hover_at(picture.center());
     window.run_steps(2);
-    assert_ne!(outlines(&window), before);
+    window.key_press(egui::Key::H);
+    wait(&mut window, "the heatmap", heatmap);
 }

@@ -6,6 +6,7 @@ use bspscope::measure::heat::{HeatImage, Heatmap, PixelCounts, RayFilter, heatma
 use bspscope::progress::Progress;
 use bspscope::scene::SceneRequest;
 use bspscope::trace::{render_counted, thread_pool};
+use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::sync::Mutex;
 
@@ -27,7 +28,13 @@ fn plain(window: &mut Window<'_>, key: egui::Key) {
 fn choose(window: &mut Window<'_>, entry: &str) {
     window.get_by_label("Show").click();
     window.run_steps(3);
-    window.get_by_label(entry).click();
+    // The legend has the name of the heatmap, too.
+    let is_choice = |role| matches!(role, Role::RadioButton | Role::CheckBox);
+    window
+        .query_all_by_label(entry)
+        .find(|node| is_choice(node.accesskit_node().role()))
+        .expect("an entry of the menu")
+        .click();
     window.run_steps(3);
 }
 
@@ -314,7 +321,7 @@ fn colors_ends_of_the_range_and_blending_are_set_in_a_menu() {
         .unwrap()
         .highest;
     // A diverging map has its middle at zero.
-    let range = format!("Legend from -{most} to {most} tests");
+    let range = format!("Legend from −{most} to {most} tests");
     wait_for(&mut window, &range);
     let field = |window: &Window<'_>, name: &str, value: f64| {
         window

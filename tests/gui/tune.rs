@@ -164,3 +164,38 @@ fn goal_and_all_methods_are_in_view_and_nothing_is_cut() {
         }
     }
 }
+
+#[test]
+fn no_text_of_the_studies_is_shortened() {
+    let mut window = on_tune("teaching", [1600.0, 1000.0]);
+    for (tab, run) in [
+        ("Depth & leaf size", "Run sweep"),
+        ("Time by term", "Measure times"),
+        ("Speed and error", "Measure speed and error"),
+    ] {
+        click(&mut window, tab);
+        click(&mut window, run);
+        wait(&mut window, tab, |w| w.query_by_label(run).is_some());
+    }
+    for size in [[1600.0, 1000.0], [1280.0, 720.0]] {
+        window.set_size(size.into());
+        window.run_steps(3);
+        for (tab, shown) in [
+            ("Depth & leaf size", "152 of 152 points"),
+            ("Time by term", "measured T_TR: "),
+            ("Speed and error", "Plot of RMSE against time"),
+        ] {
+            click(&mut window, tab);
+            wait(&mut window, shown, |w| has(w, shown));
+            let top = window.get_by_label(tab).rect().bottom();
+            let texts = texts_in(&window, Rect::everything_below(top));
+            assert!(texts.len() > 5, "{texts:?}");
+            for text in texts {
+                // Only a choice of several settings at once is too long for its column.
+                let is_long = text.rows.concat().contains(", ");
+                assert!(!text.is_elided || is_long, "{text:?}");
+                assert!(!text.breaks_a_number(), "{text:?}");
+            }
+        }
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::Document;
 use crate::lesson::Secret;
+use crate::measure::heat::heatmaps;
 use crate::measure::{Class, parameters};
 
 /// What a pane shows and a lesson may ask for.
@@ -45,5 +46,11 @@ impl Document {
     /// Whether one of these facts must not be shown yet.
     pub fn hides(&self, facts: &[Fact]) -> bool {
         facts.iter().any(|fact| fact.is_part_of(&self.asked))
+    }
+
+    /// Whether the heatmap on view must not be told in numbers yet.
+    pub fn hides_heatmap(&self) -> bool {
+        let shown = self.heatmap.and_then(|place| heatmaps().get(place));
+        shown.is_some_and(|heatmap| self.asked.hides_heatmap(heatmap.symbol))
     }
 }

@@ -104,6 +104,11 @@ impl Current {
         self.held.is_some() && !self.done
     }
 
+    /// Whether the picture of a request is this one, or one that this one will equal.
+    pub fn looks_like(&self, number: u64) -> bool {
+        self.number == number || self.held.as_ref().is_some_and(|held| held.number == number)
+    }
+
     /// Returns the tiles added to the picture.
     pub fn tiles(&self) -> &Tiles {
         &self.tiles

@@ -27,7 +27,7 @@ pub const ACTIONS: &[AppAction] = actions! {
         let to = if app.doc.other.is_some() { "explore" } else { "compare" };
         app.switch(to);
     };
-    "window.present" Everywhere NONE [F11] "Present: full screen, larger type" => |app, ctx| app.toggle_present(ctx);
+    "window.present" Everywhere NONE [F11] "Present: full screen, larger type" typing => |app, ctx| app.toggle_present(ctx);
     "window.open" Everywhere COMMAND [O] "Open a scene or a workspace" typing => |app, ctx| app.files.open_dialog(ctx);
     "window.save-workspace-as" Everywhere COMMAND+SHIFT [S] "Save the workspace under another name" typing => |app, _| app.save_workspace_as();
     "window.save-workspace" Everywhere COMMAND [S] "Save the workspace: scene, settings, camera, panes, selection, notes" typing => |app, ctx| app.save_workspace(ctx);

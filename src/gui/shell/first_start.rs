@@ -4,8 +4,8 @@
 use super::kept::KeptFile;
 use crate::gui::action::shortcut;
 use crate::gui::{icons, theme};
-use egui::text::{LayoutJob, TextFormat};
-use egui::{Align, Button, FontId, Modal, TextStyle, vec2};
+use egui::text::LayoutJob;
+use egui::{Align, FontId, Modal, Sense, TextStyle, pos2, vec2};
 
 /// The name of the file that remembers that it was closed.
 const FILE: &str = "hint.json";
@@ -105,9 +105,7 @@ fn ways(ui: &mut egui::Ui) -> Option<Way> {
                 "Open an OBJ, PLY, glTF, STL or NFF file",
             ),
         ] {
-            let button = Button::new(words(ui, icon, name, about)).min_size(BUTTON);
-            let button = ui.add_sized(BUTTON, button.wrap());
-            if button.accessible_name(name).clicked() {
+            if way_button(ui, icon, name, about) {
                 chosen = Some(way);
             }
         }
@@ -120,28 +118,38 @@ fn ways(ui: &mut egui::Ui) -> Option<Way> {
     chosen
 }
 
-/// An icon, a name and a line below each other.
-fn words(ui: &egui::Ui, icon: &str, name: &str, about: &str) -> LayoutJob {
+/// A button with an icon, a name and a line below each other; whether it was clicked.
+fn way_button(ui: &mut egui::Ui, icon: &str, name: &str, about: &str) -> bool {
+    let (rect, response) = ui.allocate_exact_size(BUTTON, Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+    let look = ui.style().interact(&response);
+    let painter = ui.painter();
+    let inside = egui::StrokeKind::Inside;
+    painter.rect(
+        rect,
+        look.corner_radius,
+        look.bg_fill,
+        look.bg_stroke,
+        inside,
+    );
     let t = theme::tokens(ui);
     let body = TextStyle::Body.resolve(ui.style());
-    let mut job = LayoutJob {
-        halign: Align::Center,
-        ..LayoutJob::default()
-    };
+    let mut top = rect.top() + 10.0;
     for (text, font, color) in [
-        (format!("{icon}\n"), FontId::proportional(28.0), t.accent),
+        (icon, FontId::proportional(28.0), t.accent),
+        (name, FontId::new(body.size, theme::semibold()), t.text),
         (
-            format!("{name}\n"),
-            FontId::new(body.size, theme::semibold()),
-            t.text,
-        ),
-        (
-            about.to_owned(),
+            about,
             theme::named(theme::HINT).resolve(ui.style()),
             t.label,
         ),
     ] {
-        job.append(&text, 0.0, TextFormat::simple(font, color));
+        let mut job = LayoutJob::simple(text.to_owned(), font, color, rect.width() - 16.0);
+        job.halign = Align::Center;
+        let galley = painter.layout_job(job);
+        let height = galley.size().y;
+        painter.galley(pos2(rect.center().x, top), galley, color);
+        top += height + 2.0;
     }
-    job
+    response.clicked()
 }

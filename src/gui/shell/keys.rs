@@ -43,8 +43,8 @@ pub fn pressed(ctx: &egui::Context, actions: &[Info], scope: Scope) -> Vec<usize
     let now = Focus::of(ctx);
     let asked = !ctx.memory(|memory| memory.allows_interaction(egui::LayerId::background()));
     let focused = now.widget || before.widget || asked || egui::Popup::is_any_open(ctx);
-    // The field of a prediction has the focus, and has no use for the keys that turn the pages.
-    let in_lesson = scope == Scope::Lesson && !asked;
+    // A field has no use for such keys; a question that stands before the window may.
+    let while_typing = |info: &Info| info.while_typing && !asked;
     let typing = now.text || before.text;
     let mut order: Vec<usize> = (0..actions.len()).collect();
     order.sort_by_key(|&place| !actions[place].modifiers.shift);
@@ -54,7 +54,7 @@ pub fn pressed(ctx: &egui::Context, actions: &[Info], scope: Scope) -> Vec<usize
             .filter(|&place| {
                 let info = &actions[place];
                 info.scope == scope
-                    && (!focused || info.modifiers != Modifiers::NONE || in_lesson)
+                    && (!focused || info.modifiers != Modifiers::NONE || while_typing(info))
                     && (!typing || info.while_typing)
                     && info.keys.iter().any(|&key| {
                         if info.is_held {

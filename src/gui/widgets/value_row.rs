@@ -45,22 +45,33 @@ impl ValueRow<'_> {
         } else {
             symbol.size().x + SPACE
         };
-        let left = (width - of_values - of_symbol - 2.0 * SPACE).max(60.0);
-        let name = painter.layout(self.name.to_owned(), font.clone(), t.label, left);
-        let size = vec2(width, self.height.max(name.size().y + 4.0));
+        let room = (width - of_values - 2.0 * SPACE).max(60.0);
+        let name = painter.layout_no_wrap(self.name.to_owned(), font.clone(), t.label);
+        // The symbol stands below a name that leaves no room for it.
+        let is_stacked = name.size().x + of_symbol > room;
+        let name = if is_stacked {
+            painter.layout(self.name.to_owned(), font.clone(), t.label, room)
+        } else {
+            name
+        };
+        let below = if is_stacked { symbol.size().y } else { 0.0 };
+        let lines = name.size().y + below;
+        let size = vec2(width, self.height.max(lines + 4.0));
         let (rect, row) = ui.allocate_exact_size(size, Sense::hover());
         if self.striped {
             painter.rect_filled(rect, 3.0, t.card);
         }
         let id = row.id;
-        let at = |x: f32, galley: &Galley| pos2(x, rect.center().y - galley.size().y / 2.0);
-        let x = rect.left() + SPACE / 2.0;
-        let place = at(x, &name);
-        let of_name = name.size().x;
-        let mut response = text(ui, id.with("name"), place, name, self.name);
+        let at = pos2(rect.left() + SPACE / 2.0, rect.center().y - lines / 2.0);
+        let to_symbol = if is_stacked {
+            vec2(0.0, name.size().y)
+        } else {
+            vec2(name.size().x + SPACE, 0.0)
+        };
+        let mut response = text(ui, id.with("name"), at, name, self.name);
         if !self.symbol.is_empty() {
-            let place = at(x + of_name + SPACE, &symbol);
-            response = response.union(text(ui, id.with("symbol"), place, symbol, self.symbol));
+            let at = at + to_symbol;
+            response = response.union(text(ui, id.with("symbol"), at, symbol, self.symbol));
         }
         let mut right = rect.right() - SPACE / 2.0;
         for (i, value) in self.values.iter().enumerate().rev() {

@@ -89,7 +89,7 @@ pub fn show(
                 .auto_shrink(false)
                 .cell_layout(egui::Layout::left_to_right(Align::Center))
                 .animate_scrolling(false);
-            builder = builder.column(Column::exact(first));
+            builder = builder.column(Column::exact(first).clip(true));
             for (_, width, _) in &COLUMNS[1..] {
                 builder = builder.column(Column::exact(*width).clip(true));
             }
@@ -144,7 +144,7 @@ pub fn show(
     clicked
 }
 
-/// The width of the longest choice: none is cut.
+/// The width of the longest choice, as far as it leaves half of the room to the figures.
 fn name_width(ui: &egui::Ui, trade: &AccuracyStudy) -> f32 {
     let font = named(HINT).resolve(ui.style());
     let color = ui.visuals().text_color();
@@ -154,7 +154,8 @@ fn name_width(ui: &egui::Ui, trade: &AccuracyStudy) -> f32 {
         ui.ctx()
             .fonts_mut(|fonts| fonts.layout_no_wrap(words, font, color).size().x)
     });
-    widths.fold(COLUMNS[0].1, f32::max).ceil()
+    let longest = widths.fold(0.0, f32::max).ceil();
+    longest.min(0.5 * ui.available_width()).max(COLUMNS[0].1)
 }
 
 fn cells(trade: &AccuracyStudy, outcome: &Outcome, front: bool) -> [String; 11] {

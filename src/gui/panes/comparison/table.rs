@@ -12,7 +12,7 @@ use crate::trace::RayKind;
 use egui::Color32;
 
 /// Widths of A, B and the change in points.
-const WIDTHS: [f32; 3] = [76.0, 76.0, 110.0];
+const WIDTHS: [f32; 3] = [70.0, 70.0, 104.0];
 
 /// The figures of both sides, as far as there are any.
 pub struct Sides<'a> {

@@ -53,8 +53,8 @@ impl Pane for FiguresPane {
         }
         let about = "Show all parameters of the paper's Tables 1 to 3.";
         let size = egui::vec2(ui.available_width(), ROW);
-        let button = egui::Button::new("All figures").min_size(size);
-        let button = ui.add(button).on_hover_text(about);
+        let button = ui.add_sized(size, egui::Button::new("All figures"));
+        let button = button.on_hover_text(about);
         if button.accessible_name("Show all figures").clicked() {
             cx.edits.request(Request::Show("parameters"));
         }

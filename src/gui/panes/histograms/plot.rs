@@ -205,7 +205,8 @@ impl Plot<'_> {
             weak,
         );
         self.ticks(&painter, area, &small, weak);
-        let below = pos2(area.center().x, outer.bottom());
+        // In the middle of the whole: it can be wider than the bars.
+        let below = pos2(outer.center().x, outer.bottom());
         painter.text(below, Align2::CENTER_BOTTOM, self.axis.unit, small, weak);
     }
 

@@ -1,8 +1,8 @@
 //! A step's question: the prediction, and what became of it.
 
+use super::asked::Asked;
 use super::running::Running;
 use super::scale;
-use super::step::Asked;
 use crate::gui::action::tip;
 use crate::gui::icons;
 use crate::gui::theme;

@@ -2,6 +2,7 @@
 //! until the prediction is checked; leaving a lesson brings back what was there before.
 
 mod ask;
+mod asked;
 mod list;
 mod running;
 mod scale;
@@ -12,16 +13,15 @@ use crate::gui::document::Document;
 use crate::gui::edits::{Edits, Request};
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::lesson::{LESSONS, Lesson};
+use asked::Asked;
+use list::List;
 use running::Running;
 
 /// The list of lessons and the one that is taken.
 #[derive(Default)]
 pub struct LessonPane {
     running: Option<Running>,
-    /// What is typed as the path of a lesson.
-    path: String,
-    /// Why a lesson could not be opened.
-    failure: Option<String>,
+    list: List,
 }
 
 impl Pane for LessonPane {
@@ -68,13 +68,14 @@ impl Pane for LessonPane {
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         let margin = egui::Margin::symmetric(12, 8);
-        egui::Frame::new().inner_margin(margin).show(ui, |ui| {
-            if self.running.is_some() {
-                step::show(self, ui, cx);
-            } else {
-                list::show(self, ui, cx.edits);
-            }
+        let frame = egui::Frame::new().inner_margin(margin);
+        let shown = frame.show(ui, |ui| match &mut self.running {
+            Some(running) => step::show(running, ui, cx.doc),
+            None => self.list.show(ui),
         });
+        if let Some(asked) = shown.inner {
+            self.obey(asked, cx);
+        }
     }
 
     fn choices(&self) -> Vec<String> {
@@ -94,15 +95,29 @@ fn start(place: usize, edits: &mut Edits) {
 }
 
 impl LessonPane {
+    /// Does what was asked for in the column.
+    fn obey(&mut self, asked: Asked, cx: &mut Cx<'_>) {
+        match (asked, &mut self.running) {
+            (Asked::Back, Some(running)) => running.back(cx),
+            (Asked::Check, Some(running)) => running.check(cx),
+            (Asked::Next, Some(running)) => running.next(cx),
+            (Asked::SetUp, Some(running)) => running.set_up(cx),
+            (Asked::Back | Asked::Check | Asked::Next | Asked::SetUp, None) => {}
+            (Asked::Leave, _) => self.leave(cx.edits),
+            (Asked::Begin(place), _) => start(place, cx.edits),
+            (Asked::Open(path), _) => self.open(&path, cx.edits),
+        }
+    }
+
     /// Begins a lesson in the place of the one that is taken, if there is one.
     fn begin(&mut self, lesson: Lesson, cx: &mut Cx<'_>) {
         let before = self.running.take().map(Running::into_before);
         match Running::begin(lesson, before, cx) {
             Ok(running) => {
-                self.failure = None;
+                self.list.failure = None;
                 self.running = Some(running);
             }
-            Err(error) => self.failure = Some(error.to_string()),
+            Err(error) => self.list.failure = Some(error.to_string()),
         }
         cx.edits.request(Request::Task("lessons"));
     }
@@ -111,10 +126,10 @@ impl LessonPane {
     fn open(&mut self, path: &str, edits: &mut Edits) {
         match Lesson::open(path) {
             Ok(lesson) => {
-                self.failure = None;
+                self.list.failure = None;
                 edits.add(|doc: &mut Document| doc.next_lesson = Some(lesson));
             }
-            Err(error) => self.failure = Some(error.to_string()),
+            Err(error) => self.list.failure = Some(error.to_string()),
         }
     }
 

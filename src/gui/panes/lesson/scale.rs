@@ -1,8 +1,9 @@
 //! A guess and what was measured, on one scale.
 
 use crate::gui::theme;
-use crate::gui::widgets::common::{nice_step, short};
+use crate::gui::widgets::common::nice_step;
 use crate::lesson::{GuessScale, Verdict};
+use crate::present::number::Digits;
 use egui::{Align2, Color32, FontId, Painter, Rect, Shape, Stroke, pos2, vec2};
 
 /// A mark's half width.
@@ -36,7 +37,7 @@ pub fn show(ui: &mut egui::Ui, scale: &GuessScale, verdict: &Verdict) {
             &painter,
             rect,
             at + vec2(0.0, 14.0),
-            &short(tick),
+            &Digits::All.number(tick),
             small,
             t.hint,
         );

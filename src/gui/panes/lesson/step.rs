@@ -1,44 +1,24 @@
 //! The step that is taken: text, question, outcome, and the way through the lesson.
 
-use super::LessonPane;
 use super::ask;
+use super::asked::Asked;
 use super::running::Running;
 use crate::gui::action::tip;
+use crate::gui::document::Document;
 use crate::gui::icons;
-use crate::gui::pane::Cx;
 use crate::gui::theme;
 use crate::gui::widgets::markdown;
 use crate::lesson::LESSONS;
 use egui::{Align, Button, Label, Layout, ScrollArea, vec2};
 
-/// What was asked for in the column.
-#[derive(Clone, Copy)]
-pub enum Asked {
-    Back,
-    Check,
-    Next,
-    SetUp,
-    Leave,
-    Begin(usize),
-}
-
-pub fn show(pane: &mut LessonPane, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
+/// Shows the step that is on view; returns what was asked for.
+pub fn show(running: &mut Running, ui: &mut egui::Ui, doc: &Document) -> Option<Asked> {
     let mut asked = None;
-    if let Some(running) = &mut pane.running {
-        contents(running, ui, cx, &mut asked);
-    }
-    match (asked, &mut pane.running) {
-        (Some(Asked::Back), Some(running)) => running.back(cx),
-        (Some(Asked::Check), Some(running)) => running.check(cx),
-        (Some(Asked::Next), Some(running)) => running.next(cx),
-        (Some(Asked::SetUp), Some(running)) => running.set_up(cx),
-        (Some(Asked::Leave), _) => pane.leave(cx.edits),
-        (Some(Asked::Begin(place)), _) => super::start(place, cx.edits),
-        _ => {}
-    }
+    contents(running, ui, doc, &mut asked);
+    asked
 }
 
-fn contents(running: &mut Running, ui: &mut egui::Ui, cx: &Cx<'_>, asked: &mut Option<Asked>) {
+fn contents(running: &mut Running, ui: &mut egui::Ui, doc: &Document, asked: &mut Option<Asked>) {
     head(running, ui, asked);
     let frame = egui::Frame::new().inner_margin(egui::Margin::symmetric(0, 8));
     egui::Panel::bottom("lesson's way")
@@ -48,7 +28,7 @@ fn contents(running: &mut Running, ui: &mut egui::Ui, cx: &Cx<'_>, asked: &mut O
         .id_salt(("lesson", running.at))
         .auto_shrink(false)
         .show(ui, |ui| {
-            if running.is_changed(cx.doc) {
+            if running.is_changed(doc) {
                 changed(ui, asked);
             }
             let figures = running.now().figures.clone();

@@ -16,9 +16,10 @@ use crate::gui::document::Document;
 use crate::gui::document::comparing::{Verdict, View};
 use crate::gui::edits::{Edits, Request};
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
+use crate::gui::theme::ROW;
 use crate::measure::heat::heatmaps;
 use crate::workspace;
-use egui::{Color32, ColorImage, Pos2, Rect, TextureHandle, TextureOptions, Vec2, pos2};
+use egui::{Color32, ColorImage, Pos2, Rect, TextureHandle, TextureOptions, Vec2, pos2, vec2};
 use heat::{HeatView, legend, next_heatmap};
 use marks::PictureMarks;
 use parts::{Part, parts, room_below, size_of};
@@ -40,6 +41,8 @@ pub struct PicturePane {
     /// Where a region is being dragged from.
     region_from: Option<Pos2>,
     row: Row,
+    /// Whether the row is in the pane's title row in this frame.
+    has_title_row: bool,
     heat: HeatView,
     marks: PictureMarks,
 }
@@ -112,10 +115,18 @@ impl Pane for PicturePane {
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         let doc = cx.doc;
-        let verdict = doc.other.as_ref().and_then(|_| doc.verdict(cx.ctx));
+        let verdict = verdict(doc, cx.ctx);
         let edits = &mut *cx.edits;
-        let shown = (&mut self.heat, &mut self.marks);
-        self.row.show(ui, shown, doc, verdict.as_deref(), edits);
+        // A column has no title rows.
+        if !std::mem::take(&mut self.has_title_row) {
+            let size = vec2(ui.available_width(), ROW);
+            let to_the_left = egui::Layout::right_to_left(egui::Align::Center);
+            ui.allocate_ui_with_layout(size, to_the_left, |ui| {
+                ui.set_min_size(size);
+                self.row(ui, doc, verdict.as_deref(), edits);
+            });
+        }
+        self.marks.note(ui, doc);
         self.heat.update(ui.ctx(), doc);
         let rest = crate::gui::widgets::common::rest_of(ui);
         let room = room_below(rest, doc);
@@ -128,10 +139,17 @@ impl Pane for PicturePane {
         if doc.heatmap.is_some() {
             self.heat.legend(ui, doc, room, hovered);
         }
-        let told = hovered.filter(|_| !self.heat.is_secret(doc));
+        let told = hovered.filter(|_| !doc.hides_heatmap());
         let value = told.and_then(|pixel| self.heat.value_text(pixel));
         let hovered = hovered.map(|pixel| (pixel, value));
         edits.add(move |doc| doc.hovered = hovered);
+    }
+
+    fn controls(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
+        self.has_title_row = true;
+        let doc: &Document = cx.doc;
+        let verdict = verdict(doc, cx.ctx);
+        self.row(ui, doc, verdict.as_deref(), cx.edits);
     }
 
     fn choices(&self) -> Vec<String> {
@@ -159,7 +177,24 @@ impl Pane for PicturePane {
     }
 }
 
+/// How the two pictures differ; `None` while a lesson asks for it, too.
+fn verdict(doc: &Document, ctx: &egui::Context) -> Option<Arc<Verdict>> {
+    let compares = doc.other.is_some() && !doc.hides(&[Fact::Difference]);
+    compares.then(|| doc.verdict(ctx)).flatten()
+}
+
 impl PicturePane {
+    fn row(
+        &mut self,
+        ui: &mut egui::Ui,
+        doc: &Document,
+        verdict: Option<&Verdict>,
+        edits: &mut Edits,
+    ) {
+        let shown = (&mut self.heat, &mut self.marks);
+        self.row.show(ui, shown, doc, verdict, edits);
+    }
+
     /// Shows the picture and picks pixels. Returns the pixel under the pointer.
     fn picture(
         &mut self,

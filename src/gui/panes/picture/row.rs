@@ -1,15 +1,16 @@
-//! The row above the picture: what is shown, how two pictures are arranged, the way to the costliest
+//! The controls above the picture: what is shown, how two pictures are arranged, the way to the costliest
 //! pixels, and how far the rendering is.
 
 use super::heat::{HeatView, menu};
 use super::marks::PictureMarks;
 use crate::gui::action::tip;
-use crate::gui::document::Document;
 use crate::gui::document::comparing::{Verdict, View};
+use crate::gui::document::{Document, Fact};
 use crate::gui::edits::{Edits, Request};
 use crate::gui::icons;
 use crate::gui::theme::{IconButton, ROW, hint};
 use crate::gui::widgets::common::sentence;
+use crate::gui::widgets::hidden::HIDDEN;
 use crate::gui::widgets::progress_ring::progress_ring;
 use crate::present::number::counted;
 use egui::containers::menu::{MenuButton, MenuConfig};
@@ -17,10 +18,13 @@ use egui::containers::menu::{MenuButton, MenuConfig};
 /// How long work goes on before its progress is shown, in seconds.
 const PATIENCE: f64 = 0.3;
 
-/// Below this width, in points, the arrangements are a menu.
-const NARROW: f32 = 620.0;
+/// What the tab left of the controls needs, in points.
+const TAB: f32 = 100.0;
 
-/// What the row keeps from frame to frame.
+/// Below this width, in points, the arrangements of two pictures are a menu.
+const NARROW: f32 = 560.0;
+
+/// What the controls keep from frame to frame.
 #[derive(Default)]
 pub struct Row {
     /// Since when a picture is being rendered, in seconds.
@@ -28,7 +32,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// Shows the row.
+    /// Shows the controls, from the right to the left.
     pub fn show(
         &mut self,
         ui: &mut egui::Ui,
@@ -37,30 +41,28 @@ impl Row {
         verdict: Option<&Verdict>,
         edits: &mut Edits,
     ) {
-        let size = egui::vec2(ui.available_width(), ROW);
-        let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
-        let layout = egui::Layout::left_to_right(egui::Align::Center);
-        let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(layout));
-        let narrow = rect.width() < NARROW;
-        what(&mut ui, heat, marks, doc, edits);
-        if doc.other.is_some() {
-            if narrow {
-                let title = sentence(doc.comparing.view.name());
-                ui.menu_button(title, |ui| arrangements(ui, doc, edits));
-            } else {
-                arrangements(&mut ui, doc, edits);
-            }
-            view3d(&mut ui, edits);
-            of_view(&mut ui, doc, verdict, edits);
+        let room = ui.available_width() - TAB;
+        self.ring(ui, doc);
+        let mut narrow = room < NARROW;
+        if doc.heatmap.is_some() {
+            costliest(ui, heat, narrow);
+            narrow = room < NARROW + COSTLIEST;
         }
-        let to_the_left = egui::Layout::right_to_left(egui::Align::Center);
-        ui.with_layout(to_the_left, |ui| {
-            self.ring(ui, doc);
-            if doc.heatmap.is_some() {
-                costliest(ui, heat, narrow);
+        if doc.other.is_some() {
+            view3d(ui, edits);
+            of_view(ui, doc, verdict, edits);
+            if narrow {
+                let title = format!(
+                    "{} {}",
+                    sentence(doc.comparing.view.name()),
+                    icons::CARET_DOWN
+                );
+                ui.menu_button(title, |ui| arrangements(ui, doc, false, edits));
+            } else {
+                arrangements(ui, doc, true, edits);
             }
-            ui.with_layout(layout, |ui| marks.note(ui, doc));
-        });
+        }
+        what(ui, heat, marks, doc, edits);
     }
 
     /// How much of the picture is done, once that takes a while. An empty slot before, so that nothing
@@ -69,12 +71,12 @@ impl Row {
         let now = ui.input(|i| i.time);
         let Some((work, status)) = doc.work.as_ref().and_then(|w| Some((w, w.status()?))) else {
             self.busy_since = None;
-            ui.add_space(ROW);
+            empty_slot(ui);
             return;
         };
         let since = *self.busy_since.get_or_insert(now);
         if now - since < PATIENCE {
-            ui.add_space(ROW);
+            empty_slot(ui);
             let left = since + PATIENCE - now;
             ui.ctx().request_repaint_after_secs(left as f32);
             return;
@@ -90,6 +92,11 @@ impl Row {
         );
         progress_ring(ui, status.fraction, &about);
     }
+}
+
+/// Takes the room of the ring.
+fn empty_slot(ui: &mut egui::Ui) {
+    ui.allocate_exact_size(egui::vec2(ROW, ROW), egui::Sense::hover());
 }
 
 /// The menu of the picture and its heatmaps.
@@ -124,8 +131,13 @@ fn what(
     button.on_hover_text(about).accessible_name("Show");
 }
 
-fn arrangements(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
-    for view in [View::Beside, View::Wipe, View::Difference, View::One] {
+/// The arrangements of two pictures, in a menu or, `reversed`, from the right to the left.
+fn arrangements(ui: &mut egui::Ui, doc: &Document, reversed: bool, edits: &mut Edits) {
+    let mut all = [View::Beside, View::Wipe, View::Difference, View::One];
+    if reversed {
+        all.reverse();
+    }
+    for view in all {
         let is_chosen = doc.comparing.view == view;
         let button = egui::Button::selectable(is_chosen, sentence(view.name()));
         let about = tip(view.about(), "picture.next-view");
@@ -148,6 +160,7 @@ fn of_view(ui: &mut egui::Ui, doc: &Document, verdict: Option<&Verdict>, edits: 
     match doc.comparing.view {
         View::Difference if doc.heatmap.is_none() => {
             let text = match verdict {
+                None if doc.hides(&[Fact::Difference]) => HIDDEN.to_owned(),
                 None => "Waiting for both pictures".to_owned(),
                 Some(verdict) if verdict.pixels.is_empty() => "Equal in every pixel".to_owned(),
                 Some(verdict) => format!("{} differ", counted(verdict.pixels.len(), "pixel")),
@@ -160,8 +173,8 @@ fn of_view(ui: &mut egui::Ui, doc: &Document, verdict: Option<&Verdict>, edits: 
             let edit = egui::DragValue::new(&mut percent)
                 .range(0.0..=100.0)
                 .fixed_decimals(0);
-            ui.name_inputs("Wipe", |ui| ui.add(edit));
             ui.label("%");
+            ui.name_inputs("Wipe", |ui| ui.add(edit));
             if percent != before {
                 edits.add(move |doc| doc.comparing.split = percent / 100.0);
             }
@@ -170,7 +183,10 @@ fn of_view(ui: &mut egui::Ui, doc: &Document, verdict: Option<&Verdict>, edits: 
     }
 }
 
-/// Buttons to the pixels in the order of their values; added from the right.
+/// Width of the way to the costliest pixels, in points.
+const COSTLIEST: f32 = 200.0;
+
+/// Buttons to the pixels in the order of their values.
 fn costliest(ui: &mut egui::Ui, heat: &mut HeatView, narrow: bool) {
     for (icon, by, action, name) in [
         (

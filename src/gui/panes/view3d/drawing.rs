@@ -28,6 +28,7 @@ const REST: f64 = 0.2;
 const GHOST: f32 = 0.25;
 
 impl View3d {
+    /// Draws all; numbers only where it `tells` them.
     pub(super) fn draw(
         &mut self,
         ui: &mut egui::Ui,

@@ -8,13 +8,14 @@ use crate::gui::theme::hint;
 use crate::gui::widgets::hidden::HIDDEN;
 use crate::gui::widgets::scale_bar::{NUMBERS, TICK, color_bar, numbers};
 use crate::gui::widgets::symbol::grouped;
-use crate::measure::heat::heatmaps;
 use egui::{Color32, Painter, Rect, Shape, Stroke, pos2, vec2};
 
 /// Height of the color bar in points.
 const BAR: f32 = 12.0;
 /// Height of a line of the legend.
 const LINE: f32 = 20.0;
+/// From this width on, the line of a short legend has room for the terms.
+const WIDE: f32 = 900.0;
 /// A mark's half width.
 const MARK: f32 = 5.0;
 
@@ -63,12 +64,6 @@ pub fn height(room: f32) -> f32 {
 }
 
 impl HeatView {
-    /// Whether a lesson asks for what the heatmap tells.
-    pub fn is_secret(&self, doc: &Document) -> bool {
-        let heatmap = doc.heatmap.map(|place| &heatmaps()[place]);
-        heatmap.is_some_and(|heatmap| doc.asked.hides_heatmap(heatmap.symbol))
-    }
-
     /// Shows the legend of what is on view, or why there is nothing yet. `room` is what the picture
     /// leaves free below it.
     pub fn legend(
@@ -85,8 +80,8 @@ impl HeatView {
         let mut ui = ui.new_child(egui::UiBuilder::new().max_rect(rect));
         ui.spacing_mut().item_spacing.y = 0.0;
         ui.spacing_mut().interact_size.y = LINE;
-        if self.is_secret(doc) {
-            ui.weak(HIDDEN);
+        if doc.hides_heatmap() {
+            ui.label(hint(HIDDEN));
             return;
         }
         match self.look().cloned() {
@@ -138,12 +133,21 @@ impl HeatView {
         let about = self.about(look);
         match size {
             Size::Short => {
+                let is_wide = ui.available_width() >= WIDE;
                 ui.horizontal(|ui| {
                     ui.strong(look.title()).on_hover_text(about);
+                    if is_wide {
+                        let terms = format!("{} · {}", look.heatmap().unit, look.terms());
+                        ui.label(hint(terms));
+                    }
                     let to_the_left = egui::Layout::right_to_left(egui::Align::Center);
                     ui.with_layout(to_the_left, |ui| {
-                        if let Some(number) = picked.and_then(|pixel| look.number_text(pixel)) {
-                            ui.label(hint(format!("{number}{rank}")));
+                        if let Some(pixel) = picked {
+                            let text = match look.number_text(pixel) {
+                                Some(number) if !is_wide => number,
+                                _ => format!("Picked: {}", look.value_text(pixel)),
+                            };
+                            ui.label(hint(format!("{text}{rank}")));
                             marked(ui, Mark::Picked);
                         }
                     });

@@ -67,9 +67,8 @@ impl HeatView {
         };
         self.choice.differences = self.on == On::Difference;
         let both = doc.both();
-        let keeps = |side: Option<&Current>, number| {
-            side.is_some_and(|current| current.is_held() || current.number == number)
-        };
+        let keeps =
+            |side: Option<&Current>, number| side.is_some_and(|current| current.looks_like(number));
         let [a, b] = both;
         let [of_a, of_b] = &mut self.layers;
         of_a.keep_if(|key| keeps(a, key.number));
@@ -216,10 +215,20 @@ impl HeatView {
         })
     }
 
-    /// Whether the colors on view are of an earlier picture, or of settings that have changed.
-    fn is_old(&self, doc: &Document) -> bool {
-        let in_front = doc.current.as_ref();
-        doc.is_previous() || in_front.is_some_and(Current::is_held)
+    /// Whether a look is of an earlier picture, or of settings that have changed.
+    fn is_old(key: ValuesKey, which: Which, doc: &Document) -> bool {
+        let is_old = |which: Which, number: u64| {
+            let is_previous = match &doc.other {
+                Some(other) if which != doc.which => other.is_previous(doc.reload),
+                _ => doc.is_previous(),
+            };
+            let current = doc.both()[which as usize];
+            is_previous || current.is_none_or(|current| current.number != number)
+        };
+        match key.minus {
+            None => is_old(which, key.number),
+            Some(minus) => is_old(Which::A, minus) || is_old(Which::B, key.number),
+        }
     }
 
     /// Switches between colors by the value and by its logarithm.
@@ -254,11 +263,11 @@ impl HeatView {
         doc: &Document,
         ctx: &egui::Context,
     ) -> Option<(TextureId, Color32)> {
-        let is_old = self.is_old(doc);
         let layer = match self.on {
             On::Picture(_) => &mut self.layers[which as usize],
             On::Difference => &mut self.difference,
         };
+        let is_old = Self::is_old(layer.look.as_ref()?.key.values, which, doc);
         let tint = layer::tint(self.choice.opacity, is_old);
         Some((layer.texture(ctx)?, tint))
     }
