@@ -2,8 +2,9 @@
 //! broken or moved, at both reference sizes and in both themes.
 
 use crate::harness::{Window, finish, open_sized, press, small};
+use crate::painted::texts_in;
 use egui::accesskit::Role;
-use egui::{Key, Modifiers, Rect, Shape};
+use egui::{Key, Modifiers, Rect};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 /// The reference sizes in points.
@@ -17,51 +18,6 @@ const TASKS: [(Key, &str); 5] = [
     (Key::Num4, "Tune"),
     (Key::Num5, "Lessons"),
 ];
-
-/// A text as it is drawn.
-struct Drawn {
-    text: String,
-    /// The smallest font of it, in points.
-    size: f32,
-    rect: Rect,
-    clip: Rect,
-    is_elided: bool,
-    /// The texts of its rows.
-    rows: Vec<String>,
-}
-
-fn collect(shape: &Shape, clip: Rect, into: &mut Vec<Drawn>) {
-    match shape {
-        Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, clip, into)),
-        Shape::Text(text) if !text.galley.text().trim().is_empty() => {
-            let job = &text.galley.job;
-            let sizes = job
-                .sections
-                .iter()
-                .map(|section| section.format.font_id.size);
-            into.push(Drawn {
-                text: text.galley.text().to_owned(),
-                size: sizes.fold(f32::INFINITY, f32::min),
-                rect: text.galley.rect.translate(text.pos.to_vec2()),
-                clip,
-                is_elided: text.galley.elided,
-                rows: text.galley.rows.iter().map(|row| row.text()).collect(),
-            });
-        }
-        _ => {}
-    }
-}
-
-/// All texts on the screen.
-fn drawn(window: &Window<'_>) -> Vec<Drawn> {
-    let mut all = Vec::new();
-    for shape in &window.output().shapes {
-        collect(&shape.shape, shape.clip_rect, &mut all);
-    }
-    all.retain(|text| text.rect.intersects(text.clip));
-    assert!(all.len() > 10, "the window has texts");
-    all
-}
 
 /// Opens the window in a task, in the dark or the light theme, and lets it come to rest.
 fn at<'a>(size: [f32; 2], light: bool, task: Key) -> Window<'a> {
@@ -91,28 +47,15 @@ fn everywhere(check: impl Fn(&Window<'_>, &str)) {
 #[test]
 fn texts_are_large_enough_whole_and_unbroken() {
     everywhere(|window, place| {
-        for text in drawn(window) {
-            let Drawn { text: words, .. } = &text;
-            assert!(text.size >= 12.0, "{place}: '{words}' is {} pt", text.size);
+        let texts = texts_in(window, window.ctx.content_rect());
+        assert!(texts.len() > 10, "{place}");
+        for text in texts {
+            let words = text.rows.concat();
+            assert!(text.size >= 12.0, "{place}: {text:?}");
             let is_file_name = words.contains('/') || words.contains(".nff");
-            assert!(
-                !text.is_elided || is_file_name,
-                "{place}: '{words}' is elided"
-            );
-            let cut = text.rect.left() < text.clip.left() - 1.5
-                || text.rect.right() > text.clip.right() + 1.5;
-            assert!(
-                !cut,
-                "{place}: '{words}' is cut: {} in {}",
-                text.rect, text.clip
-            );
-            for pair in text.rows.windows(2) {
-                let (end, start) = (pair[0].chars().last(), pair[1].chars().next());
-                let in_number = |c: char| c.is_ascii_digit() || c == '.' || c == '\u{a0}';
-                let broken =
-                    end.is_some_and(in_number) && start.is_some_and(|c| in_number(c) || c == '%');
-                assert!(!broken, "{place}: a number of '{words}' is broken");
-            }
+            assert!(!text.is_elided || is_file_name, "{place}: {text:?}");
+            assert!(!text.is_clipped, "{place}: {text:?}");
+            assert!(!text.breaks_a_number(), "{place}: {text:?}");
         }
     });
 }

@@ -27,5 +27,6 @@ mod sweep;
 mod theme;
 mod tree;
 mod tune;
+mod twelve;
 mod view3d;
 mod window;

@@ -13,6 +13,8 @@ pub struct Text {
     pub is_elided: bool,
     /// Whether a side of it is not painted.
     pub is_clipped: bool,
+    /// Its smallest font, in points.
+    pub size: f32,
 }
 
 impl Text {
@@ -48,11 +50,14 @@ fn collect(shape: &Shape, clip: Rect, part: Rect, found: &mut Vec<Text>) {
             let rect = galley.rect.translate(pos.to_vec2());
             if clip.intersect(part).contains(rect.center()) {
                 let room = clip.expand(1.0).x_range();
+                let sections = galley.job.sections.iter();
+                let sizes = sections.map(|section| section.format.font_id.size);
                 let is_inside = room.contains(rect.left()) && room.contains(rect.right());
                 found.push(Text {
                     rows: galley.rows.iter().map(|row| row.text()).collect(),
                     is_elided: galley.elided,
                     is_clipped: !is_inside,
+                    size: sizes.fold(f32::INFINITY, f32::min),
                 });
             }
         }
