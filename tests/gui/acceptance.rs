@@ -75,8 +75,8 @@ fn the_picture_has_its_share_of_the_window() {
         let rect = window.get_by_label("Traced picture").rect();
         let side = rect.width().min(rect.height());
         let whole = window.ctx.content_rect().area();
-        // The pane has its title row above the picture.
-        let of_pane = rect.width() * (rect.height() + 36.0) / whole;
+        // The pane begins below the top bar.
+        let of_pane = rect.width() * (rect.bottom() - 40.0) / whole;
         assert!(of_pane >= pane - 0.01, "{size:?}: the pane has {of_pane}");
         let of_square = side * side / whole;
         assert!(

@@ -20,7 +20,9 @@ impl StatusLine {
     /// Shows jobs, then what is worked on or what is under the pointer, from right to left.
     pub fn ui(&mut self, ui: &mut egui::Ui, doc: &mut Document) {
         let memory = self.memory(ui.input(|i| i.time));
-        jobs(ui, &doc.jobs).on_hover_text(facts(doc, memory));
+        if let Some(menu) = jobs(ui, &doc.jobs) {
+            menu.on_hover_text(facts(doc, memory));
+        }
         let hovered = doc.hovered.take();
         let current = doc.current.as_ref();
         let text = match (&self.progress, hovered, current) {
@@ -63,28 +65,25 @@ fn facts(doc: &Document, memory: Option<usize>) -> String {
     text
 }
 
-/// The live jobs as a menu, to pause, resume or cancel each.
-fn jobs(ui: &mut egui::Ui, jobs: &Scheduler) -> egui::Response {
+/// The live jobs as a menu, to pause, resume or cancel each; `None` while there are none.
+fn jobs(ui: &mut egui::Ui, jobs: &Scheduler) -> Option<egui::Response> {
     let live = jobs.jobs();
     let listed: Vec<_> = live
         .iter()
         .filter(|job| job.priority.takes_turns())
         .collect();
     let text = match listed.len() {
-        0 => "No jobs".to_owned(),
+        0 => return None,
         1 => "1 job".to_owned(),
         count => format!("{count} jobs"),
     };
     let menu = ui.menu_button(text, |ui| {
-        if listed.is_empty() {
-            ui.weak("Nothing is running.");
-        }
         for job in &listed {
             ui.horizontal(|ui| row(ui, job, jobs));
         }
         ui.ctx().request_repaint_after_secs(0.2);
     });
-    menu.response
+    Some(menu.response)
 }
 
 fn row(ui: &mut egui::Ui, job: &JobStatus, jobs: &Scheduler) {

@@ -11,6 +11,9 @@ const HEIGHT: f32 = 32.0;
 /// What the status at the right end may take, in points.
 const STATUS: f32 = 300.0;
 
+/// The most tabs beside the menu of all others: more would be read by nobody.
+const MOST_TABS: usize = 6;
+
 /// The share of the window that a pane opens to.
 const OPEN: f32 = 0.4;
 
@@ -47,9 +50,10 @@ impl App {
         let opened = self.layout.opened();
         let mut left = room - width(ui, more) - 16.0;
         let mut hidden = Vec::new();
-        for pane in self.layout.strip() {
+        for (place, pane) in self.layout.strip().into_iter().enumerate() {
             left -= width(ui, pane.entry().title);
-            if left < 0.0 && opened != Some(pane) {
+            let has_room = left >= 0.0 && place < MOST_TABS;
+            if !has_room && opened != Some(pane) {
                 hidden.push(pane);
             } else {
                 self.tab(ui, pane, opened == Some(pane));

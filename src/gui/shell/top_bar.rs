@@ -15,12 +15,17 @@ use egui::containers::menu::MenuButton;
 /// Below this width, in points, tasks become a menu and the slider is short.
 const NARROW: f32 = 1100.0;
 
+/// The width of the list of methods, in points.
+const METHOD: f32 = 150.0;
+
 /// Shows the bar.
 pub fn show(ui: &mut egui::Ui, doc: &mut Document, files: &mut Files, edits: &mut Edits) {
     let narrow = ui.available_width() < NARROW;
     ui.horizontal_centered(|ui| {
         files.menu(ui, doc);
         which(ui, doc);
+        // Wide enough for every method: nothing moves when another one is chosen.
+        ui.spacing_mut().combo_width = METHOD;
         let slider = if narrow { 120.0 } else { 240.0 };
         setting(ui, "method", doc, edits, slider);
         setting(ui, "d-max", doc, edits, slider);
@@ -101,9 +106,9 @@ pub fn set_theme(ctx: &egui::Context, dark: bool) {
     });
 }
 
-/// Which of two compared trees the settings are about.
+/// Which of two trees the settings are about, where no pane tells.
 fn which(ui: &mut egui::Ui, doc: &mut Document) {
-    if doc.other.is_none() {
+    if doc.other.is_none() || doc.task == "compare" {
         return;
     }
     for which in Which::BOTH {
