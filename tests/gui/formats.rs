@@ -1,6 +1,6 @@
 //! Scene files of every format in the window, and what the reader says of them.
 
-use crate::harness::{click, finish, has, open, press, small, wait};
+use crate::harness::{finish, has, open, open_pane, press, small, wait};
 use crate::support::scenes::asset;
 use bspscope::scene::format::FORMATS;
 use egui_kittest::kittest::Queryable as _;
@@ -9,7 +9,7 @@ use std::path::Path;
 #[test]
 fn files_of_every_format_are_opened_by_the_path_field() {
     let mut window = open(small("balls:1"));
-    click(&mut window, "Scene");
+    open_pane(&mut window, "Scene");
     finish(&mut window);
     for (name, title, kinds) in [
         ("trimesh.glb", "trimesh", "triangles: 92"),
@@ -45,7 +45,7 @@ fn the_load_report_says_what_was_read_skipped_and_defaulted() {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\nl 1 2\nf 1 2 3\nf 2 2 3\n";
     std::fs::write(&file, text).unwrap();
     let mut window = open(small(file.to_str().unwrap()));
-    click(&mut window, "Scene");
+    open_pane(&mut window, "Scene");
     finish(&mut window);
     for text in [
         "Load report",

@@ -202,7 +202,10 @@ impl eframe::App for App {
             self.working.line(ui, ui.available_rect_before_wrap());
         }
         if let Some(pane) = self.maximized {
-            egui::CentralPanel::default().show(ui, |ui| self.pane_with_header(ui, pane));
+            let frame = egui::Frame::new().fill(ui.visuals().panel_fill);
+            egui::CentralPanel::default()
+                .frame(frame)
+                .show(ui, |ui| self.pane_with_header(ui, pane));
         } else if presents {
             present::show(self, ui);
         } else {

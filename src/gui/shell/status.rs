@@ -5,7 +5,7 @@ use crate::gui::document::Document;
 use crate::gui::theme;
 use crate::gui::widgets::color_text::color_text;
 use crate::gui::widgets::symbol::grouped;
-use crate::jobs::{JobStatus, Scheduler, Standing};
+use crate::jobs::{JobStatus, Priority, Scheduler, Standing};
 
 /// What the line keeps from frame to frame.
 #[derive(Default)]
@@ -70,7 +70,7 @@ fn jobs(ui: &mut egui::Ui, jobs: &Scheduler) -> Option<egui::Response> {
     let live = jobs.jobs();
     let listed: Vec<_> = live
         .iter()
-        .filter(|job| job.priority.takes_turns())
+        .filter(|job| job.priority.takes_turns() && job.priority != Priority::Idle)
         .collect();
     let text = match listed.len() {
         0 => return None,

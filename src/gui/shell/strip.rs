@@ -12,7 +12,7 @@ const HEIGHT: f32 = 32.0;
 const STATUS: f32 = 300.0;
 
 /// The most tabs beside the menu of all others: more would be read by nobody.
-const MOST_TABS: usize = 6;
+const MOST_TABS: usize = 5;
 
 /// The share of the window that a pane opens to.
 const OPEN: f32 = 0.4;

@@ -36,6 +36,7 @@ fn spacing() -> Spacing {
         icon_spacing: 8.0,
         // All build methods without scrolling.
         combo_height: 480.0,
+        combo_width: 90.0,
         ..Spacing::default()
     }
 }

@@ -229,7 +229,6 @@ fn choice(
     let of_chosen = of_chosen.map_or("", |choice| choice.about);
     let list = egui::ComboBox::from_id_salt(said.name)
         .selected_text(now)
-        .width(90.0)
         // Without scrolling: a list that hides its last item hides that there is one.
         .height(f32::INFINITY)
         .show_ui(ui, |ui| {

@@ -48,8 +48,10 @@ impl Pane for FiguresPane {
             let note = kernel.as_deref().filter(|_| is_time).unwrap_or("");
             card::card(ui, parameter(symbol), doc, cx.edits, note);
         }
+        // The cards leave room for the other figures, or else for a way to them.
         if room >= height_with_rows() {
             rows(ui, doc);
+            return;
         }
         let about = "Show all parameters of the paper's Tables 1 to 3.";
         let size = egui::vec2(ui.available_width(), ROW);
