@@ -29,6 +29,8 @@ fn on_study<'a>(scene: &str, size: u32) -> Window<'a> {
 fn measure(window: &mut Window<'_>) {
     click(window, RUN);
     wait(window, "the end", |w| has(w, RUN));
+    // Until nothing moves any more.
+    window.run_steps(5);
 }
 
 /// Turns done and turns in all.

@@ -1,7 +1,7 @@
 //! The window's panes about the tree: outline, find, histograms, icicle and split cost, found by
 //! their labels.
 
-use crate::harness::{Window, click, finish, grouped, has, open_sized, small, wait};
+use crate::harness::{Window, click, finish, grouped, has, open_sized, press, small, wait};
 use crate::painted::{assert_whole, texts_in};
 use bspscope::progress::Progress;
 use bspscope::scene::load;
@@ -135,11 +135,9 @@ fn a_picked_object_leads_to_its_leaves() {
     let mut window = open("balls:1", "midpoint", true);
     click(&mut window, "Traced picture");
     wait(&mut window, "the object", |w| has(w, "is in"));
-    // The task Ray is on view, where the legend can be folded.
-    if window.query_by_label("Unfold the legend").is_some() {
-        click(&mut window, "Unfold the legend");
-    }
-    assert!(has(&window, "thin red: "));
+    // The task Ray shows only the ray's leaves in 3D.
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Num1);
+    wait(&mut window, "the leaves in 3D", |w| has(w, "thin red: "));
     window.get_by_label_contains(" is in ").click();
     wait(&mut window, "the leaves", |w| listed_leaves(w) > 0);
 }

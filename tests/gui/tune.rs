@@ -41,7 +41,8 @@ fn is_done(window: &Window<'_>) -> bool {
 
 #[test]
 fn the_best_two_methods_are_refined_and_a_row_becomes_the_tree() {
-    let mut window = on_tune("tetra:2", [1600.0, 1000.0]);
+    // So high that all rows are in view: which ones are the best differs from run to run.
+    let mut window = on_tune("tetra:2", [1600.0, 4800.0]);
     assert!(has(&window, "Which tree renders this scene fastest?"));
     choose_only(&mut window, &["midpoint", "sah", "octree"]);
     click(&mut window, FIND);
