@@ -268,7 +268,9 @@ fn wipe_and_flip_show_the_other_picture() {
     }
     // One picture, B's, and A's while the key is held.
     click(&mut window, "One");
+    // The tooltip of what was clicked lies over the picture for a moment.
     over_picture(&mut window);
+    window.run_steps(30);
     let one = picture(&mut window);
     window.key_down(Key::F);
     window.run_steps(3);

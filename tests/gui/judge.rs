@@ -1,11 +1,11 @@
 //! The correctness check in the window: it looks at rays of a finished picture, and can be stopped.
 
-use crate::harness::{Window, click, finish, has, open, small, wait};
+use crate::harness::{Window, click, finish, has, open, open_pane, small, wait};
 
 /// A window on the pane.
 fn on_check<'a>() -> Window<'a> {
     let mut window = open(small("teaching"));
-    click(&mut window, "Correctness check");
+    open_pane(&mut window, "Correctness check");
     window
 }
 

@@ -2,7 +2,8 @@
 //! back; what cannot be opened leaves everything as it was.
 
 use crate::harness::{
-    SIZE, Window, click, finish, has, open, open_sized, open_with_graphics, press, small, wait,
+    SIZE, Window, click, finish, has, open, open_pane, open_sized, open_with_graphics, press,
+    small, wait,
 };
 use bspscope::gui::StartOptions;
 use bspscope::measure::model::Region;
@@ -41,6 +42,7 @@ fn save_as(window: &mut Window<'_>, path: &Path) -> Workspace {
 /// Opens what is typed into the path field.
 fn open_path(window: &mut Window<'_>, path: &Path) {
     press(window, Modifiers::COMMAND, Key::L);
+    window.run_steps(3);
     let role = egui::accesskit::Role::TextInput;
     let field = window.get_by_role_and_label(role, "Path of a scene");
     field.focus();
@@ -66,20 +68,22 @@ fn saved_changed_and_restored_it_is_the_same() {
     // Two trees, settings of their own, a moment of the build, a zoom, a heatmap, a picked and pinned
     // pixel, a step of its walk.
     press(&mut window, Modifiers::COMMAND, Key::E);
-    wait(&mut window, "both", |w| has(w, "May be compared"));
+    wait(&mut window, "both", |w| has(w, "Fair comparison"));
+    click(&mut window, "Wipe");
     press(&mut window, Modifiers::NONE, Key::J);
-    press(&mut window, Modifiers::COMMAND, Key::M);
+    press(&mut window, Modifiers::COMMAND, Key::ArrowDown);
     finish(&mut window);
     press(&mut window, Modifiers::COMMAND, Key::G);
     press(&mut window, Modifiers::ALT, Key::ArrowRight);
     press(&mut window, Modifiers::ALT, Key::ArrowRight);
+    open_pane(&mut window, "Rays of the pixel");
     window.get_by_label("Traced picture").click();
     wait(&mut window, "the object", |w| has(w, "Hits sphere "));
     press(&mut window, Modifiers::COMMAND, Key::Num0);
     press(&mut window, Modifiers::NONE, Key::P);
     press(&mut window, Modifiers::NONE, Key::H);
     press(&mut window, Modifiers::NONE, Key::Period);
-    click(&mut window, "Notes");
+    open_pane(&mut window, "Notes");
     let role = egui::accesskit::Role::MultilineTextInput;
     let notes = window.get_by_role_and_label(role, "Text of the notes");
     notes.focus();
@@ -131,7 +135,7 @@ fn saved_changed_and_restored_it_is_the_same() {
         has(w, "balls:1 · sah-cut")
     });
     finish(&mut window);
-    wait(&mut window, "the walk", |w| has(w, "Hits sphere "));
+    window.run_steps(40);
     let again = save_as(&mut window, &folder.path().join("third.bspscope"));
     assert_eq!(again, saved);
 
@@ -142,7 +146,7 @@ fn saved_changed_and_restored_it_is_the_same() {
     };
     let mut window = open(start);
     finish(&mut window);
-    wait(&mut window, "the walk", |w| has(w, "Hits sphere "));
+    window.run_steps(40);
     let again = save_as(&mut window, &folder.path().join("fourth.bspscope"));
     assert_eq!(
         (again.view, again.a, again.b),
@@ -297,7 +301,8 @@ fn workspaces_are_among_the_recent_files() {
     wait(&mut window, "the other scene", |w| {
         has(w, "tetra:1 · midpoint")
     });
-    click(&mut window, "Recent");
+    window.get_by_label_contains("Scene: ").click();
+    window.run_steps(3);
     let item = window.get_by_label_contains("mine.bspscope");
     assert!(!item.accesskit_node().is_disabled());
     item.click();

@@ -311,7 +311,7 @@ fn what_was_there_comes_back() {
     finish(&mut window);
     press(&mut window, Modifiers::COMMAND, Key::E);
     wait(&mut window, "both", |w| w.state().is_finished());
-    click(&mut window, "Tree B");
+    click(&mut window, "Bring B to the front");
     press(&mut window, Modifiers::COMMAND, Key::M);
     finish(&mut window);
     let before = described(&window);
@@ -329,7 +329,7 @@ fn what_was_there_comes_back() {
     });
     click(&mut window, "Exit lesson");
     finish(&mut window);
-    assert!(window.query_by_label("Tree B").is_some());
+    assert!(window.query_by_label("Bring B to the front").is_some());
     assert_eq!(described(&window), before);
     let task = window.get_by_label("Compare").accesskit_node();
     assert_eq!(task.toggled(), Some(Toggled::True));

@@ -1,13 +1,13 @@
 //! The pane of the paper's tables, found by its labels.
 
-use crate::harness::{Window, click, finish, has, open, open_sized, press, small, wait};
+use crate::harness::{Window, click, finish, has, open, open_pane, open_sized, press, small, wait};
 use egui_kittest::kittest::Queryable as _;
 
 /// A window on the pane, with one scene chosen.
 fn with_pane<'a>(scene: &str) -> Window<'a> {
     let mut window = open(small("tetra:2"));
     finish(&mut window);
-    click(&mut window, "Paper's tables");
+    open_pane(&mut window, "Paper's tables");
     for other in ["balls", "rings", "tetra", "fluid", "m-fluid", "room"] {
         if other != scene {
             click(&mut window, other);

@@ -51,7 +51,7 @@ fn find(x: &RustConnection, parent: Window, title: &str) -> Option<Window> {
             .reply()
             .ok()?
             .map_state;
-        if name.value == title.as_bytes() && state == MapState::VIEWABLE {
+        if name.value.ends_with(title.as_bytes()) && state == MapState::VIEWABLE {
             Some(window)
         } else {
             find(x, window, title)

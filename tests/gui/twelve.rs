@@ -6,7 +6,7 @@ use bspscope::lesson::LESSONS;
 use bspscope::structure::MaxDepth;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::kittest::Queryable as _;
 
 /// A finished picture of balls in a large window.
 fn ready<'a>() -> Window<'a> {
@@ -16,8 +16,14 @@ fn ready<'a>() -> Window<'a> {
 }
 
 /// Types an entry and confirms it.
-fn enter(window: &mut Window<'_>, text: &str) {
-    window.event(egui::Event::Text(text.to_owned()));
+fn enter(window: &mut Window<'_>, field: &str, text: &str) {
+    let field = |window: &Window<'_>, act: &dyn Fn(&egui_kittest::Node<'_>)| {
+        act(&window.get_by_role_and_label(Role::TextInput, field));
+    };
+    field(window, &|node| node.focus());
+    window.run_steps(2);
+    press(window, Modifiers::COMMAND, Key::A);
+    field(window, &|node| node.type_text(text));
     window.run_steps(2);
     window.key_press(Key::Enter);
     window.run_steps(3);
@@ -41,7 +47,7 @@ fn the_tour_starts_with_one_click() {
 fn another_method_shows_its_effect_after_two_clicks() {
     let mut window = ready();
     let method = window.state().setup().build.method;
-    let list = window.get_by_role_and_label(Role::ComboBox, "Build method");
+    let list = window.get_by_role_and_label(Role::ComboBox, "Method");
     list.click();
     window.run_steps(3);
     click(&mut window, "sah-cut");
@@ -75,25 +81,21 @@ fn the_first_leaf_of_the_costliest_pixel_is_four_actions_away() {
     window.run_steps(2);
     // The next heatmap, its costliest pixel, the steps of its ray, leaves only.
     press(&mut window, Modifiers::NONE, Key::H);
+    window.run_steps(20);
     press(&mut window, Modifiers::NONE, Key::N);
     window.run_steps(20);
     press(&mut window, Modifiers::COMMAND, Key::Num2);
     press(&mut window, Modifiers::NONE, Key::K);
-    wait_for(&mut window, "leaf");
-    wait(&mut window, "a leaf's step", |w| {
-        let all = w.query_all_by_label_contains("leaf");
-        let mut texts = all.map(|node| node.accesskit_node().label().unwrap_or_default());
-        texts.any(|text| text.contains("full leaf") || text.contains("empty leaf"))
-    });
+    wait(&mut window, "a leaf's step", |w| has(w, ": leaf "));
 }
 
 #[test]
 fn a_heatmap_of_tests_is_two_clicks_away() {
     let mut window = ready();
     click(&mut window, "Show");
-    window.get_by_label_contains("N_TESTS · ").click();
+    window.get_by_label_contains("N_IT · ").click();
     window.run_steps(3);
-    wait_for(&mut window, "N_TESTS");
+    wait_for(&mut window, "tests");
 }
 
 #[test]
@@ -104,7 +106,7 @@ fn two_methods_stand_side_by_side_after_one_key() {
     for side in ["A", "B"] {
         window.get_by_label(&format!("Build method of {side}"));
     }
-    assert!(has(&window, "Fair comparison"));
+    wait_for(&mut window, "Fair comparison");
 }
 
 #[test]
@@ -129,7 +131,7 @@ fn an_obj_file_gets_its_best_tree_in_five_actions() {
     let mut window = ready();
     press(&mut window, Modifiers::COMMAND, Key::L);
     window.run_steps(3);
-    enter(&mut window, &file.to_string_lossy());
+    enter(&mut window, "Path of a scene", &file.to_string_lossy());
     finish(&mut window);
     assert!(
         window
@@ -195,13 +197,12 @@ fn a_workspace_of_another_scene_is_not_overwritten() {
     let mut window = ready();
     press(&mut window, Modifiers::COMMAND, Key::S);
     window.run_steps(3);
-    press(&mut window, Modifiers::COMMAND, Key::A);
-    enter(&mut window, &file.to_string_lossy());
+    enter(&mut window, "Path to save to", &file.to_string_lossy());
     wait(&mut window, "the file", |_| file.exists());
     let saved = std::fs::read(&file).unwrap();
     press(&mut window, Modifiers::COMMAND, Key::L);
     window.run_steps(3);
-    enter(&mut window, "tetra:1");
+    enter(&mut window, "Path of a scene", "tetra:1");
     finish(&mut window);
     press(&mut window, Modifiers::COMMAND, Key::S);
     window.run_steps(3);

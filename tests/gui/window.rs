@@ -1,29 +1,37 @@
 //! The window without a window: widgets found by their labels, pictures through a software adapter.
 
 use crate::harness::{
-    PATIENCE, Window, click, finish, has, is_finished, open, open_with_graphics, press, small, wait,
+    PATIENCE, Window, click, finish, has, is_finished, open, open_pane, open_with_graphics,
+    over_picture, press, small, wait,
 };
 use egui_kittest::SnapshotOptions;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::time::Instant;
 
-/// The figure beside a name in the panels.
+/// The figure with this name: below it on a card, or at the right end of its row.
 fn figure(window: &Window<'_>, name: &str) -> String {
-    let row = window
+    let label = window
         .get_all_by_label(name)
         .next()
         .expect("a figure")
         .rect();
+    let text = |node: &egui_kittest::Node<'_>| {
+        let node = node.accesskit_node();
+        node.label().or(node.value()).unwrap_or_default()
+    };
     let mut values: Vec<(f32, String)> = window
         .query_all_by_label_contains("")
         .filter(|node| {
             let rect = node.rect();
-            (rect.center().y - row.center().y).abs() < 3.0 && rect.left() > row.right()
+            let is_below = (rect.left() - label.left()).abs() < 2.0
+                && rect.top() > label.top() + 4.0
+                && rect.top() < label.bottom() + 12.0;
+            let is_beside = (rect.center().y - label.center().y).abs() < 3.0
+                && rect.left() > label.right()
+                && !text(node).contains('_');
+            is_below || is_beside
         })
-        .filter_map(|node| {
-            let text = node.accesskit_node().label().or(node.value())?;
-            Some((node.rect().left(), text))
-        })
+        .map(|node| (node.rect().left(), text(&node)))
         .collect();
     values.sort_by(|a, b| a.0.total_cmp(&b.0));
     values.first().expect("a value").1.clone()
@@ -31,20 +39,22 @@ fn figure(window: &Window<'_>, name: &str) -> String {
 
 /// Covers what depends on the machine.
 fn masked(window: &mut Window<'_>) -> SnapshotOptions {
-    for name in ["build time", "render time", "time spent traversing"] {
-        let rect = window.get_by_label(name).rect();
-        let mut numbers = rect.expand(2.0);
-        (numbers.min.x, numbers.max.x) = (rect.right() + 4.0, window.ctx.content_rect().right());
-        window.mask(numbers);
-    }
-    for text in ["rays/s", " MiB"] {
-        let rects: Vec<_> = window
-            .query_all_by_label_contains(text)
-            .map(|node| node.rect().expand(12.0))
-            .filter(|rect| rect.bottom() > 980.0)
-            .collect();
-        for rect in rects {
-            window.mask(rect);
+    for name in ["Build time", "Render time", "Time spent traversing"] {
+        for rect in window
+            .query_all_by_label(name)
+            .map(|node| node.rect())
+            .collect::<Vec<_>>()
+        {
+            let mut numbers = rect.expand2(egui::vec2(0.0, 6.0));
+            (numbers.min.x, numbers.max.x) =
+                (rect.right() + 4.0, window.ctx.content_rect().right());
+            window.mask(numbers);
+            // On a card the value stands below its name.
+            let below = egui::vec2(0.0, 60.0);
+            window.mask(egui::Rect::from_min_max(
+                rect.left_bottom(),
+                numbers.max + below,
+            ));
         }
     }
     // Other versions of the software driver draw edges a little differently.
@@ -58,28 +68,31 @@ fn opens_a_small_scene_and_finishes() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
     assert!(has(&window, "balls:1 · midpoint · D_MAX 20 · N_OILF 1"));
+    open_pane(&mut window, "Scene");
     assert!(has(&window, "spheres: 10"));
     for symbol in bspscope::measure::DELTA {
         assert!(window.query_by_label(symbol).is_some(), "{symbol}");
     }
-    assert_ne!(figure(&window, "leaves"), "–");
-    assert!(figure(&window, "build time").ends_with(" s"));
-    assert!(has(&window, "rays/s"));
+    assert_ne!(figure(&window, "Leaves"), "–");
+    assert!(figure(&window, "Build time").ends_with('s'));
+    // Speed and memory are told at the right end of the bottom strip.
+    window.hover_at(egui::pos2(1400.0, 985.0));
+    window.run_steps(60);
+    assert!(has(&window, "rays/s") && has(&window, "MiB"));
 }
 
 #[test]
 fn another_method_changes_figures_and_picture_as_one() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
-    let before = figure(&window, "leaves");
+    let before = figure(&window, "Leaves");
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::M);
     let start = Instant::now();
     loop {
         // Figures, and the settings named over the picture, always belong to the same method.
-        let leaves = figure(&window, "leaves");
+        let leaves = figure(&window, "Leaves");
         if has(&window, "balls:1 · midpoint") {
             assert_eq!(leaves, before);
-            assert!(has(&window, "previous settings"));
         } else {
             assert!(has(&window, "balls:1 · sah-cut"));
             assert_ne!(leaves, before);
@@ -91,21 +104,17 @@ fn another_method_changes_figures_and_picture_as_one() {
         window.run_steps(1);
     }
     assert!(has(&window, "balls:1 · sah-cut"));
-    assert!(window.query_by_label("gap-fraction").is_some());
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::I);
+    assert!(has(&window, "Gap fraction"));
 }
 
 #[test]
 fn a_method_is_chosen_by_its_list() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
-    let combo = |window: &Window<'_>| {
-        window
-            .query_all_by_role(egui::accesskit::Role::ComboBox)
-            .find(|node| node.value().is_some_and(|v| v.starts_with("Method")))
-            .expect("the list of methods")
-            .click();
-    };
-    combo(&window);
+    window
+        .get_by_role_and_label(egui::accesskit::Role::ComboBox, "Method")
+        .click();
     window.run_steps(3);
     window.get_by_label("object-median").click();
     wait(&mut window, "the method", |w| has(w, "· object-median ·"));
@@ -117,7 +126,8 @@ fn the_kernel_is_chosen_by_its_list_and_named_beside_the_times() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
     assert!(has(&window, "Timed kernel: scalar"));
-    let tests = figure(&window, "tests per hit");
+    let tests = figure(&window, "Tests per hit");
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::I);
     window
         .query_all_by_role(egui::accesskit::Role::ComboBox)
         .find(|node| node.value().is_some_and(|v| v == "scalar"))
@@ -128,23 +138,23 @@ fn the_kernel_is_chosen_by_its_list_and_named_beside_the_times() {
     wait(&mut window, "the other kernel's times", |w| {
         is_finished(w) && has(w, "Timed kernel: stream")
     });
-    assert_eq!(figure(&window, "tests per hit"), tests);
+    assert_eq!(figure(&window, "Tests per hit"), tests);
 }
 
 #[test]
 fn depth_and_leaf_size_follow_their_keys() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
-    let before = figure(&window, "leaves");
+    let before = figure(&window, "Leaves");
     for _ in 0..14 {
         press(&mut window, egui::Modifiers::COMMAND, egui::Key::ArrowDown);
     }
     wait(&mut window, "D_MAX 6", |w| has(w, "· D_MAX 6 ·"));
     finish(&mut window);
-    assert_ne!(figure(&window, "leaves"), before);
+    assert_ne!(figure(&window, "Leaves"), before);
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::ArrowRight);
     wait(&mut window, "N_OILF 2", |w| has(w, "· N_OILF 2 ·"));
-    window.get_by_label("auto").click();
+    window.get_by_label("Auto").click();
     wait(&mut window, "automatic", |w| has(w, "(automatic)"));
     finish(&mut window);
 }
@@ -153,8 +163,9 @@ fn depth_and_leaf_size_follow_their_keys() {
 fn a_load_that_fails_keeps_the_scene_and_says_why() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
-    let before = figure(&window, "leaves");
+    let before = figure(&window, "Leaves");
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::L);
+    window.run_steps(3);
     let field = window.get_by_role_and_label(egui::accesskit::Role::TextInput, "Path of a scene");
     field.focus();
     field.type_text("/there/is/no.nff");
@@ -166,7 +177,7 @@ fn a_load_that_fails_keeps_the_scene_and_says_why() {
     assert!(has(&window, "Reason: /there/is/no.nff"));
     finish(&mut window);
     assert!(has(&window, "balls:1 · midpoint"));
-    assert_eq!(figure(&window, "leaves"), before);
+    assert_eq!(figure(&window, "Leaves"), before);
     window.get_by_label("Dismiss").click();
     window.run_steps(3);
     assert!(!has(&window, "could not be opened"));
@@ -185,6 +196,7 @@ fn a_file_with_a_mistake_is_told_with_its_line() {
         has(w, "could not be opened")
     });
     assert!(has(&window, "wrong.nff:2"));
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Num2);
     assert!(has(&window, "No picture yet"));
 }
 
@@ -217,6 +229,7 @@ fn a_dropped_file_is_opened() {
         has(w, "one-ball · midpoint")
     });
     finish(&mut window);
+    open_pane(&mut window, "Scene");
     assert!(has(&window, "spheres: 1"));
 }
 
@@ -224,7 +237,9 @@ fn a_dropped_file_is_opened() {
 fn a_click_names_the_object_and_lists_the_leaves() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Num2);
     assert!(has(&window, "Click a pixel of the picture"));
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Num1);
     window.get_by_label("Traced picture").click();
     wait(&mut window, "the object", |w| has(w, "Hits sphere "));
     assert!(has(&window, "at a distance of"));
@@ -232,6 +247,7 @@ fn a_click_names_the_object_and_lists_the_leaves() {
     assert!(has(&window, "The primary ray visits"));
     // Arrow keys go on to other pixels while the pointer is over the picture.
     assert!(has(&window, "Pixel 24, 24"));
+    over_picture(&mut window);
     press(&mut window, egui::Modifiers::NONE, egui::Key::ArrowLeft);
     wait(&mut window, "the pixel beside", |w| has(w, "Pixel 23, 24"));
     // The pixel stays picked in another tree.
@@ -244,17 +260,17 @@ fn a_click_names_the_object_and_lists_the_leaves() {
 fn changes_of_settings_are_undone_and_redone() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
-    let before = figure(&window, "leaves");
+    let before = figure(&window, "Leaves");
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::M);
     finish(&mut window);
-    let after = figure(&window, "leaves");
+    let after = figure(&window, "Leaves");
     assert_ne!(before, after);
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::Z);
     finish(&mut window);
-    assert_eq!(figure(&window, "leaves"), before);
+    assert_eq!(figure(&window, "Leaves"), before);
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::Y);
     finish(&mut window);
-    assert_eq!(figure(&window, "leaves"), after);
+    assert_eq!(figure(&window, "Leaves"), after);
 }
 
 #[test]
@@ -278,11 +294,11 @@ fn cancelling_stops_and_resuming_finishes() {
     let mut window = open(start);
     wait(&mut window, "a picture", |w| has(w, "balls:4 · midpoint"));
     window.key_press(egui::Key::Escape);
-    wait(&mut window, "the stop", |w| has(w, "cancelled"));
+    wait(&mut window, "the stop", |w| has(w, "Stopped"));
     assert!(has(&window, "balls:4 · midpoint"), "what is shown stays");
     assert!(!is_finished(&window));
-    window.get_by_label("Resume").click();
-    wait(&mut window, "new work", |w| !has(w, "cancelled"));
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::R);
+    wait(&mut window, "new work", |w| !has(w, "Stopped"));
 }
 
 #[test]
@@ -315,9 +331,6 @@ fn keys_of_the_3d_view_count_while_the_pointer_is_over_it() {
     assert!(has(&window, "the picture's camera"));
     // The view has a camera of its own: the picture stays as it is.
     assert!(is_finished(&window));
-    wait(&mut window, "the judge", |w| {
-        has(w, "faults") && !has(w, "of the sample")
-    });
     let options = masked(&mut window);
     window.snapshot_options("from_above", &options);
 }
@@ -333,9 +346,6 @@ fn the_window_looks_as_it_did() {
     wait(&mut window, "the boxes", |w| has(w, "leaves shown"));
     window.remove_cursor();
     window.run_steps(5);
-    wait(&mut window, "the judge", |w| {
-        has(w, "faults") && !has(w, "of the sample")
-    });
     let options = masked(&mut window);
     window.snapshot_options("window", &options);
 }

@@ -20,9 +20,10 @@ impl StatusLine {
     /// Shows jobs, then what is worked on or what is under the pointer, from right to left.
     pub fn ui(&mut self, ui: &mut egui::Ui, doc: &mut Document) {
         let memory = self.memory(ui.input(|i| i.time));
-        if let Some(menu) = jobs(ui, &doc.jobs) {
-            menu.on_hover_text(facts(doc, memory));
-        }
+        jobs(ui, &doc.jobs);
+        let rest = ui.available_rect_before_wrap();
+        ui.interact(rest, ui.scope_id().with("facts"), egui::Sense::hover())
+            .on_hover_text(facts(doc, memory));
         let hovered = doc.hovered.take();
         let current = doc.current.as_ref();
         let text = match (&self.progress, hovered, current) {
@@ -49,7 +50,7 @@ impl StatusLine {
 
 /// Samples, speed and memory, for a tooltip.
 fn facts(doc: &Document, memory: Option<usize>) -> String {
-    let mut text = "What runs in the background".to_owned();
+    let mut text = "Speed and memory".to_owned();
     if let Some(current) = &doc.current {
         let (sample, of) = (current.sample + 1, current.shown.setup.render.samples);
         text += &format!("\nSamples per pixel: {sample} of {of}");
@@ -65,15 +66,15 @@ fn facts(doc: &Document, memory: Option<usize>) -> String {
     text
 }
 
-/// The live jobs as a menu, to pause, resume or cancel each; `None` while there are none.
-fn jobs(ui: &mut egui::Ui, jobs: &Scheduler) -> Option<egui::Response> {
+/// The live jobs as a menu, to pause, resume or cancel each.
+fn jobs(ui: &mut egui::Ui, jobs: &Scheduler) {
     let live = jobs.jobs();
     let listed: Vec<_> = live
         .iter()
         .filter(|job| job.priority.takes_turns() && job.priority != Priority::Idle)
         .collect();
     let text = match listed.len() {
-        0 => return None,
+        0 => return,
         1 => "1 job".to_owned(),
         count => format!("{count} jobs"),
     };
@@ -83,7 +84,7 @@ fn jobs(ui: &mut egui::Ui, jobs: &Scheduler) -> Option<egui::Response> {
         }
         ui.ctx().request_repaint_after_secs(0.2);
     });
-    Some(menu.response)
+    menu.response.on_hover_text("What runs in the background");
 }
 
 fn row(ui: &mut egui::Ui, job: &JobStatus, jobs: &Scheduler) {
