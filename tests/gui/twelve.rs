@@ -157,7 +157,14 @@ fn an_obj_file_gets_its_best_tree_in_five_actions() {
 #[test]
 fn the_command_is_copied_with_one_key() {
     let mut window = ready();
-    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::C);
+    let events = [true, false].map(|pressed| egui::Event::Key {
+        key: Key::C,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::COMMAND | Modifiers::SHIFT,
+    });
+    window.input_mut().events.extend(events);
     let copied = (0..3).find_map(|_| {
         window.step();
         let commands = &window.output().platform_output.commands;
