@@ -42,7 +42,8 @@ fn the_card_comes_until_it_is_closed_and_never_again() {
 
 #[test]
 fn each_way_leads_where_it_says() {
-    let ways: [(&str, fn(&Window<'_>) -> bool); 3] = [
+    type Check = fn(&Window<'_>) -> bool;
+    let ways: [(&str, Check); 3] = [
         ("Take the tour", |w| {
             has(w, &LESSONS[0].read().steps[0].title)
         }),

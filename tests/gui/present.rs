@@ -72,5 +72,5 @@ fn a_lesson_keeps_its_column() {
     assert!(has(&window, "Exit lesson") && has(&window, "Traced picture"));
     assert!(!is_bar_shown(&window) && !has(&window, "tests per hit"));
     click(&mut window, "Exit lesson");
-    assert!(has(&window, "tests per hit"));
+    wait(&mut window, "the figures", |w| has(w, "tests per hit"));
 }

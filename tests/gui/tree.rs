@@ -376,8 +376,8 @@ fn a_quick_drag_ends_where_the_button_is_released() {
             let frames: Vec<_> = frames.iter().map(Vec::as_slice).collect();
             drag(&mut window, &frames);
             let texts = texts_in(&window, Rect::EVERYTHING);
-            let texts = texts.into_iter().map(|text| text.rows.concat());
-            let found = texts.filter(|text| text.starts_with(result)).next();
+            let mut texts = texts.into_iter().map(|text| text.rows.concat());
+            let found = texts.find(|text| text.starts_with(result));
             click(&mut window, undo);
             found.unwrap_or_else(|| panic!("{pane}: nothing was selected"))
         });

@@ -98,8 +98,9 @@ pub fn rejected(text: &str) -> Option<&'static str> {
         lower.match_indices(phrase).any(|(at, found)| {
             let (before, after) = (&lower[..at], &lower[at + found.len()..]);
             let ends_in_word = found.ends_with(char::is_alphanumeric);
-            !is_part_of_word(before.chars().next_back())
-                && !(ends_in_word && is_part_of_word(after.chars().next()))
+            let continues = is_part_of_word(before.chars().next_back())
+                || ends_in_word && is_part_of_word(after.chars().next());
+            !continues
         })
     };
     label

@@ -16,7 +16,7 @@ const FRAMES: u8 = 3;
 /// Exports that are asked for or under way.
 #[derive(Default)]
 pub struct Exports {
-    asking: Option<SaveAs<Export>>,
+    asking: Option<SaveAs<Box<Export>>>,
     /// A part of the screen to be taken, with the frames to go.
     taking: Option<(PathBuf, egui::Rect, u8)>,
     /// A picture of the whole window that was requested, for this part of it.
@@ -28,8 +28,9 @@ pub struct Exports {
 
 impl Exports {
     /// Asks where to write; says so where there is nothing to.
-    pub fn ask(&mut self, export: Export, doc: &mut Document) {
-        if let Content::Nothing(why) = export.content {
+    pub fn ask(&mut self, export: Box<Export>, doc: &mut Document) {
+        if let Content::Nothing(why) = &export.content {
+            let why = why.clone();
             let what = format!("{} cannot be exported", export.name);
             doc.failure = Some(Failure { what, why });
             return;
@@ -49,7 +50,7 @@ impl Exports {
     /// Shows the question, begins what was answered, says what was done; once a frame.
     pub fn show(&mut self, doc: &mut Document, ctx: &egui::Context) {
         match self.asking.take().map(|asking| asking.show(ctx)) {
-            Some(Ok(Answer::Save(export, path))) => self.begin(export, path, doc),
+            Some(Ok(Answer::Save(export, path))) => self.begin(*export, path, doc),
             Some(Err(open)) => self.asking = Some(open),
             Some(Ok(Answer::Cancel)) | None => {}
         }

@@ -51,7 +51,7 @@ impl App {
                 Request::Task(id) => self.switch(id),
                 Request::Stage(slots) => self.layout.stage(&slots),
                 Request::Run(id) => self.run(id, ctx),
-                Request::Export(export) => self.exports.ask(*export, &mut self.doc),
+                Request::Export(export) => self.exports.ask(export, &mut self.doc),
                 Request::Copy(text) => self.clipboard.copy(text, ctx),
             }
             ctx.request_repaint();

@@ -26,7 +26,7 @@ impl WorkInProgress {
             return;
         };
         let since = *self.since.get_or_insert(time);
-        self.now = (time - since >= PATIENCE).then(|| (status.fraction as f32, status.stage));
+        self.now = (time - since >= PATIENCE).then_some((status.fraction as f32, status.stage));
         // Jobs wake the window for results; progress in between is worth a look now and then.
         ctx.request_repaint_after_secs(0.1);
     }

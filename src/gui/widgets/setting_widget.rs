@@ -323,8 +323,6 @@ fn overridden<T: Copy>(
     if said.of(ui.checkbox(&mut is_set, "override")).changed() {
         return Some(is_set.then_some(own));
     }
-    let Some(mut value) = now else {
-        return None;
-    };
+    let mut value = now?;
     edit(ui, &mut value).then_some(Some(value))
 }

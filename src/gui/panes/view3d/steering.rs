@@ -29,7 +29,7 @@ impl View3d {
             self.camera.camera = camera;
         }
         // While the user moves the linked camera, the picture's is one of before.
-        let follows = !self.own && !(self.settings.linked && doc.is_previous());
+        let follows = !(self.own || self.settings.linked && doc.is_previous());
         if follows {
             self.camera.camera = camera;
         }
