@@ -8,7 +8,7 @@ use crate::structure::{Method, OverlapRule};
 use crate::trace::{KernelChoice, PrecisionChoice};
 
 /// All settings but the constants of build methods, in the order in which people see them. The
-/// structure comes after the method, whose constants follow it ([`Setup::settings`]).
+/// structure comes after the method, whose constants follow it ([`crate::setup::Setup::settings`]).
 pub static SETTINGS: &[Setting] = &[
     Setting {
         name: "cylinders",

@@ -4,7 +4,7 @@ use super::content::TuneReport;
 use super::{csv, json, table};
 use crate::present::report::writer::Writer;
 
-/// All writers of searches, under the names of [`super::WRITERS`].
+/// All writers of searches, under the names of [`crate::present::report::WRITERS`].
 pub static TUNE_WRITERS: &[Writer<TuneReport>] = &[
     Writer {
         name: "text",
