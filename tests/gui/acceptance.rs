@@ -3,6 +3,7 @@
 
 use crate::harness::{Window, finish, open_sized, press, small};
 use crate::painted::texts_in;
+use crate::support::wording::assert_plain;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -165,4 +166,18 @@ fn nothing_moves_while_work_runs() {
         }
         finish(&mut window);
     }
+}
+
+#[test]
+fn panes_and_actions_are_described_in_plain_words() {
+    let sections = bspscope::gui::shortcuts();
+    assert!(sections.len() > 5);
+    let titles = sections.iter().map(|s| ("title", s.title.clone()));
+    let lines = sections.iter().flat_map(|section| {
+        let lines = section.lines.iter();
+        lines.map(|(_, about)| ("action", (*about).to_owned()))
+    });
+    let all: Vec<_> = titles.chain(lines).collect();
+    assert!(all.len() > 100);
+    assert_plain(all.iter().map(|(place, text)| (*place, text.as_str())));
 }
