@@ -273,6 +273,27 @@ fn changes_of_settings_are_undone_and_redone() {
 }
 
 #[test]
+fn undo_says_what_comes_back_and_an_empty_scene_is_told() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    assert!(!has(&window, "has no objects"));
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::ArrowDown);
+    window.run_steps(60);
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Z);
+    assert!(has(&window, " 19 back to 20"));
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("nothing.nff");
+    let text =
+        "v\nfrom 0 -4 0\nat 0 0 0\nup 0 0 1\nangle 45\nhither 1\nresolution 32 32\nb 0 0 0\n";
+    std::fs::write(&file, text).unwrap();
+    let dropped = std::sync::Arc::new(Dropped(file));
+    window.input_mut().dropped_files.push(dropped);
+    wait(&mut window, "the empty scene", |w| {
+        has(w, "nothing has no objects")
+    });
+}
+
+#[test]
 fn the_list_of_shortcuts_opens_and_closes() {
     let mut window = open(small("balls:1"));
     finish(&mut window);

@@ -210,6 +210,7 @@ impl Document {
     pub fn undo(&mut self) {
         let now = self.all_wanted();
         if let Some(before) = self.history.undo(&now).cloned() {
+            self.tell_change(&now, &before, "back to");
             self.want(before);
         }
     }
@@ -218,7 +219,22 @@ impl Document {
     pub fn redo(&mut self) {
         let now = self.all_wanted();
         if let Some(after) = self.history.redo(&now).cloned() {
+            self.tell_change(&now, &after, "again");
             self.want(after);
+        }
+    }
+
+    /// Says which setting changes, such as "Depth 15 back to 20"; nothing where B comes or goes.
+    fn tell_change(&mut self, from: &Wanted, to: &Wanted, how: &str) {
+        let sides = [Some((&from.a, &to.a)), from.b.as_ref().zip(to.b.as_ref())];
+        let change = sides.into_iter().flatten().find_map(|(from, to)| {
+            let mut settings = to.settings();
+            let setting = settings.find(|s| s.value(from) != s.value(to))?;
+            let (label, from, to) = (setting.label, setting.text(from), setting.text(to));
+            Some(format!("{label} {from} {how} {to}"))
+        });
+        if let Some(change) = change {
+            self.notices.say(change);
         }
     }
 

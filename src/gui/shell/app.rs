@@ -367,6 +367,21 @@ impl App {
         self.requests.extend(edits.apply(&mut self.doc));
     }
 
+    /// Says so where a scene that was opened has nothing in it.
+    pub(super) fn tell_empty_scene(&mut self) {
+        let Some(current) = &self.doc.current else {
+            return;
+        };
+        let scene = &current.shown.scene;
+        if scene.objects().is_empty() {
+            let text = format!(
+                "{} has no objects: every ray meets the background. Its load report is in the pane Scene.",
+                scene.name()
+            );
+            self.doc.notices.say(text);
+        }
+    }
+
     /// Keeps the window within what the graphics adapter can draw: a larger one could not be shown.
     pub(super) fn limit_size(&mut self, ctx: &egui::Context) {
         let largest = ctx.input(|i| i.max_texture_side);

@@ -157,6 +157,9 @@ impl App {
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
         let opened = self.doc.receive();
+        if !opened.is_empty() {
+            self.tell_empty_scene();
+        }
         // A lesson's scenes are not the user's.
         if !self.doc.in_lesson {
             for source in opened {
