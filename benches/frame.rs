@@ -42,11 +42,17 @@ fn main() {
     window.get_by_label("Cells").click();
     window.run_steps(4);
     window.get_by_label("All leaves").click();
-    window.run_steps(60);
     let leaves = "153\u{a0}456";
     let all = format!("{leaves} of {leaves} leaves");
-    let shown = window.query_all_by_label_contains(&all).count();
-    assert!(shown > 0, "all leaves are shown");
+    let start = Instant::now();
+    while window.query_all_by_label_contains(&all).next().is_none() {
+        assert!(
+            start.elapsed() < Duration::from_secs(60),
+            "all leaves are shown"
+        );
+        window.run_steps(2);
+        std::thread::sleep(Duration::from_millis(5));
+    }
     println!("rings, 153,456 leaves, all shown; {FRAMES} frames each; goal 8 ms");
 
     report("nothing changes", &frames(&mut window, |_, _| ()));
