@@ -47,6 +47,17 @@ impl From<format::FormatError> for LoadError {
 }
 
 impl SceneSource {
+    /// Returns the name of the file without its folders, or the generator with its size.
+    pub fn short_name(&self) -> String {
+        match self {
+            SceneSource::File(path) => path.file_name().map_or_else(
+                || path.display().to_string(),
+                |name| name.to_string_lossy().into_owned(),
+            ),
+            builtin => builtin.to_string(),
+        }
+    }
+
     /// Parses user input: the path of an existing file, or else the name of a generator with an
     /// optional size (`balls`, `balls:4`). Anything else is taken as a path.
     pub fn parse(text: &str) -> Self {

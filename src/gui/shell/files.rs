@@ -98,12 +98,7 @@ impl Files {
 
     /// The menu of scenes: generators, their size, recent scenes, a path, the dialog.
     pub fn menu(&mut self, ui: &mut egui::Ui, doc: &mut Document) {
-        let name = match &doc.wanted.scene.source {
-            SceneSource::File(path) => path
-                .file_name()
-                .map_or_else(|| path.display().to_string(), |n| n.display().to_string()),
-            builtin => builtin.to_string(),
-        };
+        let name = doc.wanted.scene.source.short_name();
         let config =
             MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
         let title = egui::Button::new(format!("Scene: {name}")).truncate();

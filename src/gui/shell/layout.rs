@@ -6,6 +6,7 @@ use super::tasks::{TASKS, Task, TaskId, slotted};
 use egui_tiles::{Tile, TileId};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// The name of the file it is kept in.
 pub const LAYOUT_FILE: &str = "layout.json";
@@ -118,9 +119,16 @@ impl Layout {
     }
 }
 
+/// The panes that tasks show at first; made once, because the strip asks in every frame.
+static OF_TASKS: LazyLock<Vec<PaneId>> = LazyLock::new(|| {
+    let tasks: Vec<_> = TASKS.iter().map(|task| (task, (task.tiles)())).collect();
+    let is_of_one = |pane: &PaneId| tasks.iter().any(|(task, tiles)| shows(task, tiles, *pane));
+    PaneId::all().filter(is_of_one).collect()
+});
+
 /// Whether a task shows this pane at first.
 fn is_of_a_task(pane: PaneId) -> bool {
-    TASKS.iter().any(|task| shows(task, &(task.tiles)(), pane))
+    OF_TASKS.contains(&pane)
 }
 
 /// Whether a task with these tiles shows a pane.

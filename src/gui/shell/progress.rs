@@ -2,10 +2,9 @@
 
 use crate::gui::document::Document;
 use crate::gui::theme::tokens;
-use egui::{Rect, Stroke, vec2};
-
-/// Work that is done sooner is never mentioned, in seconds.
-const PATIENCE: f64 = 0.3;
+use crate::gui::widgets::common::sentence;
+use crate::gui::widgets::progress_ring::PATIENCE;
+use egui::{Rect, vec2};
 
 /// The work in progress.
 #[derive(Default)]
@@ -34,9 +33,7 @@ impl WorkInProgress {
     /// Such as "Counting 52 % · Esc stops"; `None` while there is nothing to say.
     pub fn text(&self) -> Option<String> {
         let (fraction, stage) = self.now.as_ref()?;
-        let mut letters = stage.chars();
-        let first = letters.next().map(|c| c.to_uppercase().to_string());
-        let stage = first.unwrap_or_default() + letters.as_str();
+        let stage = sentence(stage);
         let percent = (fraction * 100.0).floor();
         Some(format!("{stage} {percent:.0}\u{a0}% · Esc stops"))
     }
@@ -47,13 +44,7 @@ impl WorkInProgress {
             let height = 3.0;
             let size = vec2(rect.width() * fraction, height);
             let bar = Rect::from_min_size(rect.left_top(), size);
-            ui.painter().rect(
-                bar,
-                0.0,
-                tokens(ui).accent,
-                Stroke::NONE,
-                egui::StrokeKind::Inside,
-            );
+            ui.painter().rect_filled(bar, 0.0, tokens(ui).accent);
         }
     }
 }

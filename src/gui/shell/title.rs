@@ -1,7 +1,6 @@
 //! The window's title: scene, method, and whether the workspace has unsaved changes.
 
 use crate::gui::document::Document;
-use crate::scene::SceneSource;
 
 /// The program's name, which ends every title.
 pub const PROGRAM: &str = "bspscope";
@@ -24,13 +23,7 @@ impl Title {
 }
 
 fn text(doc: &Document, is_unsaved: bool) -> String {
-    let scene = match &doc.wanted.scene.source {
-        SceneSource::File(path) => path.file_name().map_or_else(
-            || path.display().to_string(),
-            |name| name.to_string_lossy().into_owned(),
-        ),
-        builtin => builtin.to_string(),
-    };
+    let scene = doc.wanted.scene.source.short_name();
     let mark = if is_unsaved { "• " } else { "" };
     let method = doc.wanted.build.method.name;
     format!("{mark}{scene} · {method} – {PROGRAM}")

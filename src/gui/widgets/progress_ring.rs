@@ -1,8 +1,11 @@
-//! A ring that fills as work goes on.
+//! A ring that fills as work progresses.
 
 use crate::gui::theme::{ROW, tokens};
 use egui::{Pos2, Sense, Shape, Stroke, pos2, vec2};
 use std::f32::consts::TAU;
+
+/// How long work takes before its progress is shown, in seconds.
+pub const PATIENCE: f64 = 0.3;
 
 /// Shows how much of some work is done, 0 to 1. `about` says what the work is.
 pub fn progress_ring(ui: &mut egui::Ui, done: f64, about: &str) -> egui::Response {

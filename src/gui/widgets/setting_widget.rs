@@ -5,6 +5,7 @@ use crate::geometry::Vec3;
 use crate::gui::action::tip;
 use crate::gui::edits::Edits;
 use crate::gui::theme::{ROW, hint};
+use crate::gui::widgets::common::sentence;
 use crate::scene::{Camera, Cylinders};
 use crate::setup::{Choice, Kind, Range, Setting, Setup, Value};
 use crate::structure::MaxDepth;
@@ -88,10 +89,7 @@ impl Said<'_> {
 
 /// What a setting is called. Settings of a single method are named as in commands.
 pub fn name(setting: &Setting) -> String {
-    let words = setting.label.replace('-', " ");
-    let mut letters = words.chars();
-    let first = letters.next().map(|c| c.to_uppercase().to_string());
-    first.unwrap_or_default() + letters.as_str()
+    sentence(&setting.label.replace('-', " "))
 }
 
 /// The name of a setting, with the paper's symbol as a hint.

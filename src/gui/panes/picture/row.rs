@@ -11,12 +11,9 @@ use crate::gui::icons;
 use crate::gui::theme::{IconButton, ROW, hint};
 use crate::gui::widgets::common::sentence;
 use crate::gui::widgets::hidden::HIDDEN;
-use crate::gui::widgets::progress_ring::progress_ring;
+use crate::gui::widgets::progress_ring::{PATIENCE, progress_ring};
 use crate::present::number::counted;
 use egui::containers::menu::{MenuButton, MenuConfig};
-
-/// How long work goes on before its progress is shown, in seconds.
-const PATIENCE: f64 = 0.3;
 
 /// What the tab left of the controls needs, in points.
 const TAB: f32 = 100.0;
