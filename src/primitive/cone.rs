@@ -1,5 +1,7 @@
 //! Cylinders and truncated cones: the open lateral surface between two circles.
 
+use super::estimate::{Estimate, U, UNDERFLOW};
+use super::exact::{ConeEnds, Root, Surface};
 use super::{Polygon, Shape, ShapeError, SurfacePoint, gjk, numeric};
 use crate::geometry::{Aabb, Ray, Vec3};
 
@@ -7,10 +9,7 @@ use crate::geometry::{Aabb, Ray, Vec3};
 /// radius may be 0, which makes that end a tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
-    base: Vec3,
-    base_radius: f64,
-    apex: Vec3,
-    apex_radius: f64,
+    ends: ConeEnds,
     side: Side,
 }
 
@@ -25,8 +24,10 @@ pub(super) struct Side {
     /// The radius at the middle, and its growth per height.
     pub(super) middle_radius: f64,
     pub(super) slope: f64,
-    /// Square of the largest distance from the middle, including rounding.
-    pub(super) squared_reach: f64,
+    /// The largest distance from the middle.
+    pub(super) reach: f64,
+    /// Bound on the error of the middle and of both radii, a length.
+    rounding: f64,
 }
 
 impl Cone {
@@ -58,39 +59,34 @@ impl Cone {
         if length <= 4.0 * f64::EPSILON * magnitude {
             return Err(ShapeError::NoLength);
         }
-        let half_length = 0.5 * length;
-        Ok(Cone {
+        let ends = ConeEnds {
             base,
             base_radius,
             apex,
             apex_radius,
-            side: Side {
-                axis: along / length,
-                middle: base + 0.5 * along,
-                half_length,
-                middle_radius: 0.5 * base_radius + 0.5 * apex_radius,
-                slope: (apex_radius - base_radius) / length,
-                squared_reach: (half_length * half_length + radius * radius) * (1.0 + 1e-12),
-            },
+        };
+        Ok(Cone {
+            ends,
+            side: Side::of(&ends),
         })
     }
 
     /// Returns the center of the circle at the base.
     pub fn base(&self) -> Vec3 {
-        self.base
+        self.ends.base
     }
 
     pub fn base_radius(&self) -> f64 {
-        self.base_radius
+        self.ends.base_radius
     }
 
     /// Returns the center of the circle at the apex, the end of the axis.
     pub fn apex(&self) -> Vec3 {
-        self.apex
+        self.ends.apex
     }
 
     pub fn apex_radius(&self) -> f64 {
-        self.apex_radius
+        self.ends.apex_radius
     }
 
     /// Returns the length of the axis.
@@ -98,13 +94,13 @@ impl Cone {
         2.0 * self.side.half_length
     }
 
-    pub(super) fn side(&self) -> &Side {
-        &self.side
+    pub(super) fn ends(&self) -> &ConeEnds {
+        &self.ends
     }
 
     /// Returns whether both radii are equal.
     pub fn is_cylinder(&self) -> bool {
-        self.base_radius == self.apex_radius
+        self.ends.base_radius == self.ends.apex_radius
     }
 
     /// Returns the open regular inscribed prism, or frustum, of `sides` (at least 3) planar polygons:
@@ -126,17 +122,17 @@ impl Cone {
         };
         let side = |i: u32| {
             let mut corners = Vec::with_capacity(4);
-            if self.base_radius > 0.0 {
-                corners.push(vertex(self.base, self.base_radius, i));
-                corners.push(vertex(self.base, self.base_radius, i + 1));
+            if self.ends.base_radius > 0.0 {
+                corners.push(vertex(self.ends.base, self.ends.base_radius, i));
+                corners.push(vertex(self.ends.base, self.ends.base_radius, i + 1));
             } else {
-                corners.push(self.base);
+                corners.push(self.ends.base);
             }
-            if self.apex_radius > 0.0 {
-                corners.push(vertex(self.apex, self.apex_radius, i + 1));
-                corners.push(vertex(self.apex, self.apex_radius, i));
+            if self.ends.apex_radius > 0.0 {
+                corners.push(vertex(self.ends.apex, self.ends.apex_radius, i + 1));
+                corners.push(vertex(self.ends.apex, self.ends.apex_radius, i));
             } else {
-                corners.push(self.apex);
+                corners.push(self.ends.apex);
             }
             Polygon::new(corners, None).ok()
         };
@@ -154,8 +150,8 @@ impl Cone {
         } else {
             u
         };
-        let on_base = self.base + self.base_radius * outward;
-        let on_apex = self.apex + self.apex_radius * outward;
+        let on_base = self.ends.base + self.ends.base_radius * outward;
+        let on_apex = self.ends.apex + self.ends.apex_radius * outward;
         if (on_apex - on_base).dot(direction) > 0.0 {
             on_apex
         } else {
@@ -165,24 +161,57 @@ impl Cone {
 }
 
 impl Side {
-    /// Solves the quadratic equation of the infinite cone or cylinder, and keeps roots at heights of the
-    /// surface. There the radius is not negative, so roots on the cone's other half are excluded.
+    /// Converts a cone to the form used for estimates.
+    #[inline(always)]
+    pub(super) fn of(ends: &ConeEnds) -> Self {
+        let along = ends.apex - ends.base;
+        let length = along.length();
+        let half_length = 0.5 * length;
+        let radius = ends.base_radius.max(ends.apex_radius);
+        let size = (ends.base.abs() + ends.apex.abs()).element_sum();
+        Side {
+            axis: along / length,
+            middle: ends.base + 0.5 * along,
+            half_length,
+            middle_radius: 0.5 * ends.base_radius + 0.5 * ends.apex_radius,
+            slope: (ends.apex_radius - ends.base_radius) / length,
+            reach: (half_length * half_length + radius * radius).sqrt(),
+            rounding: 8.0 * U * (size + length + radius) + UNDERFLOW,
+        }
+    }
+
+    /// Returns where a ray's line crosses the surface between its ends, in ascending order: the roots of the
+    /// quadratic equation of the infinite cone or cylinder at heights of the surface. There the radius is not
+    /// negative, so roots on the cone's other half are excluded.
     ///
-    /// Distances are relative to the point of the ray nearest to the middle, and the roots are no
-    /// differences of nearly equal numbers, for the reasons that Haines, Günther and Akenine-Möller give
-    /// for spheres (Ray Tracing Gems, 2019, ch. 7). A line within the surface has no hit.
-    #[inline]
-    pub(super) fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+    /// Distances are relative to the point of the ray nearest to the middle, and the roots are no differences
+    /// of nearly equal numbers, for the reasons that Haines, Günther and Akenine-Möller give for spheres (Ray
+    /// Tracing Gems, 2019, ch. 7). Where `f` is the sum of the absolute coordinates of the origin relative to
+    /// the middle, d the length of the direction and k = (1 + |slope|)²:
+    ///
+    /// - The middle and both radii have errors of at most `rounding`; a component of the axis has 6 u, the
+    ///   slope 5 u of itself.
+    /// - The nearest point has an error of at most 13 u f + `rounding`; so this point, its height and
+    ///   its distance from the axis have errors of at most `e` = `rounding` + 32 u (f + `reach`), 3 e for the
+    ///   distance. The rise of the ray along the axis has one of 9 u d, its drift across 18 u d.
+    /// - In the coefficients of the equation, a s² + 2 b s + c, these amount to at most `ea` = 40 u k d²,
+    ///   `eb` = 6 e k d and `ec` = k e (9 `reach` + 10 e).
+    /// - The errors of the discriminant and of the roots follow from those of the coefficients.
+    #[inline(always)]
+    pub(super) fn estimates(&self, ray: &Ray) -> [Estimate; 2] {
         let direction = ray.direction;
         let squared_length = direction.length_squared();
         if !numeric::is_workable(squared_length) {
-            return numeric::with_direction_rescaled(ray, t_max, |r, t| self.intersect(r, t));
+            return [Estimate::UNSURE; 2];
         }
         let from_middle = ray.origin - self.middle;
         let t_nearest = -from_middle.dot(direction) / squared_length;
         let nearest = from_middle + t_nearest * direction;
-        if nearest.length_squared() > self.squared_reach {
-            return None;
+        let f = from_middle.abs().element_sum();
+        let e = self.rounding + 32.0 * U * (f + self.reach);
+        let reach = self.reach + 2.0 * e;
+        if nearest.length_squared() > reach * reach {
+            return [Estimate::MISS; 2];
         }
         let (height, rise) = (nearest.dot(self.axis), direction.dot(self.axis));
         let (radius, growth) = (self.middle_radius + self.slope * height, self.slope * rise);
@@ -193,20 +222,47 @@ impl Side {
         let b = across.dot(drift) - radius * growth;
         let c = across.length_squared() - radius * radius;
         let discriminant = b * b - a * c;
-        if discriminant < 0.0 {
-            return None;
+
+        let k = (1.0 + self.slope.abs()) * (1.0 + self.slope.abs());
+        let speed = direction.abs().element_sum();
+        let (ea, eb) = (40.0 * U * k * squared_length, 6.0 * e * k * speed);
+        let ec = k * e * (9.0 * reach + 10.0 * e);
+        let spread = 4.0 * U * (b * b + (a * c).abs())
+            + (2.0 * b.abs() + eb) * eb
+            + (a.abs() + ea) * ec
+            + ea * c.abs();
+        if discriminant < -spread {
+            return [Estimate::MISS; 2];
         }
-        // If the ray is parallel to the side, a is 0. The first root is infinite or NaN and fails the
-        // comparisons; the second is that of the linear equation.
-        let q = -(b + discriminant.sqrt().copysign(b));
+        if !(discriminant > 2.0 * spread && a.abs() > 2.0 * ea) {
+            return [Estimate::UNSURE; 2];
+        }
+        let root = discriminant.sqrt();
+        let q = -(b + root.copysign(b));
+        let eq = eb + spread / root + 4.0 * U * q.abs();
+        if !(q.abs() > 2.0 * eq) {
+            return [Estimate::UNSURE; 2];
+        }
         let (s0, s1) = (q / a, c / q);
-        let (near, far) = if s0 < s1 { (s0, s1) } else { (s1, s0) };
-        let hit = |s: f64| {
-            let t = t_nearest + s;
-            let on_surface = (height + s * rise).abs() <= self.half_length;
-            (on_surface && ray.t_min <= t && t <= t_max && t.is_finite()).then_some(t)
+        let error0 = 2.0 * (eq + s0.abs() * ea) / a.abs();
+        let error1 = 2.0 * (ec + s1.abs() * eq) / q.abs();
+        let roots = if s0 < s1 {
+            [(s0, error0), (s1, error1)]
+        } else {
+            [(s1, error1), (s0, error0)]
         };
-        hit(near).or_else(|| hit(far))
+        roots.map(|(s, error)| {
+            let above = (height + s * rise).abs() - self.half_length;
+            let slack = e + rise.abs() * error + 32.0 * U * s.abs() * speed;
+            let t = t_nearest + s;
+            if above > slack {
+                Estimate::MISS
+            } else if above < -slack {
+                Estimate::new(t, error + 8.0 * U * (s.abs() + t_nearest.abs()))
+            } else {
+                Estimate::UNSURE
+            }
+        })
     }
 }
 
@@ -224,8 +280,8 @@ impl Shape for Cone {
         let disc = |center: Vec3, radius: f64| {
             Aabb::new(center - radius * extent, center + radius * extent)
         };
-        let base = disc(self.base, self.base_radius);
-        numeric::grown(base.union(&disc(self.apex, self.apex_radius)))
+        let base = disc(self.ends.base, self.ends.base_radius);
+        numeric::grown(base.union(&disc(self.ends.apex, self.ends.apex_radius)))
     }
 
     /// Tests the solid between the two discs.
@@ -242,13 +298,19 @@ impl Shape for Cone {
 
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        self.side.intersect(ray, t_max)
+        Surface::Cone(self.ends).settle(self.side.estimates(ray), ray, t_max)
+    }
+
+    fn exact_distance(&self, ray: &Ray) -> Option<Root> {
+        Surface::Cone(self.ends).exact_distance(ray)
     }
 
     /// Returns the smaller of the larger diameter and the length of the side.
     fn min_width(&self) -> f64 {
-        let slant = self.length().hypot(self.apex_radius - self.base_radius);
-        slant.min(2.0 * self.base_radius.max(self.apex_radius))
+        let slant = self
+            .length()
+            .hypot(self.ends.apex_radius - self.ends.base_radius);
+        slant.min(2.0 * self.ends.base_radius.max(self.ends.apex_radius))
     }
 
     fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {

@@ -5,6 +5,8 @@
 
 mod clip;
 mod cone;
+mod estimate;
+pub(crate) mod exact;
 mod gjk;
 mod kind;
 mod numeric;
@@ -21,6 +23,7 @@ mod triangle;
 mod unit_frame;
 
 pub use cone::Cone;
+pub(crate) use estimate::Estimate;
 pub use kind::PrimitiveKind;
 pub use object::Primitive;
 pub use packed::Form;

@@ -1,6 +1,6 @@
 //! Robust arithmetic that the primitives share.
 
-use crate::geometry::{Aabb, Axis, Ray, Vec3};
+use crate::geometry::{Aabb, Axis, Vec3};
 
 /// Enlarges a box by four units of relative precision of its coordinates, axis by axis, so that points
 /// computed on the surface inside stay inside. A coordinate of 0 does not move.
@@ -10,33 +10,10 @@ pub(super) fn grown(tight: Aabb) -> Aabb {
 }
 
 /// Returns whether squares of a direction with this length (or squared length) neither overflow nor
-/// underflow. Other rays need [`with_direction_rescaled`].
+/// underflow.
 #[inline]
 pub(super) fn is_workable(length: f64) -> bool {
     (1e-200..=1e200).contains(&length)
-}
-
-/// Calls `intersect` with the direction scaled to a largest component from 1 to 2; `None` if there is no
-/// direction. The scale is a power of two, so that it does not round `t`.
-#[cold]
-pub(super) fn with_direction_rescaled(
-    ray: &Ray,
-    t_max: f64,
-    intersect: impl Fn(&Ray, f64) -> Option<f64>,
-) -> Option<f64> {
-    let largest = ray.direction.abs().max_element();
-    let usable = largest > 0.0 && largest.is_finite() && ray.t_min <= t_max;
-    if !usable {
-        return None;
-    }
-    let scale = libm::scalbn(1.0, libm::ilogb(largest));
-    let rescaled = Ray {
-        direction: ray.direction / scale,
-        t_min: ray.t_min * scale,
-        ..*ray
-    };
-    let t = intersect(&rescaled, t_max * scale)? / scale;
-    t.is_finite().then(|| t.max(ray.t_min).min(t_max))
 }
 
 /// Returns whether a plane perpendicular to `axis`, which may be any, certainly lies between the points
@@ -92,7 +69,8 @@ pub(super) struct Shear {
 }
 
 impl Shear {
-    /// Returns the shear of a direction; `None` if the direction must be rescaled first.
+    /// Returns the shear of a direction; `None` if the direction is so short or long
+    /// that this loses precision.
     #[inline]
     pub(super) fn of(direction: Vec3) -> Option<Shear> {
         let size = direction.abs();
@@ -120,19 +98,14 @@ impl Shear {
         }
     }
 
-    /// Transforms a vector from the ray's origin. The third coordinate is its `t`.
-    #[inline]
-    pub(super) fn apply(&self, from_origin: Vec3) -> Vec3 {
-        self.apply_rotated(self.rotate(from_origin))
-    }
-
     /// Rotates coordinates cyclically so that the one along the direction's axis is the last.
     #[inline]
     pub(super) fn rotate(&self, v: Vec3) -> Vec3 {
         rotated(v, self.axis)
     }
 
-    /// [`Shear::apply`] for a vector that is already rotated.
+    /// Transforms a vector from the ray's origin that is [rotated](Shear::rotate). The third coordinate is
+    /// its `t`.
     #[inline(always)]
     pub(super) fn apply_rotated(&self, v: Vec3) -> Vec3 {
         Vec3::new(v.x - self.x * v.z, v.y - self.y * v.z, self.z * v.z)

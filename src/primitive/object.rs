@@ -1,5 +1,6 @@
 //! An object of any kind.
 
+use super::exact::Root;
 use super::{Cone, Polygon, PrimitiveKind, Shape, Sphere, SurfacePoint, Triangle};
 use crate::geometry::{Aabb, Ray};
 
@@ -51,6 +52,10 @@ impl Shape for Primitive {
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         each_kind!(self, shape => Shape::intersect(shape, ray, t_max))
+    }
+
+    fn exact_distance(&self, ray: &Ray) -> Option<Root> {
+        each_kind!(self, shape => shape.exact_distance(ray))
     }
 
     fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {

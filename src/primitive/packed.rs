@@ -12,16 +12,18 @@
 //! holds at every angle because no sum is a difference of nearly equal rounded numbers. Traversal relies
 //! on it.
 
+use super::estimate::{self, Estimate};
+use super::exact::{ConeEnds, Root, Surface};
 use super::numeric::Shear;
+use super::polygon::estimate_outline;
 use super::{
-    Cone, PackedRay, Polygon, Primitive, Shape, Sphere, Triangle, UnitFrame, cone, triangle,
+    Cone, PackedRay, Polygon, Precision, Primitive, Shape, Sphere, Triangle, UnitFrame, cone,
 };
 use crate::geometry::{Ray, Vec3};
 use glam::Vec3 as Point;
-use std::hint::select_unpredictable;
 
 /// An object in the form that intersection uses: itself or packed.
-pub trait Form: Sized + Send + Sync {
+pub trait Form: Sized + PartialEq + Send + Sync {
     type Of;
     /// The ray that it is tested with.
     type Ray;
@@ -36,6 +38,12 @@ pub trait Form: Sized + Send + Sync {
     /// [`PackedRay`] in `f64`.
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64>;
 
+    /// Returns the exact distance of [`Form::intersect_exact`], as a number that is not rounded.
+    fn exact_distance(&self, ray: &Ray) -> Option<Root>;
+
+    /// Returns the ray of the exact test.
+    fn exact_ray(ray: &Self::Ray) -> &Ray;
+
     /// Returns the maximum distance, in lengths of the frame, between the form and the object, and between
     /// a point of it and the same point as `f32`; 0 where nothing is rounded.
     fn rounding(&self) -> f64;
@@ -44,7 +52,7 @@ pub trait Form: Sized + Send + Sync {
     fn bytes(&self) -> usize;
 }
 
-impl<S: Shape + Clone> Form for S {
+impl<S: Shape + Clone + PartialEq> Form for S {
     type Of = S;
     type Ray = Ray;
 
@@ -62,6 +70,14 @@ impl<S: Shape + Clone> Form for S {
         Shape::intersect(self, ray, t_max)
     }
 
+    fn exact_distance(&self, ray: &Ray) -> Option<Root> {
+        Shape::exact_distance(self, ray)
+    }
+
+    fn exact_ray(ray: &Ray) -> &Ray {
+        ray
+    }
+
     fn rounding(&self) -> f64 {
         0.0
     }
@@ -71,23 +87,13 @@ impl<S: Shape + Clone> Form for S {
     }
 }
 
-/// Bound on the ratio between a distance that rounds to `t_max` and `t_max`.
-const UP: f64 = 1.0 + f32::EPSILON as f64;
-
-/// Rounds a distance of at most `t_max` · [`UP`]. Those that round to `t_max` count as `t_max`, so that the
-/// winner of a tie does not depend on the order of the tests.
-#[inline(always)]
-fn rounded(t: f64, t_max: f64) -> Option<f64> {
-    let t = f64::from(t as f32);
-    (t <= t_max).then_some(t)
-}
-
 /// Returns [`Form::rounding`] for coordinates of at most `reach`.
 fn rounding_within(reach: f32) -> f64 {
     4.0 * f64::from(f32::EPSILON * reach)
 }
 
 /// A packed sphere: 16 bytes.
+#[derive(PartialEq)]
 pub struct PackedSphere {
     center: Point,
     radius: f32,
@@ -97,6 +103,13 @@ impl PackedSphere {
     #[inline(always)]
     pub(crate) fn from_center(center: Point, radius: f32) -> Self {
         PackedSphere { center, radius }
+    }
+
+    fn surface(&self) -> Surface<'static> {
+        Surface::Sphere {
+            center: self.center.as_dvec3(),
+            radius: f64::from(self.radius),
+        }
     }
 
     /// Returns whether the ray's line certainly misses it, decided in `f32`.
@@ -128,11 +141,18 @@ impl Form for PackedSphere {
 
     #[inline(always)]
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        let sphere = Sphere {
-            center: self.center.as_dvec3(),
-            radius: f64::from(self.radius),
-        };
-        rounded(Shape::intersect(&sphere, ray, t_max * UP)?, t_max)
+        let crossings = estimate::sphere(self.center.as_dvec3(), f64::from(self.radius), ray);
+        Estimate::settle(crossings, [ray.t_min, ray.t_max], t_max, || {
+            self.surface().intersect(ray, Precision::F32)
+        })
+    }
+
+    fn exact_distance(&self, ray: &Ray) -> Option<Root> {
+        self.surface().exact_distance(ray)
+    }
+
+    fn exact_ray(ray: &PackedRay) -> &Ray {
+        &ray.as_f64
     }
 
     fn rounding(&self) -> f64 {
@@ -145,33 +165,30 @@ impl Form for PackedSphere {
 }
 
 /// A packed triangle: 36 bytes. Normals for shading are in the scene.
+#[derive(PartialEq)]
 pub struct PackedTriangle {
     vertices: [Point; 3],
 }
 
 impl PackedTriangle {
-    /// Returns where a ray from `origin` hits a triangle with these vertices; NaN for a miss. Coordinates are
-    /// in cyclic order with the axis of the direction's largest component last. Followed by
-    /// [`PackedTriangle::round_hit`] this is [`Form::intersect_exact`].
+    /// Estimates where a ray from `origin` crosses a triangle with these vertices. Coordinates are in cyclic
+    /// order with the axis of the direction's largest component last. Followed by
+    /// [`Estimate::settle`] this is [`Form::intersect_exact`].
     #[inline(always)]
-    pub(crate) fn crossing_rotated(
-        vertices: [Vec3; 3],
-        origin: Vec3,
-        direction: Vec3,
-        t_min: f64,
-    ) -> f64 {
+    pub(crate) fn estimate_rotated(vertices: [Vec3; 3], origin: Vec3, direction: Vec3) -> Estimate {
         let [a, b, c] = vertices;
         let shear = Shear::of_rotated(direction);
-        triangle::crossing_or_nan([a - origin, b - origin, c - origin], &shear, t_min)
+        estimate::triangle([a - origin, b - origin, c - origin], &shear)
     }
 
-    /// Rounds a distance of [`PackedTriangle::crossing_rotated`]; NaN if the result is above `t_max`.
-    /// Branchless.
+    /// [`Form::intersect_exact`] without a limit and without an estimate.
+    pub(crate) fn intersect_slowly(&self, ray: &Ray) -> Option<f64> {
+        Surface::Triangle(&self.wide_vertices()).intersect(ray, Precision::F32)
+    }
+
     #[inline(always)]
-    pub(crate) fn round_hit(crossing: f64, t_max: f64) -> f64 {
-        let t = f64::from(crossing as f32);
-        let within = (t <= t_max) & (crossing <= t_max * UP);
-        select_unpredictable(within, t, f64::NAN)
+    fn wide_vertices(&self) -> [Vec3; 3] {
+        self.vertices.map(|v| v.as_dvec3())
     }
 
     /// Returns whether the ray's line certainly misses it, decided in `f32`.
@@ -211,11 +228,22 @@ impl Form for PackedTriangle {
 
     #[inline(always)]
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        let triangle = Triangle {
-            vertices: self.vertices.map(|v| v.as_dvec3()),
-            normals: None,
-        };
-        rounded(Shape::intersect(&triangle, ray, t_max * UP)?, t_max)
+        let vertices = self.wide_vertices();
+        let estimate = Shear::of(ray.direction).map_or(Estimate::UNSURE, |shear| {
+            let relative = vertices.map(|v| shear.rotate(v - ray.origin));
+            estimate::triangle(relative, &shear)
+        });
+        Estimate::settle([estimate], [ray.t_min, ray.t_max], t_max, || {
+            self.intersect_slowly(ray)
+        })
+    }
+
+    fn exact_distance(&self, ray: &Ray) -> Option<Root> {
+        Surface::Triangle(&self.wide_vertices()).exact_distance(ray)
+    }
+
+    fn exact_ray(ray: &PackedRay) -> &Ray {
+        &ray.as_f64
     }
 
     fn rounding(&self) -> f64 {
@@ -234,11 +262,16 @@ fn reach(points: &[Point]) -> f32 {
 }
 
 /// A packed polygon: the vertices of its outline, which rounding moves off their common plane.
+#[derive(PartialEq)]
 pub struct PackedPolygon {
     vertices: Box<[Point]>,
 }
 
 impl PackedPolygon {
+    fn wide_vertices(&self) -> Vec<Vec3> {
+        self.vertices.iter().map(|v| v.as_dvec3()).collect()
+    }
+
     /// Returns whether the ray's line certainly misses it, decided in `f32`.
     #[inline(always)]
     fn is_missed_by(&self, ray: &PackedRay) -> bool {
@@ -263,7 +296,8 @@ impl Form for PackedPolygon {
         PackedPolygon {
             vertices: polygon
                 .vertices_in_plane()
-                .map(|v| frame.point(v).as_vec3())
+                .iter()
+                .map(|&v| frame.point(v).as_vec3())
                 .collect(),
         }
     }
@@ -278,8 +312,18 @@ impl Form for PackedPolygon {
 
     #[inline(always)]
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        let t = self.crossing(ray).filter(|&t| ray.t_min <= t)?;
-        rounded(t, t_max)
+        let estimate = estimate_outline(self.vertices.iter().map(|v| v.as_dvec3()), ray);
+        Estimate::settle([estimate], [ray.t_min, ray.t_max], t_max, || {
+            Surface::Outline(&self.wide_vertices()).intersect(ray, Precision::F32)
+        })
+    }
+
+    fn exact_distance(&self, ray: &Ray) -> Option<Root> {
+        Surface::Outline(&self.wide_vertices()).exact_distance(ray)
+    }
+
+    fn exact_ray(ray: &PackedRay) -> &Ray {
+        &ray.as_f64
     }
 
     fn rounding(&self) -> f64 {
@@ -291,128 +335,47 @@ impl Form for PackedPolygon {
     }
 }
 
-impl PackedPolygon {
-    /// Returns where the ray's line crosses the polygon, by the even–odd rule. The outline is inside.
-    ///
-    /// In coordinates where the ray is the third axis, the chord of the outline along the first axis
-    /// through the origin ends on two edges. `t` at the origin is interpolated between the ends of the
-    /// chord, and there between the vertices of the edges. So the hit stays on the polygon however small
-    /// the angle. Adjacent polygons decide an edge from the same numbers. A ray within rounding of the
-    /// plane has no hit, as with triangles.
-    ///
-    /// ```text
-    /// a = last vertex, sheared
-    /// for each vertex b, sheared:
-    ///     the edge a–b contains the origin: remember its t there
-    ///     else if it crosses the first axis at x:
-    ///         x > 0: toggle inside; remember the edge if it is the nearest to the right
-    ///         x < 0: remember the edge if it is the nearest to the left
-    ///     a = b
-    /// no hit if the area is within rounding of 0
-    /// hit on an edge, or if inside: interpolate between the left and the right edge
-    /// ```
-    fn crossing(&self, ray: &Ray) -> Option<f64> {
-        let shear = Shear::of(ray.direction)?;
-        let (mut distance, mut perimeter, mut area) = (0.0_f64, 0.0, 0.0);
-        let mut apply = |vertex: &Point| {
-            let from_origin = vertex.as_dvec3() - ray.origin;
-            distance = distance.max(from_origin.abs().max_element());
-            shear.apply(from_origin)
-        };
-        let mut a = apply(self.vertices.last()?);
-        // Where the nearest edges on both sides of the origin cross the axis, and their vertices.
-        let (mut left, mut right) = ((f64::NEG_INFINITY, a, a), (f64::INFINITY, a, a));
-        let (mut inside, mut on_edge) = (false, None);
-        for vertex in &self.vertices {
-            let b = apply(vertex);
-            // Reversing the edge only changes the sign.
-            let cross = a.x * b.y - a.y * b.x;
-            area += cross;
-            perimeter += (b.x - a.x).abs() + (b.y - a.y).abs();
-            if cross == 0.0 && a.x.min(b.x) <= 0.0 && a.x.max(b.x) >= 0.0 {
-                on_edge = on_edge.or(t_of_origin(a, b));
-            } else if (a.y > 0.0) != (b.y > 0.0) {
-                let x = cross / (b.y - a.y);
-                if x > 0.0 {
-                    inside = !inside;
-                    right = if x < right.0 { (x, a, b) } else { right };
-                } else {
-                    left = if x > left.0 { (x, a, b) } else { left };
-                }
-            }
-            a = b;
-        }
-        if area.abs() <= 16.0 * f64::EPSILON * distance * perimeter {
-            return None;
-        }
-        let chord = || {
-            let t_on = |a: Vec3, b: Vec3| (a.z * b.y - a.y * b.z) / (b.y - a.y);
-            let (t_left, t_right) = (t_on(left.1, left.2), t_on(right.1, right.2));
-            let t = (t_right * -left.0 + t_left * right.0) / (right.0 - left.0);
-            t.is_finite().then_some(t)
-        };
-        on_edge.or_else(|| if inside { chord() } else { None })
-    }
-}
-
-/// Returns the third coordinate of a segment where its first two are 0; `None` beyond its ends. The
-/// origin must lie on the line of the segment in the first two coordinates.
-fn t_of_origin(a: Vec3, b: Vec3) -> Option<f64> {
-    if a.y.min(b.y) > 0.0 || a.y.max(b.y) < 0.0 {
-        return None;
-    }
-    let (x, y) = (b.x - a.x, b.y - a.y);
-    Some(if x == 0.0 && y == 0.0 {
-        a.z
-    } else if x.abs() > y.abs() {
-        (a.z * b.x - a.x * b.z) / x
-    } else {
-        (a.z * b.y - a.y * b.z) / y
-    })
-}
-
-/// A packed cylinder or cone: 40 bytes.
+/// A packed cylinder or cone: 36 bytes.
+#[derive(PartialEq)]
 pub struct PackedCone {
-    axis: Point,
-    middle: Point,
-    half_length: f32,
-    middle_radius: f32,
-    slope: f32,
-    squared_reach: f32,
+    base: Point,
+    base_radius: f32,
+    apex: Point,
+    apex_radius: f32,
+    /// The largest distance from the middle of the axis, rounded up.
+    reach: f32,
 }
 
 impl PackedCone {
     /// Converts the numbers to `f64`.
     #[inline(always)]
-    fn side(&self) -> cone::Side {
-        cone::Side {
-            axis: self.axis.as_dvec3(),
-            middle: self.middle.as_dvec3(),
-            half_length: f64::from(self.half_length),
-            middle_radius: f64::from(self.middle_radius),
-            slope: f64::from(self.slope),
-            squared_reach: f64::from(self.squared_reach),
+    fn ends(&self) -> ConeEnds {
+        ConeEnds {
+            base: self.base.as_dvec3(),
+            base_radius: f64::from(self.base_radius),
+            apex: self.apex.as_dvec3(),
+            apex_radius: f64::from(self.apex_radius),
         }
     }
 
     /// Returns whether the ray's line certainly misses it, decided in `f32`.
     #[inline(always)]
     fn is_missed_by(&self, ray: &PackedRay) -> bool {
-        let radius = self.middle_radius + self.slope.abs() * self.half_length;
+        let radius = self.base_radius.max(self.apex_radius);
         // The distance between the ray's line and the axis, times the length of their cross product. Its
         // error is 6 ε of the size of each factor, and 8 ε of the sum.
-        let normal = ray.direction.cross(self.axis);
-        let speed = ray.direction.abs().max_element();
-        let error = 64.0 * f32::EPSILON * ray.reach * speed;
-        let apart = (ray.origin - self.middle).dot(normal).abs() - error;
+        let axis = self.apex - self.base;
+        let normal = ray.direction.cross(axis);
+        let speed = ray.direction.abs().max_element() * axis.abs().max_element();
+        let error = 128.0 * f32::EPSILON * ray.reach * speed;
+        let apart = (ray.origin - self.base).dot(normal).abs() - error;
         let around = radius * (1.0 + 8.0 * f32::EPSILON);
         if apart > 0.0 && apart * apart > around * around * normal.length_squared() {
             return true;
         }
         // The bounding sphere.
-        let error = ray.distance_error();
-        let more = error * (2.0 * (self.half_length + radius) + error);
-        ray.squared_distance(self.middle) > self.squared_reach + more
+        let reach = self.reach + ray.distance_error();
+        ray.squared_distance(0.5 * (self.base + self.apex)) > reach * reach
     }
 }
 
@@ -421,17 +384,18 @@ impl Form for PackedCone {
     type Ray = PackedRay;
 
     fn of(cone: &Cone, frame: &UnitFrame) -> Self {
-        let side = cone.side();
-        let scale = frame.scale();
+        let ends = cone.ends();
+        let [base, apex] = [ends.base, ends.apex].map(|end| frame.point(end).as_vec3());
+        let [base_radius, apex_radius] =
+            [ends.base_radius, ends.apex_radius].map(|r| (r * frame.scale()) as f32);
+        let half = 0.5 * base.as_dvec3().distance(apex.as_dvec3());
+        let reach = half.hypot(f64::from(base_radius.max(apex_radius)));
         PackedCone {
-            axis: side.axis.as_vec3(),
-            middle: frame.point(side.middle).as_vec3(),
-            half_length: (side.half_length * scale) as f32,
-            middle_radius: (side.middle_radius * scale) as f32,
-            slope: side.slope as f32,
-            // Used to rule out hits, so it is rounded up.
-            squared_reach: (side.squared_reach * scale * scale) as f32 * (1.0 + 8.0 * f32::EPSILON)
-                + f32::EPSILON * f32::EPSILON,
+            base,
+            base_radius,
+            apex,
+            apex_radius,
+            reach: (reach as f32).next_up(),
         }
     }
 
@@ -445,13 +409,25 @@ impl Form for PackedCone {
 
     #[inline(always)]
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        let side = self.side();
-        rounded(side.intersect(ray, t_max * UP)?, t_max)
+        let ends = self.ends();
+        let crossings = cone::Side::of(&ends).estimates(ray);
+        Estimate::settle(crossings, [ray.t_min, ray.t_max], t_max, || {
+            Surface::Cone(ends).intersect(ray, Precision::F32)
+        })
+    }
+
+    fn exact_distance(&self, ray: &Ray) -> Option<Root> {
+        Surface::Cone(self.ends()).exact_distance(ray)
+    }
+
+    fn exact_ray(ray: &PackedRay) -> &Ray {
+        &ray.as_f64
     }
 
     fn rounding(&self) -> f64 {
-        let radius = self.middle_radius + self.slope.abs() * self.half_length;
-        rounding_within(self.middle.abs().max_element() + self.half_length + radius)
+        let radius = self.base_radius.max(self.apex_radius);
+        let reach = self.base.abs().max(self.apex.abs()).max_element();
+        rounding_within(reach + radius)
     }
 
     fn bytes(&self) -> usize {
@@ -460,6 +436,7 @@ impl Form for PackedCone {
 }
 
 /// A packed object of any kind.
+#[derive(PartialEq)]
 pub enum PackedPrimitive {
     Sphere(PackedSphere),
     Triangle(PackedTriangle),
@@ -499,6 +476,14 @@ impl Form for PackedPrimitive {
     #[inline]
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         each_kind!(self, form => form.intersect_exact(ray, t_max))
+    }
+
+    fn exact_distance(&self, ray: &Ray) -> Option<Root> {
+        each_kind!(self, form => form.exact_distance(ray))
+    }
+
+    fn exact_ray(ray: &PackedRay) -> &Ray {
+        &ray.as_f64
     }
 
     fn rounding(&self) -> f64 {
@@ -565,32 +550,22 @@ mod tests {
                 let (hit, missed) = match k {
                     0 => {
                         let packed = PackedSphere::of(&sphere, &frame);
-                        let exact = Sphere {
-                            center: packed.center.as_dvec3(),
-                            radius: packed.radius.into(),
-                        };
-                        let hit = Shape::intersect(&exact, wide, far);
-                        (hit.is_some(), packed.is_missed_by(&ray))
+                        (packed.intersect_exact(wide, far), packed.is_missed_by(&ray))
                     }
                     1 => {
                         let packed = PackedTriangle::of(&triangle, &frame);
-                        let exact = Triangle {
-                            vertices: packed.vertices.map(|v| v.as_dvec3()),
-                            normals: None,
-                        };
-                        let hit = Shape::intersect(&exact, wide, far);
-                        (hit.is_some(), packed.is_missed_by(&ray))
+                        (packed.intersect_exact(wide, far), packed.is_missed_by(&ray))
                     }
                     2 => {
                         let packed = PackedPolygon::of(&polygon, &frame);
-                        (packed.crossing(wide).is_some(), packed.is_missed_by(&ray))
+                        (packed.intersect_exact(wide, far), packed.is_missed_by(&ray))
                     }
                     _ => {
                         let packed = PackedCone::of(&cone, &frame);
-                        let hit = packed.side().intersect(wide, far);
-                        (hit.is_some(), packed.is_missed_by(&ray))
+                        (packed.intersect_exact(wide, far), packed.is_missed_by(&ray))
                     }
                 };
+                let hit = hit.is_some();
                 assert!(!(hit && missed), "kind {k}, {ray:?}");
                 hits[k] += usize::from(hit);
                 misses[k] += usize::from(missed);

@@ -1,6 +1,8 @@
 //! Simple polygons, convex or not.
 
 use super::clip::bounds_of_outline;
+use super::estimate::{Estimate, U, UNDERFLOW};
+use super::exact::{Root, Surface};
 use super::numeric::{self, Shear};
 use super::{Shape, ShapeError, SurfacePoint};
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
@@ -21,7 +23,7 @@ const FLATNESS: f64 = 8.0 * f64::EPSILON;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
     vertices: Vec<Vec3>,
-    normals: Option<Vec<Vec3>>,
+    normals: Option<Box<[Vec3]>>,
     /// Unit normal of the plane on the side where the vertices are counterclockwise.
     normal: Vec3,
     /// A point of the plane: the mean of the vertices.
@@ -29,10 +31,10 @@ pub struct Polygon {
     /// The axis of the normal's largest component, along which vertices are projected.
     axis: Axis,
     /// The projected vertices.
-    outline: Vec<[f64; 2]>,
+    outline: Box<[[f64; 2]]>,
     bounds: Aabb,
-    /// Whether the vertices lie in the plane up to rounding.
-    is_flat: bool,
+    /// The vertices projected to the plane; `None` if they lie in it up to rounding.
+    in_plane: Option<Box<[Vec3]>>,
     /// The largest absolute coordinate: the scale of rounding errors.
     magnitude: f64,
 }
@@ -74,7 +76,11 @@ impl Polygon {
         let magnitude = box_of_vertices.magnitude();
         let normals = match normals {
             None => None,
-            Some(n) => Some(numeric::unit_normals(&n, normal).ok_or(ShapeError::NotFinite)?),
+            Some(n) => Some(
+                numeric::unit_normals(&n, normal)
+                    .ok_or(ShapeError::NotFinite)?
+                    .into(),
+            ),
         };
         let steepness = normal.abs();
         let axis = if steepness.x > steepness.y && steepness.x > steepness.z {
@@ -84,7 +90,7 @@ impl Polygon {
         } else {
             Axis::Z
         };
-        let outline: Vec<_> = vertices.iter().map(|&v| project(v, axis)).collect();
+        let outline = vertices.iter().map(|&v| project(v, axis)).collect();
         let mut polygon = Polygon {
             vertices,
             normals,
@@ -93,10 +99,13 @@ impl Polygon {
             axis,
             outline,
             bounds: box_of_vertices,
-            is_flat: deviation <= FLATNESS * magnitude,
+            in_plane: None,
             magnitude,
         };
-        let in_plane = Aabb::around(polygon.vertices_in_plane());
+        if deviation > FLATNESS * magnitude {
+            polygon.in_plane = Some(polygon.projected());
+        }
+        let in_plane = Aabb::around(polygon.vertices_in_plane().iter().copied());
         polygon.bounds = numeric::grown(box_of_vertices.union(&in_plane));
         Ok(polygon)
     }
@@ -155,62 +164,49 @@ impl Polygon {
 
     /// Returns the vertices projected to the plane, or unchanged if they lie in it up to rounding:
     /// neighbors in a mesh then have vertices in common.
-    pub(super) fn vertices_in_plane(&self) -> impl Iterator<Item = Vec3> {
+    pub fn vertices_in_plane(&self) -> &[Vec3] {
+        self.in_plane.as_deref().unwrap_or(&self.vertices)
+    }
+
+    fn projected(&self) -> Box<[Vec3]> {
         let normal = numeric::rotated(self.normal, self.axis);
         let anchor = numeric::rotated(self.anchor, self.axis);
-        let axis = self.axis.index();
-        self.vertices.iter().map(move |&v| {
-            if self.is_flat {
-                return v;
-            }
+        let moved = self.vertices.iter().map(|&v| {
             let rotated = numeric::rotated(v, self.axis);
             let rise = normal.x * (rotated.x - anchor.x) + normal.y * (rotated.y - anchor.y);
             let mut moved = v;
-            moved[axis] = anchor.z - rise / normal.z;
+            moved[self.axis.index()] = anchor.z - rise / normal.z;
             moved
-        })
-    }
-
-    /// Returns whether the ray's line crosses the polygon, including its outline.
-    ///
-    /// All polygons and triangles of a mesh decide an edge from the same numbers, so no line passes between
-    /// two that share it.
-    #[cold]
-    fn is_pierced_by(&self, ray: &Ray) -> bool {
-        let Some(shear) = Shear::of(ray.direction) else {
-            return false;
-        };
-        let sheared = self.vertices_in_plane().map(|v| {
-            let p = shear.apply(v - ray.origin);
-            [p.x, p.y]
         });
-        let sheared: Vec<_> = sheared.collect();
-        is_inside(&sheared, [0.0; 2], 0.0).unwrap_or(true)
+        moved.collect()
     }
 
-    /// [`Shape::intersect`] for a direction that is neither huge nor tiny.
-    #[inline]
-    fn intersect_workable(&self, ray: &Ray, t_max: f64) -> Option<f64> {
+    /// Returns whether a ray certainly misses the polygon within an interval.
+    ///
+    /// With L the sum of the absolute components of the direction, h that of the plane's anchor relative to
+    /// the origin, and m the largest coordinate: vertices are at most 2 [`FLATNESS`] m away from the plane;
+    /// the distance to the plane has an error of 5 u h, the speed towards it one of 4 u L. So where the ray
+    /// passes the plane differs from where it meets the polygon by at most `slack` along each axis, which is
+    /// 48 ε of their sum, divided by the sine of the angle. For a polygon within reach, the way there is at
+    /// most h and the size of the polygon.
+    #[inline(always)]
+    fn is_missed_by(&self, ray: &Ray, t_max: f64) -> bool {
         let speed = self.normal.dot(ray.direction);
         let length = ray.direction.abs().element_sum();
-        // The ray is within rounding of the plane.
-        if speed.abs() <= 4.0 * f64::EPSILON * length {
-            return None;
-        }
         let to_plane = self.anchor - ray.origin;
         let t = self.normal.dot(to_plane) / speed;
-        let in_reach = ray.t_min <= t && t <= t_max && t.is_finite();
-        if !in_reach {
-            return None;
-        }
         let point = ray.origin + t * ray.direction;
-        // The smaller the angle, the more the rounding of the distance moves the point.
         let reach = to_plane.abs().element_sum() + t.abs() * length + self.magnitude;
-        let slack = 4.0 * FLATNESS * reach * (length / speed).abs();
-        let hit = self.bounds.enlarged(slack).contains(point)
-            && is_inside(&self.outline, project(point, self.axis), slack)
-                .unwrap_or_else(|| self.is_pierced_by(ray));
-        hit.then_some(t)
+        let slack = 6.0 * FLATNESS * reach * (length / speed).abs() + UNDERFLOW;
+        // The same along the ray; the largest component of the direction is at least a third of L.
+        let later = 3.0 * slack / length;
+        if t + later < ray.t_min || t - later > t_max {
+            return true;
+        }
+        if slack.is_nan() || self.bounds.enlarged(slack).contains(point) {
+            return is_inside(&self.outline, project(point, self.axis), slack) == Some(false);
+        }
+        true
     }
 
     /// Interpolates vertex normals at a point of the polygon by mean value coordinates (Hormann and Floater,
@@ -305,11 +301,113 @@ fn is_inside(outline: &[[f64; 2]], point: [f64; 2], slack: f64) -> Option<bool> 
     Some(inside)
 }
 
+/// An edge that crosses the first axis, with bounds on the errors of where.
+#[derive(Clone, Copy)]
+struct Crossing {
+    x: f64,
+    x_error: f64,
+    t: f64,
+    t_error: f64,
+}
+
+/// Returns where a ray's line crosses the area within an outline, outline included, as
+/// [`Surface::Outline`] defines it.
+///
+/// A sheared coordinate has an error of at most `e` = u r, an edge function one of at most `bound`
+/// ([`super::estimate::triangle`]). An edge crosses the first axis at edge function / rise; the rise has an
+/// error of 2 e, and so the place one of 2 (`bound` + 2 e |place|) / rise as long as that is small. The
+/// distance there is interpolated between those of the vertices, with an error of 2 e / rise of their
+/// difference; likewise that between both ends of the chord.
+#[inline(always)]
+pub(super) fn estimate_outline(
+    vertices: impl Iterator<Item = Vec3> + Clone,
+    ray: &Ray,
+) -> Estimate {
+    let Some(shear) = Shear::of(ray.direction) else {
+        return Estimate::UNSURE;
+    };
+    let relative = vertices.map(|v| shear.rotate(v - ray.origin));
+    let Some(last) = relative.clone().last() else {
+        return Estimate::MISS;
+    };
+    let (mut from, mut a) = (last, shear.apply_rotated(last));
+    let (mut left, mut right): (Option<Crossing>, Option<Crossing>) = (None, None);
+    let (mut inside, mut is_ambiguous) = (false, false);
+    let (mut area, mut area_error, mut largest) = (0.0, 0.0, 0.0_f64);
+    for to in relative {
+        let b = shear.apply_rotated(to);
+        let size = a.x.abs().max(a.y.abs()).max(b.x.abs()).max(b.y.abs());
+        let r = 8.0 * from.z.abs().max(to.z.abs()) + 2.0 * size + UNDERFLOW;
+        let e = U * r;
+        let bound = 7.0 * e * (size + 2.0 * e) + UNDERFLOW;
+        let cross = a.x * b.y - a.y * b.x;
+        area += cross;
+        area_error += 2.0 * bound;
+        largest = largest.max(b.z.abs());
+        let is_near = a.y.abs() <= 2.0 * e || b.y.abs() <= 2.0 * e;
+        let is_straddling = (a.y > 0.0) != (b.y > 0.0);
+        if (is_near || is_straddling) && !(cross.abs() > 4.0 * bound) {
+            return Estimate::UNSURE;
+        }
+        if is_straddling {
+            let rise = b.y - a.y;
+            if !(rise.abs() > 8.0 * e) {
+                return Estimate::UNSURE;
+            }
+            let x = cross / rise;
+            let share = 4.0 * e / rise.abs();
+            let depth = (b.z - a.z).abs() + 8.0 * U * (a.z.abs() + b.z.abs());
+            let crossing = Crossing {
+                x,
+                x_error: 2.0 * bound / rise.abs() + share * x.abs() + 4.0 * U * x.abs(),
+                t: (a.z * b.y - a.y * b.z) / rise,
+                t_error: 2.0 * share * depth + 16.0 * U * (a.z.abs() + b.z.abs()),
+            };
+            let nearest = if x > 0.0 {
+                inside = !inside;
+                &mut right
+            } else {
+                &mut left
+            };
+            match nearest {
+                Some(other) => {
+                    is_ambiguous |= !((other.x - x).abs() > other.x_error + crossing.x_error);
+                    if x.abs() < other.x.abs() {
+                        *other = crossing;
+                    }
+                }
+                None => *nearest = Some(crossing),
+            }
+        }
+        (from, a) = (to, b);
+    }
+    match (inside, left, right) {
+        (false, ..) => Estimate::MISS,
+        (true, Some(left), Some(right)) if !is_ambiguous => {
+            let chord = right.x - left.x;
+            let error = left.x_error + right.x_error;
+            if !(area.abs() > area_error && chord > 4.0 * error) {
+                return Estimate::UNSURE;
+            }
+            let t = (left.t * right.x - right.t * left.x) / chord;
+            let t_error = left.t_error.max(right.t_error);
+            let depth = (right.t - left.t).abs() + 2.0 * t_error;
+            let rounding = 16.0 * U * (left.t.abs() + right.t.abs() + largest);
+            Estimate::new(
+                t,
+                2.0 * (t_error + depth * error / chord) + rounding + UNDERFLOW,
+            )
+        }
+        _ => Estimate::UNSURE,
+    }
+}
+
 impl Shape for Polygon {
     fn bytes(&self) -> usize {
         size_of::<Self>()
             + size_of_val(&*self.vertices)
             + size_of_val(&*self.outline)
+            + self.in_plane.as_deref().map_or(0, size_of_val)
             + self.normals.as_deref().map_or(0, size_of_val)
     }
 
@@ -344,8 +442,9 @@ impl Shape for Polygon {
             Aabb::around(edge).enlarged(slack).touches(cell)
                 && !numeric::edge_separates(start, vertex, &edge, cell)
         };
-        if self.vertices_in_plane().any(&mut meets_cell)
-            || self.vertices_in_plane().next().is_some_and(meets_cell)
+        let vertices = self.vertices_in_plane();
+        if vertices.iter().copied().any(&mut meets_cell)
+            || vertices.first().copied().is_some_and(meets_cell)
         {
             return true;
         }
@@ -363,17 +462,18 @@ impl Shape for Polygon {
         bounds_of_outline(&self.vertices, cell)
     }
 
-    /// Returns where the ray crosses the plane, inside or on the outline. A ray in the plane has no hit.
-    ///
-    /// Within rounding of an edge, the side on which the line passes the edge in space decides, as for
-    /// triangles: at a common edge both polygons may report the hit, but never neither.
+    /// The outline is part of the polygon. A ray within its plane has no hit.
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        if numeric::is_workable(self.normal.dot(ray.direction).abs()) {
-            self.intersect_workable(ray, t_max)
-        } else {
-            numeric::with_direction_rescaled(ray, t_max, |r, t| self.intersect_workable(r, t))
+        if self.is_missed_by(ray, t_max) {
+            return None;
         }
+        let surface = Surface::Outline(self.vertices_in_plane());
+        surface.settle([Estimate::UNSURE], ray, t_max)
+    }
+
+    fn exact_distance(&self, ray: &Ray) -> Option<Root> {
+        Surface::Outline(self.vertices_in_plane()).exact_distance(ray)
     }
 
     /// Returns the area divided by the longest edge of the bounds, which is at most the width.

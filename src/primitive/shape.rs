@@ -1,5 +1,6 @@
 //! The interface of all primitives.
 
+use super::exact::Root;
 use crate::geometry::{Aabb, Ray, Vec3};
 
 /// What tree builders and ray tracers need from a primitive.
@@ -18,8 +19,12 @@ pub trait Shape: Send + Sync {
         (!part.is_empty()).then_some(part)
     }
 
-    /// Returns the smallest `t` in `[ray.t_min, t_max]` at which the ray hits the surface, if any.
+    /// Returns the smallest `t` of the ray's interval at which it hits the surface, rounded to the nearest
+    /// number, if any and if that is at most `t_max`. Exact ([`super::exact`]): nothing else is rounded.
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64>;
+
+    /// Returns the `t` of [`Shape::intersect`] as a number that is not rounded.
+    fn exact_distance(&self, ray: &Ray) -> Option<Root>;
 
     /// Returns the surface at a `t` that [`Shape::intersect`] returned.
     fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint;

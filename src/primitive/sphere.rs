@@ -1,5 +1,7 @@
 //! Spheres.
 
+use super::estimate;
+use super::exact::{Root, Surface};
 use super::{Shape, ShapeError, SurfacePoint, numeric};
 use crate::geometry::{Aabb, Ray, Vec3};
 
@@ -23,6 +25,13 @@ impl Sphere {
             return Err(ShapeError::NegativeRadius(radius));
         }
         Ok(Sphere { center, radius })
+    }
+
+    fn exact(&self) -> Surface<'static> {
+        Surface::Sphere {
+            center: self.center,
+            radius: self.radius,
+        }
     }
 }
 
@@ -51,34 +60,14 @@ impl Shape for Sphere {
         (away.element_sum() <= self.radius * self.radius && !part.is_empty()).then_some(part)
     }
 
-    /// After Haines, Günther and Akenine-Möller, "Precision improvements for ray/sphere
-    /// intersection" (Ray Tracing Gems, 2019, ch. 7). The discriminant is computed from the offset of the
-    /// center from the ray, because a difference of squared distances would cancel for a small sphere far
-    /// away. No root is a difference of nearly equal numbers.
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        let direction = ray.direction;
-        let a = direction.length_squared();
-        if !numeric::is_workable(a) {
-            return numeric::with_direction_rescaled(ray, t_max, |r, t| self.intersect(r, t));
-        }
-        let to_center = self.center - ray.origin;
-        let b = to_center.dot(direction);
-        let offset = to_center - (b / a) * direction;
-        let squared_radius = self.radius * self.radius;
-        let discriminant = squared_radius - offset.length_squared();
-        if discriminant < 0.0 {
-            return None;
-        }
-        let q = b + (a * discriminant).sqrt().copysign(b);
-        let c = to_center.length_squared() - squared_radius;
-        let (t0, t1) = (c / q, q / a);
-        // If q is 0, t0 is infinite or NaN, and t1 is the only root.
-        let (near, far) = if t0 < t1 { (t0, t1) } else { (t1, t0) };
-        let in_reach = |t: &f64| ray.t_min <= *t && *t <= t_max && t.is_finite();
-        Some(near)
-            .filter(in_reach)
-            .or_else(|| Some(far).filter(in_reach))
+        let crossings = estimate::sphere(self.center, self.radius, ray);
+        self.exact().settle(crossings, ray, t_max)
+    }
+
+    fn exact_distance(&self, ray: &Ray) -> Option<Root> {
+        self.exact().exact_distance(ray)
     }
 
     /// Returns the diameter.

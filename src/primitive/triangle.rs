@@ -1,6 +1,8 @@
 //! Triangles, with or without vertex normals.
 
 use super::clip::bounds_of_outline;
+use super::estimate::{self, Estimate};
+use super::exact::{Root, Surface};
 use super::numeric::{self, Shear};
 use super::{Shape, ShapeError, SurfacePoint};
 use crate::geometry::{Aabb, Ray, Vec3};
@@ -83,67 +85,6 @@ impl Triangle {
     }
 }
 
-/// Returns where a ray hits a triangle within an interval. The vertices are relative to the ray's origin
-/// and [rotated](Shear::rotate).
-///
-/// An edge function of 0 counts as inside, whatever its exact sign is. So at an edge, both triangles may
-/// report the hit, but never neither. A triangle seen edge-on has no hit.
-#[inline(always)]
-pub(super) fn crossing(
-    vertices: [Vec3; 3],
-    shear: &Shear,
-    [t_min, t_max]: [f64; 2],
-) -> Option<f64> {
-    let [a, b, c] = vertices.map(|v| shear.apply_rotated(v));
-    let u = c.x * b.y - c.y * b.x;
-    let v = a.x * c.y - a.y * c.x;
-    let w = b.x * a.y - b.y * a.x;
-    if u.min(v).min(w) < 0.0 && u.max(v).max(w) > 0.0 {
-        return None;
-    }
-    let determinant = u + v + w;
-    let t = (u * a.z + v * b.z + w * c.z) / determinant;
-    let in_reach = t_min <= t && t <= t_max && t.is_finite();
-    (in_reach && !is_edge_on(vertices, determinant, [a, b, c])).then_some(t)
-}
-
-/// [`crossing`] without an upper limit; NaN for a miss. Branchless, so that a loop over many triangles is
-/// vectorized. The arithmetic is the same.
-#[inline(always)]
-pub(super) fn crossing_or_nan(vertices: [Vec3; 3], shear: &Shear, t_min: f64) -> f64 {
-    let a = shear.apply_rotated(vertices[0]);
-    let b = shear.apply_rotated(vertices[1]);
-    let c = shear.apply_rotated(vertices[2]);
-    let u = c.x * b.y - c.y * b.x;
-    let v = a.x * c.y - a.y * c.x;
-    let w = b.x * a.y - b.y * a.x;
-    let outside = (u.min(v).min(w) < 0.0) & (u.max(v).max(w) > 0.0);
-    let determinant = u + v + w;
-    let t = (u * a.z + v * b.z + w * c.z) / determinant;
-    let in_reach = (t_min <= t) & t.is_finite();
-    if !outside & in_reach & !is_edge_on(vertices, determinant, [a, b, c]) {
-        t
-    } else {
-        f64::NAN
-    }
-}
-
-/// Returns whether the determinant of the edge functions is within rounding of 0. Then their signs are
-/// meaningless, and the ray is within rounding of the triangle's plane.
-///
-/// A sheared coordinate has an error of about 3 ε of the distance to the vertex, and the determinant has
-/// that times the longest sheared edge, for each vertex.
-#[inline(always)]
-fn is_edge_on(vertices: [Vec3; 3], determinant: f64, [a, b, c]: [Vec3; 3]) -> bool {
-    let distance = vertices
-        .iter()
-        .fold(0.0_f64, |m, v| m.max(v.abs().max_element()));
-    let edge = [b - a, c - b, a - c]
-        .iter()
-        .fold(0.0_f64, |m, e| m.max(e.x.abs().max(e.y.abs())));
-    determinant.abs() <= 16.0 * f64::EPSILON * distance * edge
-}
-
 impl Shape for Triangle {
     fn bytes(&self) -> usize {
         size_of::<Self>() + self.normals.as_deref().map_or(0, size_of_val)
@@ -169,14 +110,23 @@ impl Shape for Triangle {
         bounds_of_outline(&self.vertices, cell)
     }
 
-    /// After Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2(1), 2013).
+    /// Edges are part of the triangle. A ray within its plane has no hit.
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        let Some(shear) = Shear::of(ray.direction) else {
-            return numeric::with_direction_rescaled(ray, t_max, |r, t| self.intersect(r, t));
+        let estimate = Shear::of(ray.direction).map_or(Estimate::UNSURE, |shear| {
+            let vertices = self.vertices.map(|v| shear.rotate(v - ray.origin));
+            estimate::triangle(vertices, &shear)
+        });
+        let surface = if estimate.is_crossing() {
+            Surface::Pierced(&self.vertices)
+        } else {
+            Surface::Triangle(&self.vertices)
         };
-        let vertices = self.vertices.map(|v| shear.rotate(v - ray.origin));
-        crossing(vertices, &shear, [ray.t_min, t_max])
+        surface.settle([estimate], ray, t_max)
+    }
+
+    fn exact_distance(&self, ray: &Ray) -> Option<Root> {
+        Surface::Triangle(&self.vertices).exact_distance(ray)
     }
 
     /// Returns the height over the longest edge.

@@ -5,6 +5,25 @@ use super::{Hit, LeafVisitor, Probe, Scratch};
 use crate::geometry::Ray;
 use crate::primitive::{Form, Shapes};
 use crate::structure::Tree;
+use std::cmp::Ordering;
+
+/// Returns whether an object is hit before the best one so far, where both distances are rounded to the same
+/// number: whether its exact distance is smaller, or equal and its index lower.
+#[cold]
+#[inline(never)]
+pub(crate) fn wins_tie<F: Form>(objects: &[F], object: u32, best: &Hit, ray: &Ray) -> bool {
+    if !best.is_hit() || object == best.object {
+        return !best.is_hit();
+    }
+    let [a, b] = [object, best.object].map(|object| &objects[object as usize]);
+    // Objects often stand twice in a scene.
+    let order = if a == b {
+        Ordering::Equal
+    } else {
+        a.exact_distance(ray).cmp(&b.exact_distance(ray))
+    };
+    order.then(object.cmp(&best.object)) == Ordering::Less
+}
 
 /// Keeps the closest hit.
 struct Closest<'a, F: Form> {
@@ -20,7 +39,8 @@ impl<F: Form> LeafVisitor for Closest<'_, F> {
             let hit = self.objects[object as usize].intersect(self.ray, self.best.t);
             probe.test(object, hit);
             if let Some(t) = hit
-                && (t < self.best.t || object < self.best.object)
+                && (t < self.best.t
+                    || wins_tie(self.objects, object, &self.best, F::exact_ray(self.ray)))
             {
                 self.best = Hit { t, object };
             }
@@ -188,12 +208,18 @@ pub fn closest_hit_brute_force(shapes: &Shapes, ray: &Ray) -> Hit {
             return Hit::MISS;
         };
         let [_, t_max] = ray.interval();
-        let hits = objects.iter().zip(0..).filter_map(|(shape, object)| {
-            let t = shape.intersect(&ray, t_max)?;
-            Some(Hit { t, object })
-        });
-        // Of equal distances, keeps the first.
-        let nearest = hits.reduce(|a, b| if b.t < a.t { b } else { a });
-        nearest.map_or(Hit::MISS, |hit| hit_in_world(hit, &ray))
+        let best = Hit {
+            t: t_max,
+            ..Hit::MISS
+        };
+        let mut visitor = Closest {
+            objects,
+            ray: &ray,
+            best,
+        };
+        for object in 0..objects.len() as u32 {
+            visitor.visit(&[object], &mut ());
+        }
+        hit_in_world(visitor.best, &ray)
     })
 }

@@ -4,7 +4,7 @@ use super::array::three;
 use super::instruction_set::InstructionSet;
 use super::ray::SimdRay;
 use crate::geometry::Vec3;
-use crate::primitive::PackedTriangle;
+use crate::primitive::{Estimate, PackedTriangle};
 use crate::structure::simd_tree::Triangles;
 
 /// Pairs per batch: enough that stores of the first pair have reached the cache when it is read.
@@ -20,8 +20,7 @@ pub(super) struct Crossings {
     vertices: [[Column; 3]; 3],
     origin: [Column; 3],
     direction: [Column; 3],
-    t_min: Column,
-    t: [f64; BATCH],
+    estimates: [Estimate; BATCH],
 }
 
 impl Crossings {
@@ -30,8 +29,7 @@ impl Crossings {
             vertices: [[[0.0; BATCH]; 3]; 3],
             origin: [[0.0; BATCH]; 3],
             direction: [[1.0; BATCH]; 3],
-            t_min: [0.0; BATCH],
-            t: [f64::NAN; BATCH],
+            estimates: [Estimate::MISS; BATCH],
         }
     }
 
@@ -47,7 +45,6 @@ impl Crossings {
             self.origin[j][k] = ray.origin[axes[j]];
             self.direction[j][k] = ray.direction[axes[j]];
         }
-        self.t_min[k] = ray.t_min;
     }
 
     /// Computes the first `count` pairs.
@@ -64,10 +61,10 @@ impl Crossings {
         }
     }
 
-    /// Returns [`PackedTriangle::crossing_rotated`] of a computed pair.
+    /// Returns [`PackedTriangle::estimate_rotated`] of a computed pair.
     #[inline(always)]
-    pub(super) fn get(&self, k: usize) -> f64 {
-        self.t[k]
+    pub(super) fn get(&self, k: usize) -> Estimate {
+        self.estimates[k]
     }
 
     /// # Safety
@@ -91,11 +88,10 @@ impl Crossings {
         for k in 0..count.next_multiple_of(VECTOR).min(BATCH) {
             let vector = |columns: &[Column; 3]| Vec3::from(three(|j| f64::from(columns[j][k])));
             let [a, b, c] = &self.vertices;
-            self.t[k] = PackedTriangle::crossing_rotated(
+            self.estimates[k] = PackedTriangle::estimate_rotated(
                 [vector(a), vector(b), vector(c)],
                 vector(&self.origin),
                 vector(&self.direction),
-                f64::from(self.t_min[k]),
             );
         }
     }

@@ -6,9 +6,10 @@ use super::crossings::{BATCH, Crossings};
 use super::instruction_set::InstructionSet;
 use super::ray::{RayBuffer, SimdRay};
 use crate::geometry::Ray;
-use crate::primitive::{Form, PackedTriangle};
+use crate::primitive::{Estimate, Form, PackedSphere, PackedTriangle};
 use crate::structure::simd_tree::{Spheres, Triangles};
 use crate::trace::Hit;
+use crate::trace::query::wins_tie;
 use std::hint::select_unpredictable;
 use std::marker::PhantomData;
 
@@ -118,19 +119,28 @@ pub(super) trait TestObjects {
         world: &[Ray],
         t_max: f64,
     ) -> f64;
+
+    /// Returns [`wins_tie`] of a candidate.
+    fn wins_tie(&self, candidate: &Candidate, best: &Hit, rays: &RayBuffer, world: &[Ray]) -> bool;
 }
 
 /// Triangles in their blocks, which are still in the cache.
 pub(super) struct InTriangles<'a> {
     blocks: &'a [Triangles],
+    triangles: &'a [PackedTriangle],
     crossings: Crossings,
     instructions: InstructionSet,
 }
 
 impl<'a> InTriangles<'a> {
-    pub(super) fn new(blocks: &'a [Triangles], instructions: InstructionSet) -> Self {
+    pub(super) fn new(
+        blocks: &'a [Triangles],
+        triangles: &'a [PackedTriangle],
+        instructions: InstructionSet,
+    ) -> Self {
         InTriangles {
             blocks,
+            triangles,
             crossings: Crossings::new(),
             instructions,
         }
@@ -153,13 +163,40 @@ impl TestObjects for InTriangles<'_> {
     }
 
     #[inline(always)]
-    fn test(&self, k: usize, _: &Candidate, _: &RayBuffer, _: &[Ray], t_max: f64) -> f64 {
-        PackedTriangle::round_hit(self.crossings.get(k), t_max)
+    fn test(
+        &self,
+        k: usize,
+        candidate: &Candidate,
+        rays: &RayBuffer,
+        _: &[Ray],
+        t_max: f64,
+    ) -> f64 {
+        let estimate = self.crossings.get(k);
+        let ray = &rays.rays[candidate.ray as usize];
+        let interval = [f64::from(ray.t_min), f64::from(ray.t_max)];
+        let t = Estimate::settle([estimate], interval, t_max, || {
+            self.triangles[candidate.object as usize].intersect_slowly(&to_f64(ray))
+        });
+        t.unwrap_or(f64::NAN)
+    }
+
+    fn wins_tie(&self, candidate: &Candidate, best: &Hit, rays: &RayBuffer, _: &[Ray]) -> bool {
+        let ray = to_f64(&rays.rays[candidate.ray as usize]);
+        wins_tie(self.triangles, candidate.object, best, &ray)
     }
 }
 
 /// Spheres in their blocks.
-pub(super) struct InSpheres<'a>(pub(super) &'a [Spheres]);
+pub(super) struct InSpheres<'a> {
+    blocks: &'a [Spheres],
+    spheres: &'a [PackedSphere],
+}
+
+impl<'a> InSpheres<'a> {
+    pub(super) fn new(blocks: &'a [Spheres], spheres: &'a [PackedSphere]) -> Self {
+        InSpheres { blocks, spheres }
+    }
+}
 
 impl TestObjects for InSpheres<'_> {
     type Precision = InF32;
@@ -174,11 +211,16 @@ impl TestObjects for InSpheres<'_> {
         t_max: f64,
     ) -> f64 {
         let ray = to_f64(&rays.rays[candidate.ray as usize]);
-        let block = &self.0[candidate.block as usize];
+        let block = &self.blocks[candidate.block as usize];
         let t = block
             .sphere(candidate.place as usize)
             .intersect_exact(&ray, t_max);
         t.unwrap_or(f64::NAN)
+    }
+
+    fn wins_tie(&self, candidate: &Candidate, best: &Hit, rays: &RayBuffer, _: &[Ray]) -> bool {
+        let ray = to_f64(&rays.rays[candidate.ray as usize]);
+        wins_tie(self.spheres, candidate.object, best, &ray)
     }
 }
 
@@ -212,6 +254,11 @@ impl<P: TestPrecision, F: Form> TestObjects for InArray<'_, P, F> {
         let ray = P::test_ray(rays, candidate.ray as usize, world);
         let t = self.objects[candidate.object as usize].intersect_exact(&ray, t_max);
         t.unwrap_or(f64::NAN)
+    }
+
+    fn wins_tie(&self, candidate: &Candidate, best: &Hit, rays: &RayBuffer, world: &[Ray]) -> bool {
+        let ray = P::test_ray(rays, candidate.ray as usize, world);
+        wins_tie(self.objects, candidate.object, best, &ray)
     }
 }
 
@@ -269,7 +316,8 @@ impl<O: TestObjects> ExactTests for Closest<'_, O> {
                     continue;
                 }
                 let t = self.objects.test(k, candidate, rays, self.rays, best.t);
-                let nearer = (t < best.t) | (t == best.t) & (object < best.object);
+                let nearer = t < best.t
+                    || t == best.t && self.objects.wins_tie(candidate, best, rays, self.rays);
                 *best = select_unpredictable(nearer, Hit { t, object }, *best);
                 let limit = &mut limits[candidate.lane as usize];
                 *limit = select_unpredictable(nearer, O::Precision::limit(rays, slot, t), *limit);

@@ -22,7 +22,7 @@ use super::queue::{RayQueue, end_all};
 use super::ray::{CHUNKS, RayBuffer, RaySetup};
 use super::stream::Stacks;
 use crate::geometry::Ray;
-use crate::primitive::{Shapes, with_array};
+use crate::primitive::{Arrays, Shapes, with_array};
 use crate::structure::Tree;
 use crate::structure::simd_tree::{AnyBlockTree, SimdTree, with_block_tree};
 use crate::trace::{Hit, Scratch, any_hit, closest_hit};
@@ -33,12 +33,24 @@ use std::ops::Range;
 macro_rules! with_objects {
     ($kernel:expr, $objects:ident => $body:expr) => {
         match (&$kernel.simd_tree.tree, $kernel.shapes) {
-            (AnyBlockTree::Triangles(tree), Shapes::F32 { .. }) => {
-                let $objects = InTriangles::new(&tree.blocks, $kernel.instructions);
+            (
+                AnyBlockTree::Triangles(tree),
+                Shapes::F32 {
+                    arrays: Arrays::Triangles(all),
+                    ..
+                },
+            ) => {
+                let $objects = InTriangles::new(&tree.blocks, all, $kernel.instructions);
                 $body
             }
-            (AnyBlockTree::Spheres(tree), Shapes::F32 { .. }) => {
-                let $objects = InSpheres(&tree.blocks);
+            (
+                AnyBlockTree::Spheres(tree),
+                Shapes::F32 {
+                    arrays: Arrays::Spheres(all),
+                    ..
+                },
+            ) => {
+                let $objects = InSpheres::new(&tree.blocks, all);
                 $body
             }
             (_, Shapes::F32 { arrays, .. }) => with_array!(arrays, all => {

@@ -1,0 +1,188 @@
+//! Distances along a ray, as fractions that may contain a square root.
+
+use super::double_word::DoubleWord;
+use super::number::{Number, Rational, Unsure};
+use super::root::Root;
+use std::cmp::Ordering;
+
+/// The number `(middle ± √radicand) / divisor`.
+#[derive(Clone, Debug)]
+pub(crate) struct Distance<N> {
+    middle: N,
+    surd: Option<Surd<N>>,
+    /// Positive.
+    divisor: N,
+}
+
+#[derive(Clone, Debug)]
+struct Surd<N> {
+    sign: Ordering,
+    /// At least 0.
+    radicand: N,
+    /// `middle² − radicand`, computed without them.
+    product: N,
+}
+
+/// Returns how `a ± √radicand` compares with 0, where `side` is the sign of the square root.
+fn sign_with_surd<N: Number>(a: &N, side: Ordering, radicand: &N) -> Result<Ordering, Unsure> {
+    if side == Ordering::Equal || radicand.sign()? == Ordering::Equal {
+        return a.sign();
+    }
+    match a.sign()? {
+        Ordering::Equal => Ok(side),
+        sign if sign == side => Ok(sign),
+        // Opposite signs: the term with the larger absolute value decides.
+        sign => Ok(match (a.clone() * a.clone() - radicand.clone()).sign()? {
+            Ordering::Greater => sign,
+            Ordering::Equal => Ordering::Equal,
+            Ordering::Less => side,
+        }),
+    }
+}
+
+impl<N: Number> Distance<N> {
+    /// Returns `over / under`; `None` if `under` is 0.
+    pub(super) fn fraction(over: N, under: N) -> Result<Option<Self>, Unsure> {
+        let (middle, divisor) = match under.sign()? {
+            Ordering::Equal => return Ok(None),
+            Ordering::Greater => (over, under),
+            Ordering::Less => (-over, -under),
+        };
+        Ok(Some(Distance {
+            middle,
+            surd: None,
+            divisor,
+        }))
+    }
+
+    /// Returns the roots of `a t² − 2 b t + c` in ascending order. There is none if the equation holds
+    /// everywhere.
+    pub(super) fn roots(a: N, b: N, c: N) -> Result<[Option<Self>; 2], Unsure> {
+        match a.sign()? {
+            Ordering::Less => return Distance::roots(-a, -b, -c),
+            Ordering::Equal => return Ok([Distance::fraction(c, b.clone() + b)?, None]),
+            Ordering::Greater => {}
+        }
+        let product = a.clone() * c;
+        let radicand = b.clone() * b.clone() - product.clone();
+        if radicand.sign()? == Ordering::Less {
+            return Ok([None, None]);
+        }
+        let root = |sign| {
+            Some(Distance {
+                middle: b.clone(),
+                surd: Some(Surd {
+                    sign,
+                    radicand: radicand.clone(),
+                    product: product.clone(),
+                }),
+                divisor: a.clone(),
+            })
+        };
+        Ok([root(Ordering::Less), root(Ordering::Greater)])
+    }
+
+    /// Returns how the distance compares with a number, which may be infinite.
+    pub(super) fn compare(&self, t: f64) -> Result<Ordering, Unsure> {
+        if t.is_infinite() {
+            return Ok(if t > 0.0 {
+                Ordering::Less
+            } else {
+                Ordering::Greater
+            });
+        }
+        self.sign_at(-N::of(t), N::of(1.0))
+    }
+
+    /// Returns how `offset + factor · distance` compares with 0.
+    pub(super) fn sign_at(&self, offset: N, factor: N) -> Result<Ordering, Unsure> {
+        let rational = offset * self.divisor.clone() + factor.clone() * self.middle.clone();
+        let Some(surd) = &self.surd else {
+            return rational.sign();
+        };
+        let side = match factor.sign()? {
+            Ordering::Greater => surd.sign,
+            Ordering::Equal => Ordering::Equal,
+            Ordering::Less => surd.sign.reverse(),
+        };
+        let radicand = surd.radicand.clone() * factor.clone() * factor;
+        sign_with_surd(&rational, side, &radicand)
+    }
+}
+
+/// A number that can be rounded to the nearest.
+pub(super) trait Round {
+    /// Returns the nearest `f64`.
+    ///
+    /// # Errors
+    /// The precision does not suffice.
+    fn to_f64(&self) -> Result<f64, Unsure>;
+
+    /// Returns the nearest `f32`.
+    ///
+    /// # Errors
+    /// As above.
+    fn to_f32(&self) -> Result<f64, Unsure>;
+}
+
+impl Distance<DoubleWord> {
+    #[inline(always)]
+    fn value(&self) -> DoubleWord {
+        let Some(surd) = &self.surd else {
+            return self.middle.over(self.divisor);
+        };
+        let root = surd.radicand.square_root();
+        let root = match surd.sign {
+            Ordering::Less => -root,
+            _ => root,
+        };
+        // A sum of numbers with opposite signs cancels. Then the product of both roots is divided.
+        if self.middle.is_opposite_to(&root) {
+            surd.product.over(self.middle - root).over(self.divisor)
+        } else {
+            (self.middle + root).over(self.divisor)
+        }
+    }
+}
+
+impl Round for Distance<DoubleWord> {
+    #[inline(always)]
+    fn to_f64(&self) -> Result<f64, Unsure> {
+        let [lo, hi] = self.value().around();
+        if lo == hi { Ok(lo) } else { Err(Unsure) }
+    }
+
+    #[inline(always)]
+    fn to_f32(&self) -> Result<f64, Unsure> {
+        let [lo, hi] = self.value().around();
+        let (lo, hi) = (lo.next_down() as f32, hi.next_up() as f32);
+        if lo == hi {
+            Ok(f64::from(lo))
+        } else {
+            Err(Unsure)
+        }
+    }
+}
+
+impl Round for Distance<Rational> {
+    fn to_f64(&self) -> Result<f64, Unsure> {
+        Ok(self.root().to_f64())
+    }
+
+    fn to_f32(&self) -> Result<f64, Unsure> {
+        Ok(self.root().to_f32())
+    }
+}
+
+impl Distance<Rational> {
+    pub(super) fn root(&self) -> Root {
+        let inverse = Rational::ONE / &self.divisor;
+        match &self.surd {
+            None => Root::from(&self.middle * &inverse),
+            Some(surd) => {
+                let is_less = surd.sign == Ordering::Less;
+                Root::new(self.middle.clone(), is_less, &surd.radicand).times(&inverse)
+            }
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Triangles and polygons: where a line crosses the area within an outline.
+
+use super::distance::Distance;
+use super::number::{Number, Unsure};
+use crate::geometry::{Ray, Vec3};
+use std::cmp::Ordering;
+
+/// A point in coordinates in which the ray is the third axis. All of them are multiplied by the largest
+/// component of the direction, `m`: so `z` is `m²` times the ray parameter.
+#[derive(Clone)]
+struct Seen<N> {
+    x: N,
+    y: N,
+    z: N,
+}
+
+impl<N: Number> Seen<N> {
+    fn of(point: Vec3, ray: &Ray) -> Self {
+        let size = ray.direction.abs();
+        let k = if size.x > size.y && size.x > size.z {
+            0
+        } else if size.y > size.z {
+            1
+        } else {
+            2
+        };
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let from_origin = |k: usize| N::difference(point[k], ray.origin[k]);
+        let direction = |k: usize| N::of(ray.direction[k]);
+        let along = from_origin(k);
+        let across = |i| direction(k) * from_origin(i) - direction(i) * along.clone();
+        Seen {
+            x: across(i),
+            y: across(j),
+            z: direction(k) * along.clone(),
+        }
+    }
+
+    /// Returns twice the signed area of the triangle from the ray to two points.
+    fn cross(&self, other: &Self) -> N {
+        self.x.clone() * other.y.clone() - self.y.clone() * other.x.clone()
+    }
+}
+
+/// Returns the square of the direction's largest component.
+fn squared_largest<N: Number>(ray: &Ray) -> N {
+    let largest = ray.direction.abs().max_element();
+    N::of(largest) * N::of(largest)
+}
+
+/// Returns where a line crosses a triangle, edges included. A line within its plane does not.
+pub(super) fn triangle<N: Number>(
+    vertices: &[Vec3; 3],
+    ray: &Ray,
+) -> Result<Option<Distance<N>>, Unsure> {
+    let [a, b, c] = vertices.map(|v| Seen::<N>::of(v, ray));
+    let weights = [c.cross(&b), a.cross(&c), b.cross(&a)];
+    let mut sides = [false; 2];
+    for weight in &weights {
+        match weight.sign()? {
+            Ordering::Less => sides[0] = true,
+            Ordering::Equal => {}
+            Ordering::Greater => sides[1] = true,
+        }
+    }
+    if sides[0] == sides[1] {
+        return Ok(None);
+    }
+    let [u, v, w] = weights;
+    let determinant = u.clone() + v.clone() + w.clone();
+    let along = u * a.z + v * b.z + w * c.z;
+    Distance::fraction(along, determinant * squared_largest(ray))
+}
+
+/// Returns where a line that certainly crosses a triangle does so: where it crosses the plane. This needs
+/// fewer operations than [`triangle`].
+pub(super) fn plane<N: Number>(
+    [a, b, c]: &[Vec3; 3],
+    ray: &Ray,
+) -> Result<Option<Distance<N>>, Unsure> {
+    let edge = |to: &Vec3, k: usize| N::difference(to[k], a[k]);
+    let (mut over, mut under): (Option<N>, Option<N>) = (None, None);
+    for k in 0..3 {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let normal = edge(b, i) * edge(c, j) - edge(b, j) * edge(c, i);
+        let distance = normal.clone() * N::difference(a[k], ray.origin[k]);
+        let speed = normal * N::of(ray.direction[k]);
+        over = Some(over.map_or(distance.clone(), |sum| sum + distance));
+        under = Some(under.map_or(speed.clone(), |sum| sum + speed));
+    }
+    match over.zip(under) {
+        Some((over, under)) => Distance::fraction(over, under),
+        None => Ok(None),
+    }
+}
+
+/// An edge that crosses the first axis at `over / under`.
+struct Edge<N> {
+    from: Seen<N>,
+    to: Seen<N>,
+    over: N,
+    /// Positive.
+    under: N,
+}
+
+impl<N: Number> Edge<N> {
+    fn is_left_of(&self, other: &Self) -> Result<bool, Unsure> {
+        let difference =
+            self.over.clone() * other.under.clone() - other.over.clone() * self.under.clone();
+        Ok(difference.sign()? == Ordering::Less)
+    }
+
+    /// Returns the third coordinate where it crosses the axis, times `under`.
+    fn along(&self) -> N {
+        let (from, to) = (&self.from, &self.to);
+        from.z.clone() * to.y.clone() - from.y.clone() * to.z.clone()
+    }
+}
+
+/// Returns where a line crosses the area within an outline, outline included, by the even–odd rule. A line
+/// that sees no area does not.
+///
+/// The chord of the outline along the first axis through the ray ends on two edges. The distance is
+/// interpolated between its ends, and there between the vertices of the edges. So a hit is between the
+/// vertices however small the angle, and adjacent polygons decide an edge from the same numbers. If the
+/// vertices lie in a plane, the line crosses the plane there.
+pub(super) fn outline<N: Number>(
+    vertices: &[Vec3],
+    ray: &Ray,
+) -> Result<Option<Distance<N>>, Unsure> {
+    let Some(&last) = vertices.last() else {
+        return Ok(None);
+    };
+    let mut next = Seen::<N>::of(last, ray);
+    let (mut left, mut right): (Option<Edge<N>>, Option<Edge<N>>) = (None, None);
+    let (mut inside, mut on_edge, mut area) = (false, None, N::of(0.0));
+    for &vertex in vertices {
+        let a = &std::mem::replace(&mut next, Seen::of(vertex, ray));
+        let b = &next;
+        let cross = a.cross(b);
+        area = area + cross.clone();
+        let sides = [a.y.sign()?, b.y.sign()?];
+        if cross.sign()? == Ordering::Equal {
+            on_edge = on_edge.or(on_edge_at(a, b)?);
+        }
+        if (sides[0] == Ordering::Greater) == (sides[1] == Ordering::Greater) {
+            continue;
+        }
+        let rise = b.y.clone() - a.y.clone();
+        let (over, under) = match rise.sign()? {
+            Ordering::Less => (-cross, -rise),
+            _ => (cross, rise),
+        };
+        let is_right = over.sign()? == Ordering::Greater;
+        let edge = Edge {
+            from: if sides[1] == Ordering::Greater { a } else { b }.clone(),
+            to: if sides[1] == Ordering::Greater { b } else { a }.clone(),
+            over,
+            under,
+        };
+        if is_right {
+            inside = !inside;
+            if right.as_ref().map_or(Ok(true), |r| edge.is_left_of(r))? {
+                right = Some(edge);
+            }
+        } else if left.as_ref().map_or(Ok(true), |l| l.is_left_of(&edge))? {
+            left = Some(edge);
+        }
+    }
+    if area.sign()? == Ordering::Equal {
+        return Ok(None);
+    }
+    let scale = squared_largest::<N>(ray);
+    if let Some((over, under)) = on_edge {
+        return Distance::fraction(over, under * scale);
+    }
+    match (inside, left, right) {
+        (true, Some(left), Some(right)) => {
+            let over = left.along() * right.over.clone() - right.along() * left.over.clone();
+            let under = right.over * left.under - left.over * right.under;
+            Distance::fraction(over, under * scale)
+        }
+        _ => Ok(None),
+    }
+}
+
+/// Returns the third coordinate, as a fraction, of a segment where its first two are 0; `None` beyond its
+/// ends. The origin must lie on the line of the segment in the first two coordinates.
+fn on_edge_at<N: Number>(a: &Seen<N>, b: &Seen<N>) -> Result<Option<(N, N)>, Unsure> {
+    let passes = |a: &N, b: &N| -> Result<bool, Unsure> {
+        Ok(a.sign()? != b.sign()? || a.sign()? == Ordering::Equal)
+    };
+    if !passes(&a.x, &b.x)? || !passes(&a.y, &b.y)? {
+        return Ok(None);
+    }
+    let (x, y) = (b.x.clone() - a.x.clone(), b.y.clone() - a.y.clone());
+    let along = |a: &N, b: &N, from: &Seen<N>, to: &Seen<N>| {
+        from.z.clone() * b.clone() - a.clone() * to.z.clone()
+    };
+    Ok(Some(if y.sign()? != Ordering::Equal {
+        (along(&a.y, &b.y, a, b), y)
+    } else if x.sign()? != Ordering::Equal {
+        (along(&a.x, &b.x, a, b), x)
+    } else {
+        (a.z.clone(), N::of(1.0))
+    }))
+}
