@@ -17,17 +17,13 @@ pub struct Cone {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Side {
     /// From base to apex, of unit length.
-    pub(super) axis: Vec3,
-    /// The middle of the axis, where the height is 0.
-    pub(super) middle: Vec3,
-    pub(super) half_length: f64,
-    /// The radius at the middle, and its growth per height.
-    pub(super) middle_radius: f64,
-    pub(super) slope: f64,
+    axis: Vec3,
+    half_length: f64,
+    /// The radius at the middle, where the height is 0, and its growth per height.
+    middle_radius: f64,
+    slope: f64,
     /// The largest distance from the middle.
-    pub(super) reach: f64,
-    /// Bound on the error of the middle and of both radii, a length.
-    rounding: f64,
+    reach: f64,
 }
 
 impl Cone {
@@ -92,6 +88,12 @@ impl Cone {
     /// Returns the length of the axis.
     pub fn length(&self) -> f64 {
         2.0 * self.side.half_length
+    }
+
+    /// Estimates where the ray's line crosses the surface, in ascending order.
+    #[inline(always)]
+    pub(super) fn estimates(&self, ray: &Ray) -> [Estimate; 2] {
+        self.side.estimates(self.ends.base, ray)
     }
 
     pub(super) fn ends(&self) -> &ConeEnds {
@@ -168,15 +170,12 @@ impl Side {
         let length = along.length();
         let half_length = 0.5 * length;
         let radius = ends.base_radius.max(ends.apex_radius);
-        let size = (ends.base.abs() + ends.apex.abs()).element_sum();
         Side {
             axis: along / length,
-            middle: ends.base + 0.5 * along,
             half_length,
             middle_radius: 0.5 * ends.base_radius + 0.5 * ends.apex_radius,
             slope: (ends.apex_radius - ends.base_radius) / length,
             reach: (half_length * half_length + radius * radius).sqrt(),
-            rounding: 8.0 * U * (size + length + radius) + UNDERFLOW,
         }
     }
 
@@ -189,28 +188,30 @@ impl Side {
     /// Tracing Gems, 2019, ch. 7). Where `f` is the sum of the absolute coordinates of the origin relative to
     /// the middle, d the length of the direction and k = (1 + |slope|)²:
     ///
-    /// - The middle and both radii have errors of at most `rounding`; a component of the axis has 6 u, the
-    ///   slope 5 u of itself.
-    /// - The nearest point has an error of at most 13 u f + `rounding`; so this point, its height and
-    ///   its distance from the axis have errors of at most `e` = `rounding` + 32 u (f + `reach`), 3 e for the
-    ///   distance. The rise of the ray along the axis has one of 9 u d, its drift across 18 u d.
+    /// - The origin relative to the middle has an error of 2 u f and 6 u `reach`; a component of the axis has 6
+    ///   u, the slope 5 u of itself, a radius 2 u.
+    /// - The nearest point is that at the computed distance, so its error is only that of this sum. Its height
+    ///   then has an error of at most `eh` = 4 u f + 24 u `reach`, its offset from the axis one of `ex` = 8 u f +
+    ///   48 u `reach`, and the radius there one of `er` = |slope| `eh` and 8 u of its terms. The rise of the ray
+    ///   along the axis has one of 9 u d, its drift across 18 u d, the growth of the radius 16 u d of the slope.
     /// - In the coefficients of the equation, a s² + 2 b s + c, these amount to at most `ea` = 40 u k d²,
-    ///   `eb` = 6 e k d and `ec` = k e (9 `reach` + 10 e).
+    ///   and to `eb` and `ec`, the errors of products of these terms.
     /// - The errors of the discriminant and of the roots follow from those of the coefficients.
     #[inline(always)]
-    pub(super) fn estimates(&self, ray: &Ray) -> [Estimate; 2] {
+    pub(super) fn estimates(&self, base: Vec3, ray: &Ray) -> [Estimate; 2] {
         let direction = ray.direction;
         let squared_length = direction.length_squared();
         if !numeric::is_workable(squared_length) {
             return [Estimate::UNSURE; 2];
         }
-        let from_middle = ray.origin - self.middle;
+        let from_middle = (ray.origin - base) - self.half_length * self.axis;
         let t_nearest = -from_middle.dot(direction) / squared_length;
         let nearest = from_middle + t_nearest * direction;
         let f = from_middle.abs().element_sum();
-        let e = self.rounding + 32.0 * U * (f + self.reach);
-        let reach = self.reach + 2.0 * e;
-        if nearest.length_squared() > reach * reach {
+        let eh = 4.0 * U * f + 24.0 * U * self.reach + UNDERFLOW;
+        let ex = 2.0 * eh;
+        let reach = self.reach + ex;
+        if nearest.length_squared() > reach * reach * (1.0 + 8.0 * U) {
             return [Estimate::MISS; 2];
         }
         let (height, rise) = (nearest.dot(self.axis), direction.dot(self.axis));
@@ -223,10 +224,14 @@ impl Side {
         let c = across.length_squared() - radius * radius;
         let discriminant = b * b - a * c;
 
-        let k = (1.0 + self.slope.abs()) * (1.0 + self.slope.abs());
+        let steep = self.slope.abs();
+        let k = (1.0 + steep) * (1.0 + steep);
         let speed = direction.abs().element_sum();
-        let (ea, eb) = (40.0 * U * k * squared_length, 6.0 * e * k * speed);
-        let ec = k * e * (9.0 * reach + 10.0 * e);
+        let (x, r) = (across.abs().element_sum(), radius.abs());
+        let er = steep * eh + 8.0 * U * (self.middle_radius + steep * height.abs());
+        let ea = 40.0 * U * k * squared_length;
+        let eb = speed * (24.0 * U * x + 1.1 * ex + steep * (24.0 * U * r + 1.1 * er));
+        let ec = (2.0 * x + ex) * ex + (2.0 * r + er) * er + 4.0 * U * (x * x + r * r);
         let spread = 4.0 * U * (b * b + (a * c).abs())
             + (2.0 * b.abs() + eb) * eb
             + (a.abs() + ea) * ec
@@ -253,7 +258,7 @@ impl Side {
         };
         roots.map(|(s, error)| {
             let above = (height + s * rise).abs() - self.half_length;
-            let slack = e + rise.abs() * error + 32.0 * U * s.abs() * speed;
+            let slack = eh + rise.abs() * error + 32.0 * U * s.abs() * speed;
             let t = t_nearest + s;
             if above > slack {
                 Estimate::MISS
@@ -277,6 +282,13 @@ impl Shape for Cone {
             (squares.z + squares.x).sqrt(),
             (squares.x + squares.y).sqrt(),
         );
+        // Its error is at most 9 u; it has none if the axis is parallel to a coordinate axis.
+        let is_exact = extent == extent.round();
+        let extent = if is_exact {
+            extent
+        } else {
+            extent * (1.0 + 10.0 * U)
+        };
         let disc = |center: Vec3, radius: f64| {
             Aabb::new(center - radius * extent, center + radius * extent)
         };
@@ -298,7 +310,11 @@ impl Shape for Cone {
 
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        Surface::Cone(self.ends).settle(self.side.estimates(ray), ray, t_max)
+        Surface::Cone(self.ends).settle(self.estimates(ray), ray, t_max)
+    }
+
+    fn is_hit(&self, ray: &Ray) -> bool {
+        Surface::Cone(self.ends).settle_any(self.estimates(ray), ray)
     }
 
     fn exact_distance(&self, ray: &Ray) -> Option<Root> {
@@ -315,7 +331,8 @@ impl Shape for Cone {
 
     fn surface(&self, ray: &Ray, t: f64) -> SurfacePoint {
         let side = &self.side;
-        let hit = ray.at(t) - side.middle;
+        let middle = self.ends.base + 0.5 * (self.ends.apex - self.ends.base);
+        let hit = ray.at(t) - middle;
         let height = hit.dot(side.axis);
         let across = hit - height * side.axis;
         let distance = across.length();
@@ -331,7 +348,7 @@ impl Shape for Cone {
         let along = along.clamp(-half, half);
         let radius = (side.middle_radius + along * along_radius).max(0.0);
         let bounds = self.bounds();
-        let point = side.middle + along * along_axis * side.axis + radius * outward;
+        let point = middle + along * along_axis * side.axis + radius * outward;
         let normal = (along_axis * outward - along_radius * side.axis).normalize();
         SurfacePoint {
             point: point.clamp(bounds.lo, bounds.hi),

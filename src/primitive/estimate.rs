@@ -4,7 +4,7 @@
 //! these errors, rounded up; what a bound itself loses by rounding is far less than that.
 
 use super::Precision;
-use super::exact::Surface;
+use super::exact::{Known, Stage, Surface};
 use super::numeric::Shear;
 use crate::geometry::{Ray, Vec3};
 
@@ -26,10 +26,12 @@ pub(crate) struct Estimate {
 }
 
 impl Estimate {
+    /// The line certainly misses.
     pub(crate) const MISS: Estimate = Estimate {
         t: 0.0,
         error: -1.0,
     };
+    /// Nothing is known.
     pub(super) const UNSURE: Estimate = Estimate {
         t: 0.0,
         error: f64::INFINITY,
@@ -49,38 +51,61 @@ impl Estimate {
     /// Returns whether the line certainly crosses within an interval.
     #[inline(always)]
     pub(super) fn is_inside(&self, [t_min, t_max]: [f64; 2]) -> bool {
-        self.error >= 0.0 && self.t - self.error >= t_min && self.t + self.error <= t_max
+        self.is_certain() && self.t - self.error >= t_min && self.t + self.error <= t_max
     }
 
     /// Returns whether the line certainly crosses, wherever.
     #[inline(always)]
-    pub(super) fn is_crossing(&self) -> bool {
+    pub(super) fn is_certain(&self) -> bool {
         self.error >= 0.0 && self.error < f64::INFINITY
     }
 
-    /// Decides the test of a packed object: returns the exact distance rounded to the nearest `f32`, if it is
-    /// at most `t_max`. The crossings are in ascending order.
+    /// Returns what is known of the first crossing within an interval, of crossings in ascending order; `None`
+    /// if there is certainly none. Crossings beyond `limit` do not matter.
+    #[inline(always)]
+    pub(super) fn first<const N: usize>(
+        crossings: &[Estimate; N],
+        interval: [f64; 2],
+        limit: f64,
+    ) -> Option<Known> {
+        for (k, crossing) in crossings.iter().enumerate() {
+            if !crossing.is_outside([interval[0], limit]) {
+                return Some(if crossing.is_inside(interval) {
+                    Known::Hit(k)
+                } else if N == 1 && crossing.is_certain() {
+                    Known::Crossing
+                } else {
+                    Known::Nothing
+                });
+            }
+        }
+        None
+    }
+
+    /// Decides the test of a packed object: returns the exact distance of the first hit, rounded to the
+    /// nearest `f32`, if it is at most `t_max`. `exactly` returns it without estimates; its argument is as
+    /// in [`Surface::intersect`].
     #[inline(always)]
     pub(crate) fn settle<const N: usize>(
         crossings: [Estimate; N],
         interval: [f64; 2],
         t_max: f64,
-        exactly: impl Fn() -> Option<f64>,
+        exactly: impl Fn(Known) -> Option<f64>,
     ) -> Option<f64> {
-        for crossing in crossings {
-            if crossing.is_outside([interval[0], t_max * UP]) {
-                continue;
+        let known = Estimate::first(&crossings, interval, t_max * UP)?;
+        let rounded = match known {
+            Known::Hit(k) => {
+                let Estimate { t, error } = crossings[k];
+                let (lo, hi) = ((t - error) as f32, (t + error) as f32);
+                (lo == hi).then(|| f64::from(lo))
             }
-            let Estimate { t, error } = crossing;
-            let (lo, hi) = ((t - error) as f32, (t + error) as f32);
-            let t = if lo == hi && crossing.is_inside(interval) {
-                Some(f64::from(lo))
-            } else {
-                exactly()
-            };
-            return t.filter(|&t| t <= t_max);
-        }
-        None
+            _ => None,
+        };
+        let t = match rounded {
+            Some(t) => Some(t),
+            None => exactly(known),
+        };
+        t.filter(|&t| t <= t_max)
     }
 }
 
@@ -138,9 +163,12 @@ pub(super) fn triangle(vertices: [Vec3; 3], shear: &Shear) -> Estimate {
 ///   the ray, and 4 u f for the product and the difference.
 /// - The discriminant r² − offset² has an error of at most `spread` = (2 offset + δ) δ + 8 u r'², where r' =
 ///   r + 2 δ is at least the offset.
-/// - The square root of the product with the squared length of the direction, a, has an error of at most
-///   a · `spread` / root if the discriminant is at least twice `spread`. The roots have those of the numerator,
-///   divided by a; that of the other formula is at most 5 u (f² + r²) / |q| more.
+/// - Half the sum of the roots, b / a, has an error of at most 4 u f / √a; the square root of a times the
+///   discriminant one of at most a · `spread` / root if the discriminant is at least twice `spread`. So the
+///   larger root, q / a, has an error of `eq` / a and 6 u of itself.
+/// - The smaller root, c / q, where c is the squared distance from the center minus r², has an error of
+///   5 u of their sum divided by q, and twice `eq` / q and 4 u of itself. So the surface that a ray has
+///   just left is not mistaken for a hit.
 #[inline(always)]
 pub(super) fn sphere(center: Vec3, radius: f64, ray: &Ray) -> [Estimate; 2] {
     let direction = ray.direction;
@@ -166,13 +194,12 @@ pub(super) fn sphere(center: Vec3, radius: f64, ray: &Ray) -> [Estimate; 2] {
     let c = to_center.length_squared() - squared_radius;
     let (t0, t1) = (c / q, q / a);
     // √a ≤ (1 + a) / 2.
-    let error = 4.0 * U * f * (1.0 + a) / a
-        + spread / root
-        + 5.0 * U * (f * f + squared_radius) / q.abs()
-        + 10.0 * U * t0.abs().max(t1.abs())
-        + UNDERFLOW;
-    let [near, far] = if t0 < t1 { [t0, t1] } else { [t1, t0] };
-    [near, far].map(|t| Estimate { t, error })
+    let eq = 2.0 * U * f * (1.0 + a) + a * spread / root + 2.0 * U * q.abs();
+    let sum = c + 2.0 * squared_radius;
+    let e0 = (5.0 * U * sum + 2.0 * eq * t0.abs()) / q.abs() + 6.0 * U * t0.abs() + UNDERFLOW;
+    let e1 = eq / a + 8.0 * U * t1.abs() + UNDERFLOW;
+    let [t0, t1] = [Estimate::new(t0, e0), Estimate::new(t1, e1)];
+    if t0.t < t1.t { [t0, t1] } else { [t1, t0] }
 }
 
 impl Surface<'_> {
@@ -185,9 +212,34 @@ impl Surface<'_> {
         ray: &Ray,
         t_max: f64,
     ) -> Option<f64> {
-        if crossings.iter().all(|c| c.is_outside([ray.t_min, t_max])) {
-            return None;
+        let known = Estimate::first(&crossings, [ray.t_min, ray.t_max], t_max)?;
+        self.intersect(known, ray, Precision::F64)
+            .filter(|&t| t <= t_max)
+    }
+
+    /// Decides whether an object is hit.
+    #[inline(always)]
+    pub(super) fn settle_any<const N: usize>(&self, crossings: [Estimate; N], ray: &Ray) -> bool {
+        match Estimate::first(&crossings, [ray.t_min, ray.t_max], ray.t_max) {
+            None => false,
+            Some(Known::Hit(_)) => true,
+            Some(known) => self.is_hit(known, ray),
         }
-        self.intersect(ray, Precision::F64).filter(|&t| t <= t_max)
+    }
+
+    /// Returns the arithmetic that decides a test: [`Surface::settle`] with this limit, or
+    /// [`Surface::settle_any`] without one.
+    pub(super) fn deciding_stage<const N: usize>(
+        &self,
+        crossings: [Estimate; N],
+        ray: &Ray,
+        limit: Option<f64>,
+    ) -> Stage {
+        let interval = [ray.t_min, ray.t_max];
+        match Estimate::first(&crossings, interval, limit.unwrap_or(ray.t_max)) {
+            None => Stage::Estimate,
+            Some(Known::Hit(_)) if limit.is_none() => Stage::Estimate,
+            Some(known) => self.stage(known, ray, limit.is_some()),
+        }
     }
 }

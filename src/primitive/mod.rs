@@ -24,6 +24,7 @@ mod unit_frame;
 
 pub use cone::Cone;
 pub(crate) use estimate::Estimate;
+pub use exact::Stage;
 pub use kind::PrimitiveKind;
 pub use object::Primitive;
 pub use packed::Form;

@@ -1,6 +1,6 @@
 //! An object of any kind.
 
-use super::exact::Root;
+use super::exact::{Root, Stage, Surface};
 use super::{Cone, Polygon, PrimitiveKind, Shape, Sphere, SurfacePoint, Triangle};
 use crate::geometry::{Aabb, Ray};
 
@@ -36,6 +36,30 @@ macro_rules! each_kind {
     };
 }
 
+impl Primitive {
+    /// Returns the arithmetic that decides [`Shape::intersect`] with this limit, or [`Shape::is_hit`] without
+    /// one.
+    pub fn deciding_stage(&self, ray: &Ray, limit: Option<f64>) -> Stage {
+        match self {
+            Primitive::Sphere(sphere) => {
+                let crossings = sphere.estimates(ray);
+                sphere.exact().deciding_stage(crossings, ray, limit)
+            }
+            Primitive::Triangle(triangle) => {
+                let surface = Surface::Triangle(&triangle.vertices);
+                surface.deciding_stage([triangle.estimate(ray)], ray, limit)
+            }
+            Primitive::Polygon(polygon) => polygon.with_surface(ray, |surface, estimate| {
+                surface.deciding_stage([estimate], ray, limit)
+            }),
+            Primitive::Cone(cone) => {
+                let surface = Surface::Cone(*cone.ends());
+                surface.deciding_stage(cone.estimates(ray), ray, limit)
+            }
+        }
+    }
+}
+
 impl Shape for Primitive {
     fn bounds(&self) -> Aabb {
         each_kind!(self, shape => shape.bounds())
@@ -52,6 +76,11 @@ impl Shape for Primitive {
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         each_kind!(self, shape => Shape::intersect(shape, ray, t_max))
+    }
+
+    #[inline]
+    fn is_hit(&self, ray: &Ray) -> bool {
+        each_kind!(self, shape => shape.is_hit(ray))
     }
 
     fn exact_distance(&self, ray: &Ray) -> Option<Root> {

@@ -13,7 +13,7 @@
 //! on it.
 
 use super::estimate::{self, Estimate};
-use super::exact::{ConeEnds, Root, Surface};
+use super::exact::{ConeEnds, Known, Root, Surface};
 use super::numeric::Shear;
 use super::polygon::estimate_outline;
 use super::{
@@ -38,7 +38,19 @@ pub trait Form: Sized + PartialEq + Send + Sync {
     /// [`PackedRay`] in `f64`.
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64>;
 
-    /// Returns the exact distance of [`Form::intersect_exact`], as a number that is not rounded.
+    /// As [`Shape::is_hit`].
+    fn is_hit(&self, ray: &Self::Ray) -> bool {
+        let t_max = Self::exact_ray(ray).t_max;
+        self.intersect(ray, t_max).is_some()
+    }
+
+    /// [`Form::is_hit`] without the filter.
+    fn is_hit_exact(&self, ray: &Ray) -> bool {
+        self.intersect_exact(ray, ray.t_max).is_some()
+    }
+
+    /// Returns the exact distance of [`Form::intersect_exact`], as a number that is not rounded. The ray must hit
+    /// the object.
     fn exact_distance(&self, ray: &Ray) -> Option<Root>;
 
     /// Returns the ray of the exact test.
@@ -68,6 +80,16 @@ impl<S: Shape + Clone + PartialEq> Form for S {
     #[inline(always)]
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         Shape::intersect(self, ray, t_max)
+    }
+
+    #[inline(always)]
+    fn is_hit(&self, ray: &Ray) -> bool {
+        Shape::is_hit(self, ray)
+    }
+
+    #[inline(always)]
+    fn is_hit_exact(&self, ray: &Ray) -> bool {
+        Shape::is_hit(self, ray)
     }
 
     fn exact_distance(&self, ray: &Ray) -> Option<Root> {
@@ -142,8 +164,8 @@ impl Form for PackedSphere {
     #[inline(always)]
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let crossings = estimate::sphere(self.center.as_dvec3(), f64::from(self.radius), ray);
-        Estimate::settle(crossings, [ray.t_min, ray.t_max], t_max, || {
-            self.surface().intersect(ray, Precision::F32)
+        Estimate::settle(crossings, [ray.t_min, ray.t_max], t_max, |known| {
+            self.surface().intersect(known, ray, Precision::F32)
         })
     }
 
@@ -181,9 +203,9 @@ impl PackedTriangle {
         estimate::triangle([a - origin, b - origin, c - origin], &shear)
     }
 
-    /// [`Form::intersect_exact`] without a limit and without an estimate.
-    pub(crate) fn intersect_slowly(&self, ray: &Ray) -> Option<f64> {
-        Surface::Triangle(&self.wide_vertices()).intersect(ray, Precision::F32)
+    /// [`Form::intersect_exact`] without a limit and without an estimate; `known` as there.
+    pub(crate) fn intersect_slowly(&self, known: Known, ray: &Ray) -> Option<f64> {
+        Surface::Triangle(&self.wide_vertices()).intersect(known, ray, Precision::F32)
     }
 
     #[inline(always)]
@@ -233,8 +255,8 @@ impl Form for PackedTriangle {
             let relative = vertices.map(|v| shear.rotate(v - ray.origin));
             estimate::triangle(relative, &shear)
         });
-        Estimate::settle([estimate], [ray.t_min, ray.t_max], t_max, || {
-            self.intersect_slowly(ray)
+        Estimate::settle([estimate], [ray.t_min, ray.t_max], t_max, |known| {
+            self.intersect_slowly(known, ray)
         })
     }
 
@@ -313,8 +335,8 @@ impl Form for PackedPolygon {
     #[inline(always)]
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let estimate = estimate_outline(self.vertices.iter().map(|v| v.as_dvec3()), ray);
-        Estimate::settle([estimate], [ray.t_min, ray.t_max], t_max, || {
-            Surface::Outline(&self.wide_vertices()).intersect(ray, Precision::F32)
+        Estimate::settle([estimate], [ray.t_min, ray.t_max], t_max, |known| {
+            Surface::Outline(&self.wide_vertices()).intersect(known, ray, Precision::F32)
         })
     }
 
@@ -410,9 +432,9 @@ impl Form for PackedCone {
     #[inline(always)]
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         let ends = self.ends();
-        let crossings = cone::Side::of(&ends).estimates(ray);
-        Estimate::settle(crossings, [ray.t_min, ray.t_max], t_max, || {
-            Surface::Cone(ends).intersect(ray, Precision::F32)
+        let crossings = cone::Side::of(&ends).estimates(ends.base, ray);
+        Estimate::settle(crossings, [ray.t_min, ray.t_max], t_max, |known| {
+            Surface::Cone(ends).intersect(known, ray, Precision::F32)
         })
     }
 

@@ -2,10 +2,11 @@
 
 use super::clip::bounds_of_outline;
 use super::estimate::{Estimate, U, UNDERFLOW};
-use super::exact::{Root, Surface};
+use super::exact::{self, Root, Surface};
 use super::numeric::{self, Shear};
 use super::{Shape, ShapeError, SurfacePoint};
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
+use std::num::NonZeroU32;
 
 /// Maximum distance of vertices from their common plane, in lengths of the polygon. Files round to six
 /// digits, which is a hundred times less.
@@ -22,7 +23,7 @@ const FLATNESS: f64 = 8.0 * f64::EPSILON;
 /// itself, the even–odd rule determines the inside.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
-    vertices: Vec<Vec3>,
+    vertices: Box<[Vec3]>,
     normals: Option<Box<[Vec3]>>,
     /// Unit normal of the plane on the side where the vertices are counterclockwise.
     normal: Vec3,
@@ -35,8 +36,13 @@ pub struct Polygon {
     bounds: Aabb,
     /// The vertices projected to the plane; `None` if they lie in it up to rounding.
     in_plane: Option<Box<[Vec3]>>,
+    /// The vertex `i` such that all vertices exactly lie in the plane of the vertices 0, `i` and `i` + 1, if
+    /// that is known.
+    support: Option<NonZeroU32>,
     /// The largest absolute coordinate: the scale of rounding errors.
     magnitude: f64,
+    /// Bound on the distance of the vertices in the plane from the stored plane.
+    deviation: f64,
 }
 
 impl Polygon {
@@ -92,7 +98,7 @@ impl Polygon {
         };
         let outline = vertices.iter().map(|&v| project(v, axis)).collect();
         let mut polygon = Polygon {
-            vertices,
+            vertices: vertices.into(),
             normals,
             normal,
             anchor,
@@ -100,11 +106,15 @@ impl Polygon {
             outline,
             bounds: box_of_vertices,
             in_plane: None,
+            support: None,
             magnitude,
+            deviation: 0.0,
         };
         if deviation > FLATNESS * magnitude {
             polygon.in_plane = Some(polygon.projected());
         }
+        polygon.support = support(polygon.vertices_in_plane());
+        polygon.deviation = polygon.deviation();
         let in_plane = Aabb::around(polygon.vertices_in_plane().iter().copied());
         polygon.bounds = numeric::grown(box_of_vertices.union(&in_plane));
         Ok(polygon)
@@ -181,16 +191,27 @@ impl Polygon {
         moved.collect()
     }
 
-    /// Returns whether a ray certainly misses the polygon within an interval.
+    /// Returns [`Polygon::deviation`]: the largest computed distance, and 4 u of the sum of its absolute terms.
+    fn deviation(&self) -> f64 {
+        let steepness = self.normal.abs();
+        let distances = self.vertices_in_plane().iter().map(|&v| {
+            let offset = v - self.anchor;
+            self.normal.dot(offset).abs() + 4.0 * U * steepness.dot(offset.abs())
+        });
+        distances.fold(0.0, f64::max)
+    }
+
+    /// Estimates where the ray's line crosses the polygon.
     ///
-    /// With L the sum of the absolute components of the direction, h that of the plane's anchor relative to
-    /// the origin, and m the largest coordinate: vertices are at most 2 [`FLATNESS`] m away from the plane;
-    /// the distance to the plane has an error of 5 u h, the speed towards it one of 4 u L. So where the ray
-    /// passes the plane differs from where it meets the polygon by at most `slack` along each axis, which is
-    /// 48 ε of their sum, divided by the sine of the angle. For a polygon within reach, the way there is at
-    /// most h and the size of the polygon.
+    /// Vertices are at most `deviation` away from the stored plane. The distance h to the plane and the speed
+    /// towards it have errors of at most 4 u of the sums of their absolute terms. So the line meets the
+    /// polygon where it passes the plane, up to the sum of `deviation` and of both errors, divided by the
+    /// speed; with a third more for a polygon that is reached there.
+    ///
+    /// With L the sum of the absolute components of the direction, this moves the point along each axis by
+    /// less than `slack`: 6 [`FLATNESS`] of all coordinates, divided by the sine of the angle.
     #[inline(always)]
-    fn is_missed_by(&self, ray: &Ray, t_max: f64) -> bool {
+    fn estimate(&self, ray: &Ray) -> Estimate {
         let speed = self.normal.dot(ray.direction);
         let length = ray.direction.abs().element_sum();
         let to_plane = self.anchor - ray.origin;
@@ -198,15 +219,39 @@ impl Polygon {
         let point = ray.origin + t * ray.direction;
         let reach = to_plane.abs().element_sum() + t.abs() * length + self.magnitude;
         let slack = 6.0 * FLATNESS * reach * (length / speed).abs() + UNDERFLOW;
-        // The same along the ray; the largest component of the direction is at least a third of L.
-        let later = 3.0 * slack / length;
-        if t + later < ray.t_min || t - later > t_max {
-            return true;
+        if !slack.is_nan() && !self.bounds.enlarged(slack).contains(point) {
+            return Estimate::MISS;
         }
-        if slack.is_nan() || self.bounds.enlarged(slack).contains(point) {
-            return is_inside(&self.outline, project(point, self.axis), slack) == Some(false);
+        match is_inside(&self.outline, project(point, self.axis), slack) {
+            Some(true) => {
+                let steepness = self.normal.abs();
+                let rounding = steepness.dot(to_plane.abs() + t.abs() * ray.direction.abs());
+                let error = 2.0 * (self.deviation + 4.0 * U * rounding) / speed.abs();
+                Estimate::new(t, error + 4.0 * U * t.abs() + UNDERFLOW)
+            }
+            Some(false) => Estimate::MISS,
+            None => Estimate::UNSURE,
         }
-        true
+    }
+
+    /// Calls `f` with an estimate and the surface that decides what it leaves open. If the ray certainly hits
+    /// and all vertices lie in a plane, this is a triangle in that plane.
+    #[inline(always)]
+    pub(super) fn with_surface<R>(
+        &self,
+        ray: &Ray,
+        f: impl FnOnce(&Surface<'_>, Estimate) -> R,
+    ) -> R {
+        let outline = self.vertices_in_plane();
+        let estimate = self.estimate(ray);
+        match self.support {
+            Some(support) if estimate.is_certain() => {
+                let i = support.get() as usize;
+                let vertices = [0, i, i + 1].map(|i| outline[i]);
+                f(&Surface::Triangle(&vertices), estimate)
+            }
+            _ => f(&Surface::Outline(outline), estimate),
+        }
     }
 
     /// Interpolates vertex normals at a point of the polygon by mean value coordinates (Hormann and Floater,
@@ -257,6 +302,18 @@ fn newell_normal(vertices: &[Vec3]) -> Option<Vec3> {
     }
     let length = sum.length();
     (length > 4.0 * f64::EPSILON * rounding).then(|| sum / length)
+}
+
+/// Returns [`Polygon::support`] if it is easily shown.
+fn support(vertices: &[Vec3]) -> Option<NonZeroU32> {
+    let area = |i: usize| {
+        let [a, b, c] = [0, i, i + 1].map(|i| vertices[i]);
+        (b - a).cross(c - a).length_squared()
+    };
+    let widest = (1..vertices.len() - 1).max_by(|&i, &j| area(i).total_cmp(&area(j)))?;
+    let triangle = [0, widest, widest + 1].map(|i| vertices[i]);
+    let is_flat = vertices.iter().all(|&v| exact::is_in_plane(&triangle, v));
+    NonZeroU32::new(widest as u32).filter(|_| is_flat)
 }
 
 /// Returns the two coordinates other than that along `axis`.
@@ -429,7 +486,8 @@ impl Shape for Polygon {
             self.normal.dot(self.anchor - from),
             self.normal.dot(to - self.anchor),
         );
-        let slack = 8.0 * f64::EPSILON * (self.magnitude + cell.magnitude());
+        // Vertices are at most 2 `FLATNESS` from the plane.
+        let slack = 3.0 * FLATNESS * (self.magnitude + cell.magnitude());
         if below < -slack || above < -slack {
             return false;
         }
@@ -465,11 +523,14 @@ impl Shape for Polygon {
     /// The outline is part of the polygon. A ray within its plane has no hit.
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        if self.is_missed_by(ray, t_max) {
-            return None;
-        }
-        let surface = Surface::Outline(self.vertices_in_plane());
-        surface.settle([Estimate::UNSURE], ray, t_max)
+        self.with_surface(ray, |surface, estimate| {
+            surface.settle([estimate], ray, t_max)
+        })
+    }
+
+    #[inline]
+    fn is_hit(&self, ray: &Ray) -> bool {
+        Surface::Outline(self.vertices_in_plane()).settle_any([self.estimate(ray)], ray)
     }
 
     fn exact_distance(&self, ray: &Ray) -> Option<Root> {

@@ -23,7 +23,10 @@ pub trait Shape: Send + Sync {
     /// number, if any and if that is at most `t_max`. Exact ([`super::exact`]): nothing else is rounded.
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64>;
 
-    /// Returns the `t` of [`Shape::intersect`] as a number that is not rounded.
+    /// Returns whether [`Shape::intersect`] finds a hit up to the ray's end. Needs no distance, so it is faster.
+    fn is_hit(&self, ray: &Ray) -> bool;
+
+    /// Returns the `t` of [`Shape::intersect`] as a number that is not rounded. The ray must hit the object.
     fn exact_distance(&self, ray: &Ray) -> Option<Root>;
 
     /// Returns the surface at a `t` that [`Shape::intersect`] returned.

@@ -1,6 +1,6 @@
 //! Spheres.
 
-use super::estimate;
+use super::estimate::{self, Estimate};
 use super::exact::{Root, Surface};
 use super::{Shape, ShapeError, SurfacePoint, numeric};
 use crate::geometry::{Aabb, Ray, Vec3};
@@ -27,7 +27,18 @@ impl Sphere {
         Ok(Sphere { center, radius })
     }
 
-    fn exact(&self) -> Surface<'static> {
+    /// Returns the squared radius, and what a squared distance of this size may lose by rounding.
+    fn squared_reach(&self) -> f64 {
+        self.radius * self.radius * (1.0 + 8.0 * f64::EPSILON)
+    }
+
+    /// Estimates where the ray's line crosses the sphere, in ascending order.
+    #[inline(always)]
+    pub(super) fn estimates(&self, ray: &Ray) -> [Estimate; 2] {
+        estimate::sphere(self.center, self.radius, ray)
+    }
+
+    pub(super) fn exact(&self) -> Surface<'static> {
         Surface::Sphere {
             center: self.center,
             radius: self.radius,
@@ -46,7 +57,7 @@ impl Shape for Sphere {
     /// Tests the solid ball: whether the point of the cell nearest to the center is within the radius.
     fn overlaps(&self, cell: &Aabb) -> bool {
         let nearest = self.center.clamp(cell.lo, cell.hi);
-        nearest.distance_squared(self.center) <= self.radius * self.radius
+        nearest.distance_squared(self.center) <= self.squared_reach()
     }
 
     /// Returns those of the solid ball. Its extent along an axis is that at the point of the cell nearest to
@@ -57,13 +68,17 @@ impl Shape for Sphere {
         let squared = self.radius * self.radius - Vec3::splat(away.element_sum()) + away;
         let reach = squared.max(Vec3::ZERO).map(f64::sqrt);
         let part = Aabb::new(self.center - reach, self.center + reach).intersection(cell);
-        (away.element_sum() <= self.radius * self.radius && !part.is_empty()).then_some(part)
+        (away.element_sum() <= self.squared_reach() && !part.is_empty()).then_some(part)
     }
 
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        let crossings = estimate::sphere(self.center, self.radius, ray);
-        self.exact().settle(crossings, ray, t_max)
+        self.exact().settle(self.estimates(ray), ray, t_max)
+    }
+
+    #[inline]
+    fn is_hit(&self, ray: &Ray) -> bool {
+        self.exact().settle_any(self.estimates(ray), ray)
     }
 
     fn exact_distance(&self, ray: &Ray) -> Option<Root> {

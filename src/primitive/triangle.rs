@@ -71,6 +71,15 @@ impl Triangle {
         (cross.normalize_or(Vec3::Z), cross.length() / longest)
     }
 
+    /// Estimates where the ray's line crosses the triangle.
+    #[inline(always)]
+    pub(super) fn estimate(&self, ray: &Ray) -> Estimate {
+        Shear::of(ray.direction).map_or(Estimate::UNSURE, |shear| {
+            let vertices = self.vertices.map(|v| shear.rotate(v - ray.origin));
+            estimate::triangle(vertices, &shear)
+        })
+    }
+
     /// Returns barycentric coordinates, not negative and of sum 1, of the projection of `point` along the
     /// normal, or of a point nearby if that is outside.
     fn weights(&self, point: Vec3, normal: Vec3) -> [f64; 3] {
@@ -113,16 +122,12 @@ impl Shape for Triangle {
     /// Edges are part of the triangle. A ray within its plane has no hit.
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        let estimate = Shear::of(ray.direction).map_or(Estimate::UNSURE, |shear| {
-            let vertices = self.vertices.map(|v| shear.rotate(v - ray.origin));
-            estimate::triangle(vertices, &shear)
-        });
-        let surface = if estimate.is_crossing() {
-            Surface::Pierced(&self.vertices)
-        } else {
-            Surface::Triangle(&self.vertices)
-        };
-        surface.settle([estimate], ray, t_max)
+        Surface::Triangle(&self.vertices).settle([self.estimate(ray)], ray, t_max)
+    }
+
+    #[inline]
+    fn is_hit(&self, ray: &Ray) -> bool {
+        Surface::Triangle(&self.vertices).settle_any([self.estimate(ray)], ray)
     }
 
     fn exact_distance(&self, ray: &Ray) -> Option<Root> {

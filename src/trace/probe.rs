@@ -24,8 +24,8 @@ pub trait Probe {
     fn inner(&mut self, node: u32, within: [f64; 2], t: f64, t_far: f64, children: Children);
     /// Called when a leaf is visited. `within` is the ray's interval within its cell.
     fn leaf(&mut self, node: u32, objects: &[u32], within: [f64; 2]);
-    /// Called when an object is tested. `hit` is the distance of a hit before the closest one so far.
-    fn test(&mut self, object: u32, hit: Option<f64>);
+    /// Called when an object is tested. `hit` returns the distance of a hit before the closest one so far.
+    fn test(&mut self, object: u32, hit: impl FnOnce() -> Option<f64>);
 }
 
 /// Observes nothing: the probe of timed kernels.
@@ -35,7 +35,7 @@ impl Probe for () {
     #[inline(always)]
     fn leaf(&mut self, _: u32, _: &[u32], _: [f64; 2]) {}
     #[inline(always)]
-    fn test(&mut self, _: u32, _: Option<f64>) {}
+    fn test(&mut self, _: u32, _: impl FnOnce() -> Option<f64>) {}
 }
 
 /// The counts of one ray.
@@ -64,7 +64,7 @@ impl Probe for RayCounts {
     }
 
     #[inline(always)]
-    fn test(&mut self, _: u32, _: Option<f64>) {
+    fn test(&mut self, _: u32, _: impl FnOnce() -> Option<f64>) {
         self.tests += 1;
     }
 }

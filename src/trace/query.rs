@@ -37,7 +37,7 @@ impl<F: Form> LeafVisitor for Closest<'_, F> {
     fn visit<P: Probe>(&mut self, objects: &[u32], probe: &mut P) -> f64 {
         for &object in objects {
             let hit = self.objects[object as usize].intersect(self.ray, self.best.t);
-            probe.test(object, hit);
+            probe.test(object, || hit);
             if let Some(t) = hit
                 && (t < self.best.t
                     || wins_tie(self.objects, object, &self.best, F::exact_ray(self.ray)))
@@ -61,9 +61,10 @@ impl<F: Form> LeafVisitor for Any<'_, F> {
     #[inline(always)]
     fn visit<P: Probe>(&mut self, objects: &[u32], probe: &mut P) -> f64 {
         for &object in objects {
-            let hit = self.objects[object as usize].intersect(self.ray, self.t_max);
-            probe.test(object, hit);
-            if hit.is_some() {
+            let shape = &self.objects[object as usize];
+            let is_hit = shape.is_hit(self.ray);
+            probe.test(object, || shape.intersect(self.ray, self.t_max));
+            if is_hit {
                 self.blocked = true;
                 return f64::NEG_INFINITY;
             }

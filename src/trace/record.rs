@@ -382,9 +382,9 @@ impl Probe for Recorder<'_> {
         }));
     }
 
-    fn test(&mut self, object: u32, hit: Option<f64>) {
+    fn test(&mut self, object: u32, hit: impl FnOnce() -> Option<f64>) {
         if let Some(Step::Leaf(leaf)) = self.steps.last_mut() {
-            leaf.tests.push(TestStep { object, hit });
+            leaf.tests.push(TestStep { object, hit: hit() });
         }
     }
 }

@@ -168,7 +168,8 @@ impl<P: Probe> Probe for WorldProbe<'_, P> {
     }
 
     #[inline(always)]
-    fn test(&mut self, object: u32, hit: Option<f64>) {
-        self.probe.test(object, hit.map(|t| self.ray.to_world(t)));
+    fn test(&mut self, object: u32, hit: impl FnOnce() -> Option<f64>) {
+        self.probe
+            .test(object, || hit().map(|t| self.ray.to_world(t)));
     }
 }

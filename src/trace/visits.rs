@@ -93,7 +93,7 @@ impl Probe for Visitor<'_> {
     }
 
     #[inline(always)]
-    fn test(&mut self, _: u32, _: Option<f64>) {}
+    fn test(&mut self, _: u32, _: impl FnOnce() -> Option<f64>) {}
 }
 
 /// The kernel that counts visits, for one tile.

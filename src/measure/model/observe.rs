@@ -140,8 +140,8 @@ impl Probe for Watcher {
         self.nodes += 1;
     }
 
-    fn test(&mut self, object: u32, hit: Option<f64>) {
-        self.tests.push((object, hit));
+    fn test(&mut self, object: u32, hit: impl FnOnce() -> Option<f64>) {
+        self.tests.push((object, hit()));
     }
 }
 

@@ -24,6 +24,7 @@ struct Surd<N> {
 }
 
 /// Returns how `a ± √radicand` compares with 0, where `side` is the sign of the square root.
+#[inline(always)]
 fn sign_with_surd<N: Number>(a: &N, side: Ordering, radicand: &N) -> Result<Ordering, Unsure> {
     if side == Ordering::Equal || radicand.sign()? == Ordering::Equal {
         return a.sign();
@@ -42,6 +43,7 @@ fn sign_with_surd<N: Number>(a: &N, side: Ordering, radicand: &N) -> Result<Orde
 
 impl<N: Number> Distance<N> {
     /// Returns `over / under`; `None` if `under` is 0.
+    #[inline(always)]
     pub(super) fn fraction(over: N, under: N) -> Result<Option<Self>, Unsure> {
         let (middle, divisor) = match under.sign()? {
             Ordering::Equal => return Ok(None),
@@ -57,12 +59,13 @@ impl<N: Number> Distance<N> {
 
     /// Returns the roots of `a t² − 2 b t + c` in ascending order. There is none if the equation holds
     /// everywhere.
+    #[inline(always)]
     pub(super) fn roots(a: N, b: N, c: N) -> Result<[Option<Self>; 2], Unsure> {
-        match a.sign()? {
-            Ordering::Less => return Distance::roots(-a, -b, -c),
+        let (a, b, c) = match a.sign()? {
+            Ordering::Less => (-a, -b, -c),
             Ordering::Equal => return Ok([Distance::fraction(c, b.clone() + b)?, None]),
-            Ordering::Greater => {}
-        }
+            Ordering::Greater => (a, b, c),
+        };
         let product = a.clone() * c;
         let radicand = b.clone() * b.clone() - product.clone();
         if radicand.sign()? == Ordering::Less {
@@ -83,6 +86,7 @@ impl<N: Number> Distance<N> {
     }
 
     /// Returns how the distance compares with a number, which may be infinite.
+    #[inline(always)]
     pub(super) fn compare(&self, t: f64) -> Result<Ordering, Unsure> {
         if t.is_infinite() {
             return Ok(if t > 0.0 {
@@ -91,10 +95,15 @@ impl<N: Number> Distance<N> {
                 Ordering::Greater
             });
         }
-        self.sign_at(-N::of(t), N::of(1.0))
+        let rational = self.middle.clone() - self.divisor.clone().times(t);
+        match &self.surd {
+            None => rational.sign(),
+            Some(surd) => sign_with_surd(&rational, surd.sign, &surd.radicand),
+        }
     }
 
     /// Returns how `offset + factor · distance` compares with 0.
+    #[inline(always)]
     pub(super) fn sign_at(&self, offset: N, factor: N) -> Result<Ordering, Unsure> {
         let rational = offset * self.divisor.clone() + factor.clone() * self.middle.clone();
         let Some(surd) = &self.surd else {
@@ -125,9 +134,9 @@ pub(super) trait Round {
     fn to_f32(&self) -> Result<f64, Unsure>;
 }
 
-impl Distance<DoubleWord> {
+impl<const FMA: bool> Distance<DoubleWord<FMA>> {
     #[inline(always)]
-    fn value(&self) -> DoubleWord {
+    fn value(&self) -> DoubleWord<FMA> {
         let Some(surd) = &self.surd else {
             return self.middle.over(self.divisor);
         };
@@ -136,16 +145,17 @@ impl Distance<DoubleWord> {
             Ordering::Less => -root,
             _ => root,
         };
-        // A sum of numbers with opposite signs cancels. Then the product of both roots is divided.
-        if self.middle.is_opposite_to(&root) {
+        let sum = self.middle + root;
+        // Where the sum cancels, the product of both roots is divided instead.
+        if sum.is_far_below(&self.middle) {
             surd.product.over(self.middle - root).over(self.divisor)
         } else {
-            (self.middle + root).over(self.divisor)
+            sum.over(self.divisor)
         }
     }
 }
 
-impl Round for Distance<DoubleWord> {
+impl<const FMA: bool> Round for Distance<DoubleWord<FMA>> {
     #[inline(always)]
     fn to_f64(&self) -> Result<f64, Unsure> {
         let [lo, hi] = self.value().around();

@@ -11,8 +11,10 @@ use std::ops::{Add, Mul, Neg, Sub};
 /// Louvet, Muller, Picot and Rideau, "Accurate calculation of Euclidean norms using double-word
 /// arithmetic" (ACM TOMS 49(1), 2023). With u = 2⁻⁵³, their relative errors are at most 3 u², 7 u², 15 u²
 /// and 4 u²; [`ROUNDING`] is 16 u².
+///
+/// With `FMA`, products use fused multiply-add instructions. The results are the same.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct DoubleWord {
+pub(crate) struct DoubleWord<const FMA: bool> {
     hi: f64,
     lo: f64,
     /// At least 0; infinite or NaN if nothing is known.
@@ -45,9 +47,10 @@ fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, b - (sum - a))
 }
 
-/// Returns the product and its rounding error (Dekker 1971). NaN above 2⁹⁹⁶.
+/// Returns the product and its rounding error. NaN above 2⁹⁹⁶.
 #[inline(always)]
-fn two_product(a: f64, b: f64) -> (f64, f64) {
+fn two_product<const FMA: bool>(a: f64, b: f64) -> (f64, f64) {
+    /// Splits a number into two of 26 bits (Dekker 1971).
     #[inline(always)]
     fn split(x: f64) -> (f64, f64) {
         let scaled = 134_217_729.0 * x; // 2²⁷ + 1
@@ -55,20 +58,20 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
         (hi, x - hi)
     }
     let product = a * b;
+    if FMA {
+        return (product, a.mul_add(b, -product));
+    }
     let ((ah, al), (bh, bl)) = (split(a), split(b));
     let error = al * bl - (((product - ah * bh) - al * bh) - ah * bl);
     (product, error)
 }
 
-impl DoubleWord {
+impl<const FMA: bool> DoubleWord<FMA> {
     /// Returns the number with a bound on its error, and accounts for underflow of a result that is not 0.
     #[inline(always)]
     fn new((hi, lo): (f64, f64), error: f64, is_zero: bool) -> Self {
-        let underflow = if hi.abs() < SMALL && !is_zero {
-            UNDERFLOW
-        } else {
-            0.0
-        };
+        let is_small = (hi.abs() < SMALL) & !is_zero;
+        let underflow = if is_small { UNDERFLOW } else { 0.0 };
         DoubleWord {
             hi,
             lo,
@@ -88,7 +91,7 @@ impl DoubleWord {
         let is_large = |x: f64| x.abs() >= SMALL;
         let is_safe = least > 0.0 && is_large(divisor.hi) && (self.hi == 0.0 || is_large(self.hi));
         let first = self.hi / divisor.hi;
-        let (product, mut below) = two_product(first, divisor.hi);
+        let (product, mut below) = two_product::<FMA>(first, divisor.hi);
         below += first * divisor.lo;
         let (product, below) = fast_two_sum(product, below);
         let rest = (self.hi - product) + (self.lo - below);
@@ -108,7 +111,7 @@ impl DoubleWord {
             return self;
         }
         let root = self.hi.sqrt();
-        let (square, error) = two_product(root, root);
+        let (square, error) = two_product::<FMA>(root, root);
         let rest = ((self.hi - square) - error) + self.lo;
         let is_safe = self.hi >= SMALL && self.error <= 0.5 * self.hi;
         // |√(x + e) − √x| ≤ |e| / √x.
@@ -120,8 +123,10 @@ impl DoubleWord {
         DoubleWord::new(fast_two_sum(root, rest / (root + root)), error, false)
     }
 
-    pub(super) fn is_opposite_to(&self, other: &Self) -> bool {
-        (self.hi > 0.0) != (other.hi > 0.0)
+    /// Returns whether this number is about a thousand times smaller than another one, or less.
+    #[inline(always)]
+    pub(super) fn is_far_below(&self, other: &Self) -> bool {
+        self.hi.abs() < 1e-3 * other.hi.abs()
     }
 
     /// Returns two numbers between which the exact one lies, in a precision of 53 bits.
@@ -132,7 +137,7 @@ impl DoubleWord {
     }
 }
 
-impl Add for DoubleWord {
+impl<const FMA: bool> Add for DoubleWord<FMA> {
     type Output = Self;
 
     #[inline(always)]
@@ -146,7 +151,7 @@ impl Add for DoubleWord {
     }
 }
 
-impl Neg for DoubleWord {
+impl<const FMA: bool> Neg for DoubleWord<FMA> {
     type Output = Self;
 
     #[inline(always)]
@@ -159,7 +164,7 @@ impl Neg for DoubleWord {
     }
 }
 
-impl Sub for DoubleWord {
+impl<const FMA: bool> Sub for DoubleWord<FMA> {
     type Output = Self;
 
     #[inline(always)]
@@ -168,22 +173,21 @@ impl Sub for DoubleWord {
     }
 }
 
-impl Mul for DoubleWord {
+impl<const FMA: bool> Mul for DoubleWord<FMA> {
     type Output = Self;
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        let (product, low) = two_product(self.hi, other.hi);
+        let (product, low) = two_product::<FMA>(self.hi, other.hi);
         let words = fast_two_sum(product, low + (self.hi * other.lo + self.lo * other.hi));
-        let error = self.hi.abs() * UP * other.error
-            + other.hi.abs() * UP * self.error
-            + self.error * other.error;
-        let is_zero = |x: &Self| x.hi == 0.0 && x.error == 0.0;
-        DoubleWord::new(words, error, is_zero(&self) || is_zero(&other))
+        let error =
+            self.hi.abs() * other.error + other.hi.abs() * self.error + self.error * other.error;
+        let is_zero = |x: &Self| (x.hi == 0.0) & (x.error == 0.0);
+        DoubleWord::new(words, error, is_zero(&self) | is_zero(&other))
     }
 }
 
-impl Number for DoubleWord {
+impl<const FMA: bool> Number for DoubleWord<FMA> {
     #[inline(always)]
     fn of(x: f64) -> Self {
         DoubleWord {
@@ -197,6 +201,14 @@ impl Number for DoubleWord {
     fn difference(a: f64, b: f64) -> Self {
         let (hi, lo) = two_sum(a, -b);
         DoubleWord { hi, lo, error: 0.0 }
+    }
+
+    #[inline(always)]
+    fn times(self, x: f64) -> Self {
+        let (product, low) = two_product::<FMA>(self.hi, x);
+        let words = fast_two_sum(product, low + self.lo * x);
+        let is_zero = (self.hi == 0.0) & (self.error == 0.0) | (x == 0.0);
+        DoubleWord::new(words, x.abs() * self.error, is_zero)
     }
 
     #[inline(always)]

@@ -2,6 +2,7 @@
 
 use super::distance::Distance;
 use super::number::{Number, Unsure};
+use super::vector::Vector;
 use crate::geometry::{Ray, Vec3};
 use std::cmp::Ordering;
 
@@ -14,41 +15,50 @@ struct Seen<N> {
     z: N,
 }
 
+/// Returns the three axes in cyclic order with that of the direction's largest component last.
+#[inline(always)]
+fn axes(direction: Vec3) -> [usize; 3] {
+    let size = direction.abs();
+    if size.x > size.y && size.x > size.z {
+        [1, 2, 0]
+    } else if size.y > size.z {
+        [2, 0, 1]
+    } else {
+        [0, 1, 2]
+    }
+}
+
 impl<N: Number> Seen<N> {
+    #[inline(always)]
     fn of(point: Vec3, ray: &Ray) -> Self {
-        let size = ray.direction.abs();
-        let k = if size.x > size.y && size.x > size.z {
-            0
-        } else if size.y > size.z {
-            1
-        } else {
-            2
-        };
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        let from_origin = |k: usize| N::difference(point[k], ray.origin[k]);
-        let direction = |k: usize| N::of(ray.direction[k]);
-        let along = from_origin(k);
-        let across = |i| direction(k) * from_origin(i) - direction(i) * along.clone();
+        let [i, j, k] = axes(ray.direction);
+        let along = N::difference(point[k], ray.origin[k]);
+        let along_x = along.clone().times(ray.direction[i]);
+        let along_y = along.clone().times(ray.direction[j]);
+        let major = ray.direction[k];
         Seen {
-            x: across(i),
-            y: across(j),
-            z: direction(k) * along.clone(),
+            x: N::difference(point[i], ray.origin[i]).times(major) - along_x,
+            y: N::difference(point[j], ray.origin[j]).times(major) - along_y,
+            z: along.times(major),
         }
     }
 
     /// Returns twice the signed area of the triangle from the ray to two points.
+    #[inline(always)]
     fn cross(&self, other: &Self) -> N {
         self.x.clone() * other.y.clone() - self.y.clone() * other.x.clone()
     }
 }
 
 /// Returns the square of the direction's largest component.
+#[inline(always)]
 fn squared_largest<N: Number>(ray: &Ray) -> N {
     let largest = ray.direction.abs().max_element();
     N::of(largest) * N::of(largest)
 }
 
 /// Returns where a line crosses a triangle, edges included. A line within its plane does not.
+#[inline(always)]
 pub(super) fn triangle<N: Number>(
     vertices: &[Vec3; 3],
     ray: &Ray,
@@ -74,24 +84,20 @@ pub(super) fn triangle<N: Number>(
 
 /// Returns where a line that certainly crosses a triangle does so: where it crosses the plane. This needs
 /// fewer operations than [`triangle`].
+#[inline(always)]
 pub(super) fn plane<N: Number>(
     [a, b, c]: &[Vec3; 3],
     ray: &Ray,
 ) -> Result<Option<Distance<N>>, Unsure> {
-    let edge = |to: &Vec3, k: usize| N::difference(to[k], a[k]);
-    let (mut over, mut under): (Option<N>, Option<N>) = (None, None);
-    for k in 0..3 {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        let normal = edge(b, i) * edge(c, j) - edge(b, j) * edge(c, i);
-        let distance = normal.clone() * N::difference(a[k], ray.origin[k]);
-        let speed = normal * N::of(ray.direction[k]);
-        over = Some(over.map_or(distance.clone(), |sum| sum + distance));
-        under = Some(under.map_or(speed.clone(), |sum| sum + speed));
-    }
-    match over.zip(under) {
-        Some((over, under)) => Distance::fraction(over, under),
-        None => Ok(None),
-    }
+    let normal = Vector::<N>::difference(*b, *a).cross(&Vector::difference(*c, *a));
+    let distance = normal.dot(&Vector::difference(*a, ray.origin));
+    Distance::fraction(distance, normal.dot_with(ray.direction))
+}
+
+/// Returns the height of a point above the plane of a triangle, times twice its area.
+pub(super) fn height<N: Number>([a, b, c]: &[Vec3; 3], point: Vec3) -> N {
+    let normal = Vector::<N>::difference(*b, *a).cross(&Vector::difference(*c, *a));
+    normal.dot(&Vector::difference(point, *a))
 }
 
 /// An edge that crosses the first axis at `over / under`.
@@ -104,6 +110,7 @@ struct Edge<N> {
 }
 
 impl<N: Number> Edge<N> {
+    #[inline(always)]
     fn is_left_of(&self, other: &Self) -> Result<bool, Unsure> {
         let difference =
             self.over.clone() * other.under.clone() - other.over.clone() * self.under.clone();
@@ -111,6 +118,7 @@ impl<N: Number> Edge<N> {
     }
 
     /// Returns the third coordinate where it crosses the axis, times `under`.
+    #[inline(always)]
     fn along(&self) -> N {
         let (from, to) = (&self.from, &self.to);
         from.z.clone() * to.y.clone() - from.y.clone() * to.z.clone()
@@ -124,6 +132,7 @@ impl<N: Number> Edge<N> {
 /// interpolated between its ends, and there between the vertices of the edges. So a hit is between the
 /// vertices however small the angle, and adjacent polygons decide an edge from the same numbers. If the
 /// vertices lie in a plane, the line crosses the plane there.
+#[inline(always)]
 pub(super) fn outline<N: Number>(
     vertices: &[Vec3],
     ray: &Ray,
@@ -160,11 +169,21 @@ pub(super) fn outline<N: Number>(
         };
         if is_right {
             inside = !inside;
-            if right.as_ref().map_or(Ok(true), |r| edge.is_left_of(r))? {
+            let is_nearer = match &right {
+                Some(right) => edge.is_left_of(right)?,
+                None => true,
+            };
+            if is_nearer {
                 right = Some(edge);
             }
-        } else if left.as_ref().map_or(Ok(true), |l| l.is_left_of(&edge))? {
-            left = Some(edge);
+        } else {
+            let is_nearer = match &left {
+                Some(left) => left.is_left_of(&edge)?,
+                None => true,
+            };
+            if is_nearer {
+                left = Some(edge);
+            }
         }
     }
     if area.sign()? == Ordering::Equal {
@@ -186,6 +205,7 @@ pub(super) fn outline<N: Number>(
 
 /// Returns the third coordinate, as a fraction, of a segment where its first two are 0; `None` beyond its
 /// ends. The origin must lie on the line of the segment in the first two coordinates.
+#[inline(always)]
 fn on_edge_at<N: Number>(a: &Seen<N>, b: &Seen<N>) -> Result<Option<(N, N)>, Unsure> {
     let passes = |a: &N, b: &N| -> Result<bool, Unsure> {
         Ok(a.sign()? != b.sign()? || a.sign()? == Ordering::Equal)

@@ -18,7 +18,9 @@ mod flat;
 mod number;
 mod quadric;
 mod root;
+mod vector;
 
+pub(super) use number::Unsure;
 pub(super) use quadric::ConeEnds;
 pub use root::Root;
 
@@ -26,7 +28,7 @@ use super::Precision;
 use crate::geometry::{Ray, Vec3};
 use distance::{Distance, Round};
 use double_word::DoubleWord;
-use number::{Number, Rational, Unsure};
+use number::{Number, Rational};
 use std::cmp::Ordering;
 
 /// A surface, by the numbers that define it.
@@ -37,30 +39,83 @@ pub(super) enum Surface<'a> {
         radius: f64,
     },
     Triangle(&'a [Vec3; 3]),
-    /// A triangle that the ray's line certainly crosses.
-    Pierced(&'a [Vec3; 3]),
     /// The outline of a polygon.
     Outline(&'a [Vec3]),
     Cone(ConeEnds),
 }
 
+/// What is known of a line and a surface before it is decided exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Known {
+    Nothing,
+    /// The line crosses a surface that it can cross only once.
+    Crossing,
+    /// The crossing with this index, in ascending order, is the first one within the ray's interval.
+    Hit(usize),
+}
+
+/// The arithmetic that decides a test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// `f64` with a bound on the error.
+    Estimate,
+    /// Sums of two `f64`.
+    DoubleWords,
+    /// Without rounding.
+    Fractions,
+}
+
+/// Where a line crosses a surface, in ascending order.
+type Crossings<N> = [Option<Distance<N>>; 2];
+
 impl Surface<'_> {
     /// Returns where the ray's line crosses the surface, in ascending order.
     #[inline(always)]
-    fn crossings<N: Number>(&self, ray: &Ray) -> Result<[Option<Distance<N>>; 2], Unsure> {
+    fn crossings<N: Number>(&self, ray: &Ray) -> Result<Crossings<N>, Unsure> {
         match self {
             Surface::Sphere { center, radius } => quadric::sphere(*center, *radius, ray),
             Surface::Triangle(vertices) => Ok([flat::triangle(vertices, ray)?, None]),
-            Surface::Pierced(vertices) => Ok([flat::plane(vertices, ray)?, None]),
             Surface::Outline(vertices) => Ok([flat::outline(vertices, ray)?, None]),
-            Surface::Cone(ends) => quadric::cone(ends, ray),
+            Surface::Cone(ends) => {
+                let (mut roots, height) = quadric::cone(ends, ray)?;
+                for root in &mut roots {
+                    if let Some(t) = root
+                        && !height.is_within(t)?
+                    {
+                        *root = None;
+                    }
+                }
+                Ok(roots)
+            }
         }
+    }
+
+    /// Returns the crossing number `k` in ascending order, which the line certainly has.
+    #[inline(always)]
+    fn known_crossing<N: Number>(
+        &self,
+        k: usize,
+        ray: &Ray,
+    ) -> Result<Option<Distance<N>>, Unsure> {
+        let [near, far] = match self {
+            Surface::Sphere { center, radius } => quadric::sphere(*center, *radius, ray)?,
+            Surface::Cone(ends) => quadric::cone(ends, ray)?.0,
+            Surface::Triangle(vertices) => return flat::plane(vertices, ray),
+            Surface::Outline([a, b, c]) => return flat::plane(&[*a, *b, *c], ray),
+            Surface::Outline(vertices) => return flat::outline(vertices, ray),
+        };
+        Ok(if k == 0 { near } else { far })
     }
 
     /// Returns the first crossing within the ray's interval.
     #[inline(always)]
-    fn first<N: Number>(&self, ray: &Ray) -> Result<Option<Distance<N>>, Unsure> {
-        for crossing in self.crossings(ray)?.into_iter().flatten() {
+    fn first<N: Number>(&self, known: Known, ray: &Ray) -> Result<Option<Distance<N>>, Unsure> {
+        let crossings = match known {
+            Known::Hit(k) => return self.known_crossing(k, ray),
+            Known::Crossing => [self.known_crossing(0, ray)?, None],
+            Known::Nothing => self.crossings(ray)?,
+        };
+        for crossing in crossings.into_iter().flatten() {
             if crossing.compare(ray.t_min)? != Ordering::Less
                 && crossing.compare(ray.t_max)? != Ordering::Greater
             {
@@ -70,50 +125,124 @@ impl Surface<'_> {
         Ok(None)
     }
 
-    /// Returns the first crossing within the ray's interval, rounded to the nearest number.
-    #[inline(always)]
-    fn first_rounded<N: Number>(
+    /// Returns the distance of the first hit, rounded to the nearest number; `None` if that is infinite.
+    pub(super) fn intersect(&self, known: Known, ray: &Ray, precision: Precision) -> Option<f64> {
+        self.decide(known, ray, Some(precision))
+            .filter(|t| t.is_finite())
+    }
+
+    /// Returns whether [`Surface::intersect`] finds a hit.
+    pub(super) fn is_hit(&self, known: Known, ray: &Ray) -> bool {
+        if ray.t_max.is_finite() {
+            self.decide(known, ray, None).is_some()
+        } else {
+            self.intersect(known, ray, Precision::F64).is_some()
+        }
+    }
+
+    /// Returns the distance of the first hit, rounded to the nearest number; any number without a precision.
+    fn decide(&self, known: Known, ray: &Ray, precision: Option<Precision>) -> Option<f64> {
+        if !is_usable(ray) {
+            return None;
+        }
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("fma") {
+            // SAFETY: the processor has the instructions.
+            return unsafe { self.decide_with_fma(known, ray, precision) };
+        }
+        self.decide_with::<false>(known, ray, precision)
+    }
+
+    /// # Safety
+    /// The processor must have fused multiply-add instructions.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "fma")]
+    unsafe fn decide_with_fma(
         &self,
+        known: Known,
         ray: &Ray,
-        precision: Precision,
+        precision: Option<Precision>,
+    ) -> Option<f64> {
+        self.decide_with::<true>(known, ray, precision)
+    }
+
+    #[inline(always)]
+    fn decide_with<const FMA: bool>(
+        &self,
+        known: Known,
+        ray: &Ray,
+        precision: Option<Precision>,
+    ) -> Option<f64> {
+        self.decide_in::<DoubleWord<FMA>>(known, ray, precision)
+            .unwrap_or_else(|Unsure| self.decide_rationally(ray, precision))
+    }
+
+    /// [`Surface::decide`] with the numbers `N`.
+    #[inline(always)]
+    fn decide_in<N: Number>(
+        &self,
+        known: Known,
+        ray: &Ray,
+        precision: Option<Precision>,
     ) -> Result<Option<f64>, Unsure>
     where
         Distance<N>: Round,
     {
-        let first = self.first::<N>(ray)?;
-        first
-            .map(|t| match precision {
-                Precision::F32 => t.to_f32(),
-                Precision::F64 => t.to_f64(),
-            })
-            .transpose()
-    }
-
-    /// Returns the distance of the first hit, rounded to the nearest number; `None` if that is infinite.
-    pub(super) fn intersect(&self, ray: &Ray, precision: Precision) -> Option<f64> {
-        if !is_usable(ray) {
-            return None;
-        }
-        let first = self
-            .first_rounded::<DoubleWord>(ray, precision)
-            .unwrap_or_else(|Unsure| self.intersect_rationally(ray, precision));
-        first.filter(|t| t.is_finite())
+        let round = |t: Distance<N>| match precision {
+            Some(Precision::F32) => t.to_f32(),
+            Some(Precision::F64) => t.to_f64(),
+            None => Ok(0.0),
+        };
+        self.first::<N>(known, ray)?.map(round).transpose()
     }
 
     #[cold]
     #[inline(never)]
-    fn intersect_rationally(&self, ray: &Ray, precision: Precision) -> Option<f64> {
-        certain(self.first_rounded::<Rational>(ray, precision))
+    fn decide_rationally(&self, ray: &Ray, precision: Option<Precision>) -> Option<f64> {
+        certain(self.decide_in::<Rational>(Known::Nothing, ray, precision))
     }
 
-    /// Returns the exact distance of the first hit.
+    /// Returns the arithmetic that [`Surface::intersect`] or [`Surface::is_hit`] needs.
+    pub(super) fn stage(&self, known: Known, ray: &Ray, with_distance: bool) -> Stage {
+        let precision = with_distance.then_some(Precision::F64);
+        match self.decide_in::<DoubleWord<false>>(known, ray, precision) {
+            Ok(_) => Stage::DoubleWords,
+            Err(Unsure) => Stage::Fractions,
+        }
+    }
+
+    /// Returns the exact distance of the first hit, which there is.
     #[cold]
     pub(super) fn exact_distance(&self, ray: &Ray) -> Option<Root> {
         if !is_usable(ray) {
             return None;
         }
-        certain(self.first::<Rational>(ray)).map(|t| t.root())
+        Some(match self.axis_of_plane() {
+            Some((k, place)) => {
+                let distance = Rational::difference(place, ray.origin[k]);
+                Root::from(distance / <Rational as Number>::of(ray.direction[k]))
+            }
+            None => certain(self.first::<Rational>(Known::Nothing, ray))?.root(),
+        })
     }
+
+    /// Returns the axis and the place of the plane in which the surface lies, if that is perpendicular to an
+    /// axis.
+    fn axis_of_plane(&self) -> Option<(usize, f64)> {
+        let vertices = match self {
+            Surface::Triangle(vertices) => vertices.as_slice(),
+            Surface::Outline(vertices) => vertices,
+            _ => return None,
+        };
+        let first = vertices.first()?;
+        let is_flat = |k: &usize| vertices.iter().all(|v| v[*k] == first[*k]);
+        (0..3).find(is_flat).map(|k| (k, first[k]))
+    }
+}
+
+/// Returns whether a point certainly lies in the plane of a triangle, exactly. `false` may be wrong.
+pub(super) fn is_in_plane(triangle: &[Vec3; 3], point: Vec3) -> bool {
+    flat::height::<DoubleWord<false>>(triangle, point).sign() == Ok(Ordering::Equal)
 }
 
 /// Returns a result of arithmetic that rounds nothing.
@@ -226,10 +355,11 @@ mod tests {
                 100_000
             },
             |surface, shape, ray| {
-                let exact = surface.intersect_rationally(ray, Precision::F64);
+                let exact = surface.decide_rationally(ray, Some(Precision::F64));
                 let exact = exact.filter(|t| t.is_finite());
                 let found = shape.intersect(ray, ray.t_max);
                 assert_eq!(found, exact, "{ray:?}");
+                assert_eq!(shape.is_hit(ray), exact.is_some(), "{ray:?}");
                 hits += usize::from(exact.is_some());
                 misses += usize::from(exact.is_none());
             },
@@ -242,9 +372,10 @@ mod tests {
     fn double_words_know_their_error() {
         let (mut certain, mut unsure) = (0, 0);
         each_case(3_000, |surface, _, ray| {
-            match surface.first_rounded::<DoubleWord>(ray, Precision::F64) {
+            let precision = Some(Precision::F64);
+            match surface.decide_in::<DoubleWord<false>>(Known::Nothing, ray, precision) {
                 Ok(found) => {
-                    assert_eq!(found, surface.intersect_rationally(ray, Precision::F64));
+                    assert_eq!(found, surface.decide_rationally(ray, precision));
                     certain += 1;
                 }
                 Err(Unsure) => unsure += 1,

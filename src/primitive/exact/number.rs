@@ -17,6 +17,10 @@ pub(crate) trait Number:
     /// Returns `a − b`, exactly.
     fn difference(a: f64, b: f64) -> Self;
 
+    fn times(self, x: f64) -> Self {
+        self * Self::of(x)
+    }
+
     /// Returns how the exact result compares with 0.
     ///
     /// # Errors

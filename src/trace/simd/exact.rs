@@ -120,6 +120,12 @@ pub(super) trait TestObjects {
         t_max: f64,
     ) -> f64;
 
+    /// Returns [`Form::is_hit_exact`] of a candidate, likewise.
+    fn is_hit(&self, k: usize, candidate: &Candidate, rays: &RayBuffer, world: &[Ray]) -> bool {
+        let t_max = Self::Precision::t_max(rays, candidate.ray as usize, world);
+        !self.test(k, candidate, rays, world, t_max).is_nan()
+    }
+
     /// Returns [`wins_tie`] of a candidate.
     fn wins_tie(&self, candidate: &Candidate, best: &Hit, rays: &RayBuffer, world: &[Ray]) -> bool;
 }
@@ -174,8 +180,8 @@ impl TestObjects for InTriangles<'_> {
         let estimate = self.crossings.get(k);
         let ray = &rays.rays[candidate.ray as usize];
         let interval = [f64::from(ray.t_min), f64::from(ray.t_max)];
-        let t = Estimate::settle([estimate], interval, t_max, || {
-            self.triangles[candidate.object as usize].intersect_slowly(&to_f64(ray))
+        let t = Estimate::settle([estimate], interval, t_max, |known| {
+            self.triangles[candidate.object as usize].intersect_slowly(known, &to_f64(ray))
         });
         t.unwrap_or(f64::NAN)
     }
@@ -254,6 +260,12 @@ impl<P: TestPrecision, F: Form> TestObjects for InArray<'_, P, F> {
         let ray = P::test_ray(rays, candidate.ray as usize, world);
         let t = self.objects[candidate.object as usize].intersect_exact(&ray, t_max);
         t.unwrap_or(f64::NAN)
+    }
+
+    #[inline(always)]
+    fn is_hit(&self, _: usize, candidate: &Candidate, rays: &RayBuffer, world: &[Ray]) -> bool {
+        let ray = P::test_ray(rays, candidate.ray as usize, world);
+        self.objects[candidate.object as usize].is_hit_exact(&ray)
     }
 
     fn wins_tie(&self, candidate: &Candidate, best: &Hit, rays: &RayBuffer, world: &[Ray]) -> bool {
@@ -364,9 +376,7 @@ impl<O: TestObjects> ExactTests for Any<'_, O> {
         for candidates in candidates.chunks(BATCH) {
             self.objects.begin(candidates, rays);
             for (k, candidate) in candidates.iter().enumerate() {
-                let t_max = O::Precision::t_max(rays, candidate.ray as usize, self.rays);
-                let t = self.objects.test(k, candidate, rays, self.rays, t_max);
-                if !t.is_nan() {
+                if self.objects.is_hit(k, candidate, rays, self.rays) {
                     self.mark_hit(rays, &[candidate.ray]);
                     limits[candidate.lane as usize] = -1.0;
                 }
