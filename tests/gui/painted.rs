@@ -15,6 +15,8 @@ pub struct Text {
     pub is_clipped: bool,
     /// Its smallest font, in points.
     pub size: f32,
+    /// Where it is.
+    pub rect: Rect,
 }
 
 impl Text {
@@ -58,6 +60,7 @@ fn collect(shape: &Shape, clip: Rect, part: Rect, found: &mut Vec<Text>) {
                     is_elided: galley.elided,
                     is_clipped: !is_inside,
                     size: sizes.fold(f32::INFINITY, f32::min),
+                    rect,
                 });
             }
         }

@@ -99,7 +99,7 @@ impl Marks {
             let font = egui::FontId::proportional(12.0);
             let galley = painter.layout_no_wrap(text, font, Color32::from_rgb(r, g, b));
             let place = anchor.anchor_size(at, galley.size());
-            painter.rect_filled(place.expand(2.0), 2.0, Color32::from_black_alpha(170));
+            painter.rect_filled(place.expand(2.0), 2.0, Color32::from_black_alpha(190));
             painter.galley(place.min, galley, Color32::WHITE);
         };
         let mut corners = cell.bounds.corners();
