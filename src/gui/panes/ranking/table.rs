@@ -53,6 +53,12 @@ const COLUMNS: [(&str, f32, &str); 11] = [
     ),
 ];
 
+/// The height of a row in points, where the window is as high as [`TALL`].
+const TALL_ROW: f32 = 36.0;
+
+/// From this height of the window on, in points, rows are high.
+const TALL: f32 = 900.0;
+
 /// The place of the bar among the columns.
 const PLACE_OF_BAR: usize = 5;
 
@@ -61,6 +67,11 @@ pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits)
     let most = scale(found);
     let gap = 6.0;
     let fixed: f32 = COLUMNS.iter().map(|(_, width, _)| width + gap).sum();
+    let row = if ui.ctx().content_rect().height() < TALL {
+        ROW
+    } else {
+        TALL_ROW
+    };
     // The scroll bar needs its room, too.
     let rest = (ui.available_width() - 14.0 - fixed).max(0.0);
     egui::ScrollArea::horizontal()
@@ -88,7 +99,7 @@ pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits)
                 }
             });
             header.body(|body| {
-                body.rows(ROW, ranking.len(), |mut table_row| {
+                body.rows(row, ranking.len(), |mut table_row| {
                     let rank = &ranking[table_row.index()];
                     let row = &found.rows[rank.place];
                     table_row.set_selected(doc.uses(&row.setup));
@@ -155,10 +166,8 @@ fn cells(rank: &Rank, row: &Row) -> [String; 10] {
 
 /// The median time, with a line over all rounds.
 fn bar(ui: &mut egui::Ui, row: &Row, most: f64) {
-    let (rect, response) = ui.allocate_exact_size(
-        vec2(ui.available_width(), ui.available_height() - 8.0),
-        Sense::hover(),
-    );
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(ui.available_width(), ROW - 8.0), Sense::hover());
     let range = sentence::range(row);
     let name = format!("Time of {}: {range}", sentence::name(row));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
