@@ -351,3 +351,40 @@ fn leaving_the_task_restores_the_view_and_nothing_renders_the_picture_again() {
     assert!(view(&mut window) == before, "camera and settings as before");
     assert!(window.state().is_finished());
 }
+
+/// The share of pixels that are not the same.
+fn difference(a: &image::RgbaImage, b: &image::RgbaImage) -> f64 {
+    assert_eq!(a.dimensions(), b.dimensions());
+    let pairs = a.pixels().zip(b.pixels());
+    let different = pairs.filter(|(a, b)| a != b).count();
+    different as f64 / f64::from(a.width() * a.height())
+}
+
+#[test]
+fn the_ray_is_framed_again_in_a_pane_of_another_size() {
+    const WIDE: [f32; 2] = [1500.0, 1000.0];
+    const HIGH: [f32; 2] = [900.0, 1100.0];
+    let mut window = picked_at(WIDE, true);
+    let wide = view(&mut window);
+    window.set_size(HIGH.into());
+    let high = view(&mut window);
+    let picked_there = view(&mut picked_at(HIGH, true));
+    assert!(difference(&high, &picked_there) < 0.001);
+    window.set_size(WIDE.into());
+    assert!(difference(&view(&mut window), &wide) < 0.001);
+    // Where the user moved the camera, it stays.
+    let rect = window.get_by_label("3D view of scene and tree").rect();
+    window.drag_at(rect.center());
+    window.run_steps(2);
+    window.hover_at(rect.center() + egui::vec2(90.0, 20.0));
+    window.run_steps(2);
+    window.drop_at(rect.center() + egui::vec2(90.0, 20.0));
+    window.run_steps(2);
+    let moved = view(&mut window);
+    assert!(difference(&moved, &wide) > 0.1);
+    for size in [HIGH, WIDE] {
+        window.set_size(size.into());
+        window.run_steps(3);
+    }
+    assert!(view(&mut window) == moved);
+}

@@ -49,20 +49,30 @@ impl View3d {
             return false;
         }
         let now = ctx.input(|i| i.time);
+        let aspect = self.camera.aspect;
         if let Some(current) = &doc.current
             && let Some(picked) = &current.picked
-            && !self.ray_task.is_beside(&picked.record, picked.ray)
         {
             let (scene, tree) = (&current.shown.scene, &current.shown.tree);
             let (from, path) = (self.camera.camera, picked.path());
-            // Where it sees the ray well, such as that of the pixel beside the last, it stays.
-            let to = if side_view::is_beside(&self.camera, scene, tree, path) {
-                from
-            } else {
-                side_view::side_view(&self.camera, scene, tree, path)
-            };
-            let beside = (Arc::clone(&picked.record), picked.ray);
-            self.ray_task.glide(beside, [from, to], now);
+            if !self.ray_task.is_beside(&picked.record, picked.ray) {
+                // Where it sees the ray well, such as that of the pixel beside the last, it stays.
+                let to = if side_view::is_beside(&self.camera, scene, tree, path) {
+                    from
+                } else {
+                    side_view::side_view(&self.camera, scene, tree, path)
+                };
+                let beside = (Arc::clone(&picked.record), picked.ray);
+                self.ray_task.glide(beside, [from, to], aspect, now);
+            } else if self.ray_task.is_reshaped(aspect) {
+                let view = self.camera;
+                let framed = |camera| {
+                    let view = ViewCamera { camera, ..view };
+                    side_view::framed(&view, tree, path)
+                };
+                self.camera.camera = self.ray_task.reframe(from, aspect, framed);
+                return true;
+            }
         }
         // With reduced motion there are no animations.
         let is_animated = ctx.global_style().animation_time > 0.0;

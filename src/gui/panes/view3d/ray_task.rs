@@ -31,6 +31,9 @@ pub struct RayTask {
     /// The ray that the camera is beside.
     beside: Option<(Arc<PixelRecord>, usize)>,
     glide: Option<Glide>,
+    /// Width of the pane by its height, for which the camera frames the ray; `None` once the user moved
+    /// the camera.
+    aspect: Option<f64>,
 }
 
 impl RayTask {
@@ -56,10 +59,17 @@ impl RayTask {
             .is_some_and(|(known, place)| Arc::ptr_eq(known, record) && *place == ray)
     }
 
-    /// Begins to move the camera to a place beside this ray.
-    pub fn glide(&mut self, beside: (Arc<PixelRecord>, usize), cameras: [Camera; 2], now: f64) {
+    /// Begins to move the camera to a place beside this ray, in a pane of this width by its height.
+    pub fn glide(
+        &mut self,
+        beside: (Arc<PixelRecord>, usize),
+        cameras: [Camera; 2],
+        aspect: f64,
+        now: f64,
+    ) {
         let [from, to] = cameras;
         self.beside = Some(beside);
+        self.aspect = Some(aspect);
         self.glide = Some(Glide {
             from,
             to,
@@ -83,9 +93,27 @@ impl RayTask {
         Some(camera)
     }
 
+    /// Returns whether the pane has another shape than the one for which the camera frames the ray.
+    pub fn is_reshaped(&self, aspect: f64) -> bool {
+        self.aspect.is_some_and(|known| known != aspect)
+    }
+
+    /// Frames the ray in a pane of this width by its height, with the camera that `framed` makes of the
+    /// one at the end of the movement. Returns the camera, which is there at once.
+    pub fn reframe(
+        &mut self,
+        now: Camera,
+        aspect: f64,
+        framed: impl FnOnce(Camera) -> Camera,
+    ) -> Camera {
+        self.aspect = Some(aspect);
+        let end = self.glide.take().map_or(now, |glide| glide.to);
+        framed(end)
+    }
+
     /// Ends a movement of the camera, which the mouse or a key moves now.
     pub fn stop(&mut self) {
-        self.glide = None;
+        (self.glide, self.aspect) = (None, None);
     }
 
     /// Takes over the camera of a scene that was opened during the task.
@@ -94,7 +122,7 @@ impl RayTask {
             before.camera.camera = camera;
             before.own = false;
         }
-        (self.beside, self.glide) = (None, None);
+        (self.beside, self.glide, self.aspect) = (None, None, None);
     }
 }
 

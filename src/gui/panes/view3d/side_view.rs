@@ -73,11 +73,25 @@ pub fn is_beside(view: &ViewCamera, scene: &Scene, tree: &Tree, path: &RayPath) 
     let ends = shown_part(path, &tree.root_cell());
     let [forward, ..] = view.frame();
     let along = forward.dot((ends[1] - ends[0]).normalize_or(forward)).abs();
+    along <= 0.5 && is_framed(view, ends) && hidden_points(scene, tree, ends, view.camera.from) == 0
+}
+
+/// Returns a camera that looks in the same direction and sees a ray in full and large enough, as after a
+/// change of the pane's shape.
+pub fn framed(view: &ViewCamera, tree: &Tree, path: &RayPath) -> Camera {
+    let ends = shown_part(path, &tree.root_cell());
+    if is_framed(view, ends) {
+        return view.camera;
+    }
+    let [forward, ..] = view.frame();
+    at_distance(view, ends, -forward)
+}
+
+/// Returns whether the ray is seen in full and large enough.
+fn is_framed(view: &ViewCamera, ends: [Vec3; 2]) -> bool {
     let in_pane = |[x, y]: [f64; 2]| x.abs() <= view.aspect && y.abs() <= 1.0;
-    along <= 0.5
-        && WELL_SPANNED.contains(&span(view, ends))
+    WELL_SPANNED.contains(&span(view, ends))
         && ends.iter().all(|end| view.place(*end).is_some_and(in_pane))
-        && hidden_points(scene, tree, ends, view.camera.from) == 0
 }
 
 /// Directions from the ray to an eye, each with how late it is tried.
@@ -214,6 +228,18 @@ mod tests {
                         ..view
                     };
                     assert!(!is_beside(&along, &scene, &tree, path));
+                    for aspect in [0.4, 1.0, 3.2] {
+                        let shaped = ViewCamera { aspect, ..view };
+                        let camera = framed(&shaped, &tree, path);
+                        let view = ViewCamera { camera, ..shaped };
+                        let spanned = span(&view, ends);
+                        assert!(
+                            (0.6..=0.8).contains(&spanned),
+                            "{name} {pixel:?}: {spanned}"
+                        );
+                        let angle = view.frame()[0].angle_between(forward);
+                        assert!(angle < 1e-6, "the direction stays");
+                    }
                     hits += u32::from(path.hit.is_hit());
                     let eye = view.camera.from;
                     free += u32::from(hidden_points(&scene, &tree, ends, eye) == 0);
