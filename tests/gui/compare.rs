@@ -11,6 +11,7 @@ use bspscope::present::number::Digits;
 use bspscope::progress::Progress;
 use bspscope::structure::Method;
 use bspscope::trace::{RayKind, RenderSettings, render_counted, thread_pool};
+use egui::accesskit::Toggled;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use std::sync::Mutex;
@@ -322,4 +323,24 @@ fn a_comparison_that_ends_while_the_other_tree_is_rendered_leaves_nothing_runnin
     wait(&mut window, "the tree behind", |w| has(w, "Tracing A"));
     press(&mut window, Modifiers::COMMAND, Key::E);
     finish(&mut window);
+}
+
+#[test]
+fn undo_and_redo_change_the_task_with_the_second_tree() {
+    let mut window = open(small(SCENE));
+    finish(&mut window);
+    let shows = |window: &Window<'_>, task: &str| {
+        let node = window.get_by_label(task).accesskit_node();
+        node.toggled() == Some(Toggled::True)
+    };
+    press(&mut window, Modifiers::COMMAND, Key::Num3);
+    wait_for(&mut window, "Fair comparison");
+    window.run_steps(60);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    window.run_steps(2);
+    assert!(shows(&window, "Explore") && !shows(&window, "Compare"));
+    assert!(window.query_by_label("Build method of B").is_none());
+    press(&mut window, Modifiers::COMMAND, Key::Y);
+    wait_for(&mut window, "Fair comparison");
+    assert!(shows(&window, "Compare"));
 }

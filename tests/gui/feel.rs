@@ -235,3 +235,32 @@ fn what_is_typed_and_entered_within_a_frame_is_no_shortcut() {
     window.key_press(egui::Key::H);
     wait(&mut window, "the heatmap", heatmap);
 }
+
+#[test]
+fn escape_closes_an_open_menu_and_nothing_else() {
+    let mut window = open(small("balls:1"));
+    finish(&mut window);
+    press(&mut window, egui::Modifiers::COMMAND, egui::Key::Num2);
+    let stays = |window: &Window<'_>| window.query_by_label("Steps along the ray").is_some();
+    for (menu, item) in [
+        ("Scene: balls:1", "Generated scenes"),
+        ("Method", "object-median"),
+        ("Show", "Picture"),
+        ("More", "Copy as command"),
+    ] {
+        let roles = [Role::Button, Role::ComboBox];
+        let mut named = window.query_all_by_label(menu);
+        let button = named.find(|node| roles.contains(&node.accesskit_node().role()));
+        button.expect(menu).click();
+        drop(named);
+        window.run_steps(3);
+        assert!(has(&window, item), "{menu} is open");
+        press(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
+        window.run_steps(10);
+        assert!(!egui::Popup::is_any_open(&window.ctx), "{menu} is closed");
+        assert!(stays(&window), "{menu}");
+    }
+    press(&mut window, egui::Modifiers::NONE, egui::Key::Escape);
+    window.run_steps(2);
+    assert!(!stays(&window));
+}

@@ -386,3 +386,23 @@ fn only_what_is_asked_is_hidden() {
     click(&mut window, "Check");
     assert!(!has(&window, HIDDEN));
 }
+
+#[test]
+fn what_was_open_before_a_lesson_is_open_after_it() {
+    let mut window = open(small("tetra:2"));
+    finish(&mut window);
+    let drawer = |w: &Window<'_>| has(w, "Root margin");
+    let bottom = |w: &Window<'_>| w.query_by_label("Icicle of the tree").is_some();
+    press(&mut window, Modifiers::COMMAND, Key::I);
+    click(&mut window, "Icicle");
+    wait(&mut window, "both", |w| drawer(w) && bottom(w));
+    click(&mut window, "Lessons");
+    let lesson = LESSONS[0].read();
+    click(&mut window, &format!("Lesson: {}", lesson.title));
+    wait(&mut window, "the lesson", |w| has(w, "Exit lesson"));
+    click(&mut window, "Settings");
+    click(&mut window, "Histograms");
+    assert!(!drawer(&window) && !bottom(&window));
+    click(&mut window, "Exit lesson");
+    wait(&mut window, "both again", |w| drawer(w) && bottom(w));
+}

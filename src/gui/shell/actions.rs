@@ -49,8 +49,8 @@ pub const ACTIONS: &[AppAction] = actions! {
         *build = BuildSettings::for_method(build.method);
     };
     "window.scene-camera" Everywhere COMMAND [Home] "Return to the scene's own camera" => |app, _| app.doc.wanted.render.camera = CameraOverride::default();
-    "window.undo" Everywhere COMMAND [Z] "Undo the last change of settings, scene or camera" => |app, _| app.doc.undo();
-    "window.redo" Everywhere COMMAND [Y] "Redo what was undone" => |app, _| app.doc.redo();
+    "window.undo" Everywhere COMMAND [Z] "Undo the last change of settings, scene or camera" => |app, _| { app.doc.undo(); app.follow_comparison(); };
+    "window.redo" Everywhere COMMAND [Y] "Redo what was undone" => |app, _| { app.doc.redo(); app.follow_comparison(); };
     "window.other-tree" Everywhere NONE [J] "Bring the other of two compared trees to the front" => |app, _| app.doc.show(app.doc.which.other());
     "window.maximize" Everywhere NONE [Z] "Maximize the pane under the pointer, or restore it" => |app, _| app.maximize_under_pointer();
     "window.settings" Everywhere COMMAND [I] "Show or hide the settings" => |app, _| app.layout.settings ^= true;

@@ -44,6 +44,9 @@ pub struct App {
     pub(super) layout_file: KeptFile,
     /// The layout as it was kept last.
     pub(super) kept_layout: Option<Layout>,
+    /// The pane that was open at the bottom before a lesson, and whether the settings were shown; `None`
+    /// without a lesson.
+    pub(super) before_lesson: Option<(Option<String>, bool)>,
     /// The pane that fills the window.
     pub(super) maximized: Option<PaneId>,
     /// The pane under the pointer.
@@ -102,6 +105,7 @@ impl App {
             layout,
             layout_file,
             kept_layout: None,
+            before_lesson: None,
             maximized: None,
             under_pointer: None,
             presenting: None,
@@ -175,6 +179,26 @@ impl App {
         self.layout.task = TaskId(task.id);
         self.doc.task = task.id;
         self.maximized = None;
+    }
+
+    /// Shows the task that belongs to one tree or two, after undo or redo.
+    pub(super) fn follow_comparison(&mut self) {
+        let compares = self.doc.other.is_some();
+        if compares != (self.doc.task == "compare") && !self.doc.in_lesson {
+            self.switch(if compares { "compare" } else { "explore" });
+        }
+    }
+
+    /// Keeps what was open at the bottom and beside the panes while a lesson runs, and opens it again
+    /// after.
+    pub(super) fn follow_lesson(&mut self) {
+        if !self.doc.in_lesson {
+            if let Some(before) = self.before_lesson.take() {
+                (self.layout.open, self.layout.settings) = before;
+            }
+        } else if self.before_lesson.is_none() {
+            self.before_lesson = Some((self.layout.open.clone(), self.layout.settings));
+        }
     }
 
     pub(super) fn toggle_palette(&mut self) {

@@ -13,6 +13,9 @@ use crate::gui::edits::Request;
 use crate::scene::SceneSource;
 use crate::scene::format::names;
 
+/// The width of the settings, in points.
+const DRAWER: f32 = 280.0;
+
 impl App {
     /// Makes the window's contents and asks for the first scene.
     pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Self {
@@ -107,13 +110,13 @@ impl App {
         self.tiles(ui);
     }
 
-    /// All settings, beside the panes.
+    /// Shows all settings beside the panes.
     fn drawer(&mut self, ui: &mut egui::Ui) {
         if self.layout.settings
             && let Some(pane) = places::pane("settings")
         {
             egui::Panel::right("settings")
-                .exact_size(300.0)
+                .exact_size(DRAWER)
                 .resizable(false)
                 .show(ui, |ui| {
                     egui::ScrollArea::vertical()
@@ -174,6 +177,7 @@ impl eframe::App for App {
             self.restore(&workspace, ctx);
             self.files.recent.add(SceneSource::File(path));
         }
+        self.follow_lesson();
         self.serve(ctx);
     }
 
@@ -256,6 +260,7 @@ impl eframe::App for App {
             // What is kept is what was there before the lesson.
             self.run("lesson.open", &egui::Context::default());
             self.serve(&egui::Context::default());
+            self.follow_lesson();
         }
         self.layout_file.write(&self.layout);
         self.keep_session(0.0, true);
