@@ -170,3 +170,10 @@ fn the_first_start_looks_as_it_did() {
     });
     look(&mut window, "first_start");
 }
+
+#[test]
+fn the_menu_of_scenes_looks_as_it_did() {
+    let mut window = task(Key::Num1);
+    click(&mut window, "Scene: balls:1");
+    look(&mut window, "scenes");
+}

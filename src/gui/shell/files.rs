@@ -1,6 +1,7 @@
 //! Ways to a scene: dialog, dropped file, typed path, generators and the recent list.
 
 use super::recent::Recent;
+use super::thumbnails::Thumbnails;
 use super::workspaces::Workspaces;
 use crate::gui::action::tip;
 use crate::gui::document::tasks::{Task, dialog, take};
@@ -26,7 +27,15 @@ pub struct Files {
     /// The answer of an open dialog.
     dialog: Option<(Task<Option<PathBuf>>, Instant)>,
     pub workspaces: Workspaces,
+    thumbnails: Thumbnails,
 }
+
+/// Thumbnails of scenes beside each other.
+const IN_A_ROW: usize = 4;
+/// The distance of thumbnails, in points.
+const GAP: f32 = 4.0;
+/// The width of the menu of scenes, in points.
+const MENU: f32 = IN_A_ROW as f32 * (Thumbnails::WIDTH + GAP) - GAP;
 
 impl Files {
     pub fn new(recent: Recent, workspaces: Workspaces) -> Self {
@@ -36,6 +45,7 @@ impl Files {
             focus_path: false,
             dialog: None,
             workspaces,
+            thumbnails: Thumbnails::default(),
         }
     }
 
@@ -105,7 +115,7 @@ impl Files {
         let focuses = std::mem::take(&mut self.focus_path);
         let (button, _) = MenuButton::from_button(title).config(config).ui(ui, |ui| {
             ui.reset_style();
-            ui.set_width(320.0);
+            ui.set_width(MENU);
             self.path_field(ui, doc, focuses);
             let open = ui.add_enabled(self.dialog.is_none(), egui::Button::new("Open…"));
             let about = format!("Open a scene ({}) or a workspace.", names());
@@ -115,7 +125,7 @@ impl Files {
             }
             ui.separator();
             ui.strong("Generated scenes");
-            self.generators(ui, doc);
+            ui.scope(|ui| self.generators(ui, doc));
             self.size(ui, doc);
             ui.separator();
             ui.strong("Recent");
@@ -173,22 +183,24 @@ impl Files {
         }
     }
 
-    fn generators(&self, ui: &mut egui::Ui, doc: &mut Document) {
-        if BUILTINS.is_empty() {
-            ui.label("There are no generators");
-        }
-        for builtin in BUILTINS {
-            let chosen = matches!(
-                &doc.wanted.scene.source,
-                SceneSource::Builtin { name, .. } if name == builtin.name
-            );
-            let item = ui.selectable_label(chosen, builtin.name);
-            if item.on_hover_text(builtin.about).clicked() {
-                doc.open(SceneSource::Builtin {
-                    name: builtin.name.to_owned(),
-                    size: None,
-                });
-            }
+    fn generators(&mut self, ui: &mut egui::Ui, doc: &mut Document) {
+        ui.spacing_mut().item_spacing = egui::vec2(GAP, GAP);
+        for row in BUILTINS.chunks(IN_A_ROW) {
+            ui.horizontal(|ui| {
+                for builtin in row {
+                    let chosen = matches!(
+                        &doc.wanted.scene.source,
+                        SceneSource::Builtin { name, .. } if name == builtin.name
+                    );
+                    let item = self.thumbnails.button(ui, builtin, chosen);
+                    if item.on_hover_text(builtin.about).clicked() {
+                        doc.open(SceneSource::Builtin {
+                            name: builtin.name.to_owned(),
+                            size: None,
+                        });
+                    }
+                }
+            });
         }
     }
 
@@ -205,7 +217,11 @@ impl Files {
             .range(builtin.sizes.clone())
             .speed(0.05)
             .update_while_editing(false);
-        let response = ui.name_inputs("Size of the scene", |ui| ui.add(edit));
+        let labeled = ui.horizontal(|ui| {
+            ui.label("Size");
+            ui.name_inputs("Size of the scene", |ui| ui.add(edit))
+        });
+        let response = labeled.inner;
         let changed = response.changed();
         response.on_hover_text(format!(
             "Size of the generated scene, {} to {}; the paper's is {}.",

@@ -22,6 +22,7 @@ mod save_as;
 mod status;
 mod strip;
 mod tasks;
+mod thumbnails;
 mod tiles;
 mod title;
 mod top_bar;
