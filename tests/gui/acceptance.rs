@@ -1,9 +1,12 @@
 //! What the window's design promises, measured on what is drawn: areas, sizes of text, nothing cut,
 //! broken or moved, at both reference sizes and in both themes.
 
-use crate::harness::{Window, finish, open_sized, press, small};
+use crate::harness::{Window, click, finish, has, open_sized, press, small, wait};
 use crate::painted::texts_in;
 use crate::support::wording::assert_plain;
+use bspscope::gui::StartOptions;
+use bspscope::lesson::Lesson;
+use bspscope::measure::heat::heatmaps;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -45,20 +48,107 @@ fn everywhere(check: impl Fn(&Window<'_>, &str)) {
     }
 }
 
+/// Asserts that every text is large enough and whole, that no number is broken, and that the title rows of
+/// panes have room for all that stands in them.
+fn assert_whole(window: &Window<'_>, place: &str) {
+    let texts = texts_in(window, window.ctx.content_rect());
+    assert!(texts.len() > 10, "{place}");
+    for text in &texts {
+        let words = text.rows.concat();
+        assert!(text.size >= 12.0, "{place}: {text:?}");
+        let is_file_name = words.contains('/') || words.contains(".nff");
+        assert!(!text.is_elided || is_file_name, "{place}: {text:?}");
+        assert!(!text.is_clipped, "{place}: {text:?}");
+        assert!(!text.breaks_a_number(), "{place}: {text:?}");
+    }
+    // Below the top bar.
+    let titles: Vec<_> = texts
+        .iter()
+        .filter(|text| (44.0..72.0).contains(&text.rect.center().y))
+        .collect();
+    for (i, text) in titles.iter().enumerate() {
+        for other in &titles[..i] {
+            let both = text.rect.intersect(other.rect);
+            assert!(!both.is_positive(), "{place}: {text:?} over {other:?}");
+        }
+    }
+}
+
 #[test]
 fn texts_are_large_enough_whole_and_unbroken() {
-    everywhere(|window, place| {
-        let texts = texts_in(window, window.ctx.content_rect());
-        assert!(texts.len() > 10, "{place}");
-        for text in texts {
-            let words = text.rows.concat();
-            assert!(text.size >= 12.0, "{place}: {text:?}");
-            let is_file_name = words.contains('/') || words.contains(".nff");
-            assert!(!text.is_elided || is_file_name, "{place}: {text:?}");
-            assert!(!text.is_clipped, "{place}: {text:?}");
-            assert!(!text.breaks_a_number(), "{place}: {text:?}");
+    everywhere(assert_whole);
+}
+
+/// Chooses a heatmap, or the picture, by its place in the menu.
+fn show(window: &mut Window<'_>, heatmap: usize) {
+    let item = match heatmap.checked_sub(1) {
+        Some(place) => {
+            let heatmap = &heatmaps()[place];
+            format!("{} · {}", heatmap.symbol, heatmap.name)
         }
-    });
+        None => "Picture".to_owned(),
+    };
+    click(window, "Show");
+    let items = window.query_all_by_role_and_label(Role::RadioButton, &item);
+    items.last().expect("an item of the menu").click();
+    window.run_steps(3);
+    press(window, Modifiers::NONE, Key::Escape);
+    window.run_steps(3);
+    finish(window);
+}
+
+#[test]
+fn texts_of_a_ray_and_of_heatmaps_are_whole() {
+    for size in SIZES {
+        let mut window = at(size, false, Key::Num1);
+        window.get_by_label("Traced picture").click();
+        window.run_steps(3);
+        finish(&mut window);
+        for step in 0..12 {
+            click(&mut window, "Next");
+            assert_whole(&window, &format!("step {step} at {size:?}"));
+        }
+        for task in [Key::Num1, Key::Num2, Key::Num3] {
+            press(&mut window, Modifiers::COMMAND, task);
+            finish(&mut window);
+            for heatmap in 0..=heatmaps().len() {
+                show(&mut window, heatmap);
+                assert_whole(&window, &format!("{task:?}, heatmap {heatmap} at {size:?}"));
+            }
+        }
+    }
+}
+
+/// A lesson of one step, with the steps of a ray beside the picture.
+fn lesson(settings: &str) -> StartOptions {
+    let text = format!(
+        "+++\ntitle = \"T\"\nabout = \"A\"\n+++\n# S\n```toml\nscene = \"balls:2\"\n\
+         a = \"method=midpoint\"\npixel = [64, 64]\n{settings}\n```\nText\n"
+    );
+    StartOptions {
+        lesson: Some(Lesson::parse(&text, "t.md").unwrap()),
+        ..small("balls:1")
+    }
+}
+
+#[test]
+fn texts_beside_a_lesson_are_whole() {
+    const STEPS: &str = "panes = [\"Steps of the ray\"]";
+    let wipe = format!("{STEPS}\nb = \"method=sah-cut\"\nview = \"wipe\"");
+    for size in SIZES {
+        for settings in [STEPS, &wipe] {
+            let mut window = open_sized(lesson(settings), size, false);
+            finish(&mut window);
+            wait(&mut window, "the ray", |w| has(w, "Step 1: "));
+            let place = |heatmap| format!("{settings}, heatmap {heatmap} at {size:?}");
+            for heatmap in 0..=heatmaps().len() {
+                show(&mut window, heatmap);
+                assert_whole(&window, &place(heatmap));
+                press(&mut window, Modifiers::NONE, Key::Period);
+                assert_whole(&window, &place(heatmap));
+            }
+        }
+    }
 }
 
 fn area(window: &Window<'_>, rect: Rect) -> f32 {

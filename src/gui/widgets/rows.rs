@@ -5,6 +5,7 @@ use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align2, Color32, FontId, Painter, Rect, Sense, pos2, vec2};
 
 /// A column of a [`List`].
+#[derive(Clone, Copy)]
 pub struct Column {
     pub title: &'static str,
     /// What the column tells, on hover.

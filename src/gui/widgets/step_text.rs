@@ -161,3 +161,46 @@ pub fn step(scene: &Scene, number: usize, step: &Step) -> String {
         ),
     }
 }
+
+/// A step in a sentence that fits into a line, without the reasons.
+pub fn short_step(scene: &Scene, number: usize, step: &Step) -> String {
+    match step {
+        Step::Inner(inner) => {
+            let (near, far) = (grouped(inner.near as usize), grouped(inner.far as usize));
+            let next = match inner.children {
+                Children::Near => format!("only the near child, node {near}"),
+                Children::Far => format!("only the far child, node {far}"),
+                Children::Both => {
+                    format!("the near child, node {near}, first; node {far} is pending")
+                }
+            };
+            format!(
+                "Step {number}: inner node {}, depth {}: {next}.",
+                grouped(inner.node as usize),
+                inner.depth
+            )
+        }
+        Step::Leaf(leaf) => {
+            let hit = leaf.tests.iter().rev().find_map(|test| {
+                let t = test.hit?;
+                Some(format!(
+                    "hit {} at {} units",
+                    object(scene, test.object),
+                    short(t)
+                ))
+            });
+            let tests = count(leaf.tests.len() as u32, "test", "tests");
+            let found = match (leaf.objects, hit) {
+                (0, _) => "empty".to_owned(),
+                (_, Some(hit)) => format!("{tests}, {hit}"),
+                (_, None) => format!("{tests}, no hit"),
+            };
+            format!(
+                "Step {number}: leaf {}, depth {}: {found}; {}.",
+                grouped(leaf.node as usize),
+                leaf.depth,
+                leaf.outcome.text()
+            )
+        }
+    }
+}

@@ -16,29 +16,46 @@ use egui::{Align, Label, Layout, PopupCloseBehavior, Ui, vec2};
 const NUMBER: f32 = 120.0;
 /// The same where leaves are counted, too.
 const NUMBER_AND_LEAF: f32 = 190.0;
-/// The width of the list of rays, in points.
-const RAYS: f32 = 290.0;
+/// The greatest width of the list of rays, in points.
+const RAYS: f32 = 400.0;
+/// The lines of the sentence in a narrow pane.
+const LINES: f32 = 3.0;
 
-/// Shows the buttons; they are always there, so that nothing moves when a pixel is picked. `offers_details`
-/// where the details of the step are not beside the list.
-pub fn buttons(ui: &mut Ui, doc: &Document, edits: &mut Edits, offers_details: bool) {
-    let size = vec2(ui.available_width(), transport::HEIGHT);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
-        ui.set_min_size(size);
+/// Shows the buttons; they are always there, so that nothing moves when a pixel is picked. In a narrow pane
+/// the list of rays stands below the others, and the details of the step are a menu.
+pub fn buttons(ui: &mut Ui, doc: &Document, edits: &mut Edits, is_wide: bool) {
+    line(ui, transport::HEIGHT, |ui| {
         if let Some(action) = moves(doc).show(ui) {
             edits.request(Request::Run(action));
         }
         ui.spacing_mut().item_spacing.x = 8.0;
-        number(ui, doc);
-        rays(ui, doc, edits);
+        number(ui, doc, is_wide);
+        if is_wide {
+            rays(ui, doc, edits, RAYS);
+        }
         options(ui, doc, edits);
-        if offers_details {
+        if !is_wide {
             let button = MenuButton::new("Details").config(stays_open());
             button.ui(ui, |ui| {
                 ui.set_width(380.0);
                 details::show(ui, doc, 220.0);
             });
         }
+    });
+    if !is_wide {
+        line(ui, transport::HEIGHT, |ui| {
+            let width = ui.available_width().min(RAYS);
+            rays(ui, doc, edits, width);
+        });
+    }
+}
+
+/// Shows widgets beside each other in all of the width.
+fn line(ui: &mut Ui, height: f32, show: impl FnOnce(&mut Ui)) {
+    let size = vec2(ui.available_width(), height);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+        ui.set_min_size(size);
+        show(ui);
     });
 }
 
@@ -85,7 +102,7 @@ fn moves(doc: &Document) -> Transport {
 }
 
 /// The number of the step, in a place whose width does not depend on it.
-fn number(ui: &mut Ui, doc: &Document) {
+fn number(ui: &mut Ui, doc: &Document, is_wide: bool) {
     let picked = doc.current.as_ref().and_then(|c| c.picked.as_ref());
     let leaves_only = doc.walking.leaves_only;
     let all = picked.map_or(0, |p| p.path().steps.len());
@@ -94,27 +111,29 @@ fn number(ui: &mut Ui, doc: &Document) {
         Some(picked) if all > 0 && leaves_only => {
             let leaves = listed(picked.path(), true);
             let leaf = leaves.partition_point(|&i| i < step) + 1;
-            format!(
-                "{} of {all} (leaf {} of {})",
-                step + 1,
-                leaf.min(leaves.len()),
-                leaves.len()
-            )
+            let leaf = format!("leaf {} of {}", leaf.min(leaves.len()), leaves.len());
+            match is_wide {
+                true => format!("{} of {all} ({leaf})", step + 1),
+                false => leaf,
+            }
         }
         _ if all > 0 => format!("{} of {all}", step + 1),
         _ => "– of –".to_owned(),
     };
-    let width = if leaves_only { NUMBER_AND_LEAF } else { NUMBER };
+    let width = match leaves_only && is_wide {
+        true => NUMBER_AND_LEAF,
+        false => NUMBER,
+    };
     let label = Label::new(&text).truncate();
     ui.add_sized(vec2(width, ROW), label)
         .on_hover_text("The current step, and how many the ray has.");
 }
 
 /// A list of the pixel's rays, with their kind and outcome.
-fn rays(ui: &mut Ui, doc: &Document, edits: &mut Edits) {
+fn rays(ui: &mut Ui, doc: &Document, edits: &mut Edits, width: f32) {
     let current = doc.current.as_ref();
     let Some((current, picked)) = current.and_then(|c| Some((c, c.picked.as_ref()?))) else {
-        ui.add_sized(vec2(RAYS, ROW), Label::new("No ray"));
+        ui.add_sized(vec2(width, ROW), Label::new("No ray"));
         return;
     };
     let rays = &picked.record.rays;
@@ -129,7 +148,7 @@ fn rays(ui: &mut Ui, doc: &Document, edits: &mut Edits) {
         )
     };
     let list = egui::ComboBox::from_id_salt("rays")
-        .width(RAYS)
+        .width(width)
         .truncate()
         .selected_text(name(picked.ray))
         .show_ui(ui, |ui| {
@@ -184,30 +203,42 @@ fn options(ui: &mut Ui, doc: &Document, edits: &mut Edits) {
         .accessible_name("Options of the steps");
 }
 
-/// Shows the sentence about the current step, in one line.
-pub fn sentence(ui: &mut Ui, doc: &Document) {
-    let size = vec2(ui.available_width(), ROW);
-    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
-        ui.set_min_size(size);
-        let text = words(doc);
-        ui.add(Label::new(text.as_str()).truncate())
-            .on_hover_text(text);
-    });
+/// Shows the sentence about the current step: in one line, in a narrow pane in several.
+pub fn sentence(ui: &mut Ui, doc: &Document, is_wide: bool) {
+    let (short, whole) = words(doc);
+    let label = Label::new(short);
+    if is_wide {
+        line(ui, ROW, |ui| {
+            ui.add(label.truncate()).on_hover_text(whole);
+        });
+    } else {
+        let height = LINES * ui.text_style_height(&egui::TextStyle::Body) + 8.0;
+        let size = vec2(ui.available_width(), height);
+        ui.allocate_ui(size, |ui| {
+            ui.set_min_size(size);
+            ui.add_space(4.0);
+            ui.add(label.wrap()).on_hover_text(whole);
+        });
+    }
 }
 
-fn words(doc: &Document) -> String {
+/// The sentence about the current step, short and whole.
+fn words(doc: &Document) -> (String, String) {
+    let same = |text: String| (text.clone(), text);
     let Some(current) = &doc.current else {
-        return "No picture yet".to_owned();
+        return same("No picture yet".to_owned());
     };
     if let Some(wish) = current.wish {
         let [x, y] = wish.pixel;
-        return format!("Recording the rays of pixel {x}, {y} …");
+        return same(format!("Recording the rays of pixel {x}, {y} …"));
     }
-    match &current.picked {
-        None => "Pick a pixel in the picture to step through its rays.".to_owned(),
-        Some(picked) => match picked.current() {
-            Some(step) => step_text::step(&current.shown.scene, picked.step + 1, step),
-            None => "This ray misses the root cell: it visits no node.".to_owned(),
-        },
-    }
+    let Some(picked) = &current.picked else {
+        return same("Pick a pixel in the picture to step through its rays.".to_owned());
+    };
+    let Some(step) = picked.current() else {
+        return same("This ray misses the root cell: it visits no node.".to_owned());
+    };
+    let (scene, number) = (&current.shown.scene, picked.step + 1);
+    let short = step_text::short_step(scene, number, step);
+    (short, step_text::step(scene, number, step))
 }

@@ -45,14 +45,14 @@ impl Pane for RayPane {
         let doc = cx.doc;
         ui.spacing_mut().item_spacing.y = 0.0;
         let is_wide = ui.available_width() >= WIDE;
-        bar::buttons(ui, doc, cx.edits, !is_wide);
+        bar::buttons(ui, doc, cx.edits, is_wide);
         let picked = doc.current.as_ref().and_then(|c| c.picked.as_ref());
         let path = picked.map(|picked| picked.path());
         let step = picked.map_or(0, |picked| picked.step);
         if let Some(step) = strip::show(ui, path, step, doc.walking.leaves_only) {
             cx.edits.add(move |doc| steps::go_to(doc, step));
         }
-        bar::sentence(ui, doc);
+        bar::sentence(ui, doc, is_wide);
         let room = rest_of(ui);
         if !is_wide {
             steps::show(ui, doc, cx.edits, room.y);

@@ -41,6 +41,12 @@ const COLUMNS: &[Column] = &[
     },
 ];
 
+/// The column that a narrow list leaves out, by its place: the strip shows the same.
+const T_RANGE: usize = 3;
+
+/// Below this width, in points, a list is narrow.
+const NARROW: f32 = 500.0;
+
 /// Goes to a step of the ray.
 pub fn go_to(doc: &mut Document, step: usize) {
     if let Some(current) = &mut doc.current {
@@ -62,9 +68,14 @@ pub fn show(ui: &mut Ui, doc: &Document, edits: &mut Edits, height: f32) {
     let n = path.leaves().count();
     // Rows are a little lower or higher than elsewhere, so that all of the height is used.
     let lines = (height / ROW).round().max(2.0);
+    let mut columns = COLUMNS.to_vec();
+    let is_narrow = ui.available_width() < NARROW;
+    if is_narrow {
+        columns.remove(T_RANGE);
+    }
     let list = List {
         name: "steps",
-        columns: COLUMNS,
+        columns: &columns,
         rows: steps.len(),
         selected: steps.iter().position(|&i| i == picked.step),
         most: lines as usize - 1,
@@ -72,7 +83,13 @@ pub fn show(ui: &mut Ui, doc: &Document, edits: &mut Edits, height: f32) {
     };
     let clicked = list.show(
         ui,
-        |i| row(scene, steps[i], &path.steps[steps[i]]),
+        |i| {
+            let mut row = row(scene, steps[i], &path.steps[steps[i]]);
+            if is_narrow {
+                row.cells.remove(T_RANGE);
+            }
+            row
+        },
         |i, painter, rect, color| {
             let order = (orders[steps[i]], n);
             icon(painter, rect, &path.steps[steps[i]], order, color);

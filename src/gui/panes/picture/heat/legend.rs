@@ -16,6 +16,8 @@ const BAR: f32 = 12.0;
 const LINE: f32 = 20.0;
 /// From this width on, the line of a short legend has room for the terms.
 const WIDE: f32 = 900.0;
+/// From this width on, the last line of a full legend has room for units.
+const WITH_UNITS: f32 = 560.0;
 /// A mark's half width.
 const MARK: f32 = 5.0;
 
@@ -161,9 +163,15 @@ impl HeatView {
                 let mut area = ui.new_child(egui::UiBuilder::new().max_rect(rect));
                 area.add(egui::Label::new(hint(self.terms(look))).wrap());
                 scale(ui, look, size, hovered, picked);
-                let text = |pixel: Option<[u32; 2]>| {
-                    let none = || format!("– {}", look.heatmap().unit);
-                    pixel.map_or_else(none, |pixel| look.value_text(pixel))
+                // The unit stands above, too.
+                let is_wide = ui.available_width() >= WITH_UNITS;
+                let text = |pixel: Option<[u32; 2]>| match pixel {
+                    None if is_wide => format!("– {}", look.heatmap().unit),
+                    None => "–".to_owned(),
+                    Some(pixel) => match look.number_text(pixel) {
+                        Some(number) if !is_wide => number,
+                        _ => look.value_text(pixel),
+                    },
                 };
                 ui.horizontal(|ui| {
                     ui.spacing_mut().item_spacing.x = 4.0;
