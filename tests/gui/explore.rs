@@ -112,32 +112,6 @@ fn all_ten_figures_are_on_one_screen_or_a_click_away() {
 }
 
 #[test]
-fn nothing_moves_while_work_runs() {
-    for size in SIZES {
-        let mut start = small("balls:2");
-        (start.setup.render.width, start.setup.render.height) = (200, 200);
-        let mut window = open_sized(start, size, false);
-        finish(&mut window);
-        let rects = |window: &Window<'_>| {
-            let symbols = ["N_RPRT", "N_AT", "N_LS", "T_TR"];
-            let names = symbols.into_iter().chain(["Traced picture", "Show"]);
-            names
-                .map(|name| window.get_by_label(name).rect())
-                .collect::<Vec<_>>()
-        };
-        let before = rects(&window);
-        press(&mut window, Modifiers::COMMAND, Key::M);
-        let since = Instant::now();
-        while !is_finished(&window) {
-            assert_eq!(rects(&window), before);
-            window.run_steps(1);
-            assert!(since.elapsed() < PATIENCE);
-        }
-        assert_eq!(rects(&window), before);
-    }
-}
-
-#[test]
 fn a_click_on_a_pixel_leads_to_its_rays() {
     let mut window = open(small("balls:1"));
     finish(&mut window);

@@ -182,7 +182,7 @@ fn saving_again_asks_nothing_and_a_changed_scene_is_told() {
     wait(&mut window, "the reason", |w| {
         has(w, "its scene is not there")
     });
-    assert!(has(&window, "one-ball · midpoint · D_MAX 19"));
+    assert!(has(&window, "one-ball · midpoint · depth 19"));
 }
 
 #[test]

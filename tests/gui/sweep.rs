@@ -114,7 +114,11 @@ fn a_sweep_has_the_rows_of_the_command_line_as_curves_and_as_a_map() {
     let answers = answers(&rows, parameter("T_TR"));
     assert_eq!(answers.len(), 2);
     for answer in answers {
-        assert!(has(&window, &answer.sentence(parameter("T_TR"))));
+        let sentence = answer.sentence(parameter("T_TR"));
+        let sentence = sentence
+            .replace("D_MAX", "depth")
+            .replace("N_OILF", "leaf size");
+        assert!(has(&window, &sentence), "{sentence}");
         let best = format!("Load {}, depth ", answer.best.key.method);
         let marked = cells(&window);
         let marked: Vec<_> = marked

@@ -66,7 +66,7 @@ fn masked(window: &mut Window<'_>) -> SnapshotOptions {
 fn opens_a_small_scene_and_finishes() {
     let mut window = open(small("balls:1"));
     finish(&mut window);
-    assert!(has(&window, "balls:1 · midpoint · D_MAX 20 · N_OILF 1"));
+    assert!(has(&window, "balls:1 · midpoint · depth 20 · leaf size 1"));
     open_pane(&mut window, "Scene");
     assert!(has(&window, "spheres: 10"));
     for symbol in bspscope::measure::DELTA {
@@ -148,11 +148,11 @@ fn depth_and_leaf_size_follow_their_keys() {
     for _ in 0..14 {
         press(&mut window, egui::Modifiers::COMMAND, egui::Key::ArrowDown);
     }
-    wait(&mut window, "D_MAX 6", |w| has(w, "· D_MAX 6 ·"));
+    wait(&mut window, "depth 6", |w| has(w, "· depth 6 ·"));
     finish(&mut window);
     assert_ne!(figure(&window, "Leaves"), before);
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::ArrowRight);
-    wait(&mut window, "N_OILF 2", |w| has(w, "· N_OILF 2 ·"));
+    wait(&mut window, "leaf size 2", |w| has(w, "· leaf size 2 ·"));
     window.get_by_label("Auto").click();
     wait(&mut window, "automatic", |w| has(w, "(automatic)"));
     finish(&mut window);

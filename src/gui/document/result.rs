@@ -138,7 +138,7 @@ impl Current {
             ..
         } = &self.shown;
         let mut text = format!(
-            "{} · {} · D_MAX {} · N_OILF {} · D_AREC {} · {} × {} pixels",
+            "{} · {} · depth {} · leaf size {} · bounces {} · {} × {} pixels",
             scene.name(),
             m.build.method.name,
             m.depth_in_words(),

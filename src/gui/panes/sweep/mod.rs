@@ -74,7 +74,8 @@ impl Pane for SweepPane {
         };
         let best = answers(&found.rows, self.shown);
         for answer in &best {
-            ui.add(egui::Label::new(answer.sentence(self.shown)).wrap());
+            let sentence = shown::in_words(&answer.sentence(self.shown));
+            ui.add(egui::Label::new(sentence).wrap());
         }
         let best: Vec<&Row> = best.iter().map(|answer| answer.best).collect();
         let size = crate::gui::widgets::common::rest_of(ui);

@@ -1,6 +1,6 @@
 //! A parameter against the depth, one curve per method and leaf size.
 
-use super::shown::Shown;
+use super::shown::{Shown, in_words};
 use crate::gui::widgets::linear_axis::Marks;
 use crate::gui::widgets::log_axis;
 use crate::present::chart::{Curve, curves, is_wide};
@@ -52,7 +52,7 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
         ui.spacing_mut().item_spacing.x = 4.0;
         for curve in &curves {
             sign(ui, curve);
-            ui.label(egui::RichText::new(&curve.name).small());
+            ui.label(egui::RichText::new(in_words(&curve.name)).small());
         }
         ui.label(egui::RichText::new("ring: least of a method").small());
     });
@@ -77,7 +77,7 @@ pub fn show(ui: &mut egui::Ui, shown: &Shown<'_>) -> Option<usize> {
         axis = axis.formatter(|mark, _| log_axis::number(mark.value));
     }
     // Depths have two digits at most: numbers need less room than is usual.
-    let depth_axis = AxisHints::new_x().label("depth (D_MAX)");
+    let depth_axis = AxisHints::new_x().label("depth");
     let depth_axis = depth_axis.label_spacing(16.0..=24.0);
     let ink = ui.visuals().text_color();
     let rule = shown.rule().map(f64::from);

@@ -37,3 +37,20 @@ impl Shown<'_> {
         )
     }
 }
+
+/// Returns a text with the words that the window has for the paper's symbols.
+pub fn in_words(text: &str) -> String {
+    text.replace("D_MAX", "depth")
+        .replace("N_OILF", "leaf size")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_stand_for_symbols() {
+        let text = in_words("least T_TR at D_MAX 12, N_OILF 4");
+        assert_eq!(text, "least T_TR at depth 12, leaf size 4");
+    }
+}
