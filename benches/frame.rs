@@ -56,8 +56,11 @@ fn main() {
     println!("rings, 153,456 leaves, all shown; {FRAMES} frames each; goal 8 ms");
 
     report("nothing changes", &frames(&mut window, |_, _| ()));
+    report("the camera moves", &camera(&mut window));
+    report("the build is scrubbed", &scrubbing(&mut window));
 
-    // A click leads to the task Ray, where the picture has another place.
+    println!("in the task Ray: the leaves that the ray visits");
+    // A click leads there; the picture has another place.
     window.get_by_label("Traced picture").click();
     window.run_steps(60);
     let picture = window.get_by_label("Traced picture").rect().center();
@@ -77,36 +80,44 @@ fn main() {
         }),
     );
 
+    report("the camera moves", &camera(&mut window));
+}
+
+/// Orbits in the 3D view.
+fn camera(window: &mut Harness<'_, App>) -> Vec<Spent> {
     let view = window.get_by_label("3D view of scene and tree").rect();
     window.drag_at(view.center());
     window.run_steps(2);
-    report(
-        "the camera moves",
-        &frames(&mut window, |window, i| {
-            let angle = i as f32 * 0.1;
-            let at = view.center() + 80.0 * egui::vec2(angle.cos(), angle.sin());
-            let events = &mut window.input_mut().events;
-            events.push(egui::Event::PointerMoved(at));
-        }),
-    );
+    let spent = frames(window, |window, i| {
+        let angle = i as f32 * 0.1;
+        let at = view.center() + 80.0 * egui::vec2(angle.cos(), angle.sin());
+        let events = &mut window.input_mut().events;
+        events.push(egui::Event::PointerMoved(at));
+    });
     window.drop_at(view.center());
     window.run_steps(2);
+    spent
+}
 
+/// Drags the moment of the build, near the finished tree, where there is most to make.
+fn scrubbing(window: &mut Harness<'_, App>) -> Vec<Spent> {
     window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::G);
     window.run_steps(6);
-    // Near the finished tree, where there is most to make.
     let moments = window
         .get_by_role_and_label(egui::accesskit::Role::Slider, "Moment of the build")
         .rect();
     window.drag_at(moments.right_center());
     window.run_steps(2);
-    report(
-        "the build is scrubbed",
-        &frames(&mut window, |window, i| {
-            let back = (i % 50) as f32;
-            window.hover_at(moments.right_center() - egui::vec2(back, 0.0));
-        }),
-    );
+    let spent = frames(window, |window, i| {
+        let back = (i % 50) as f32;
+        window.hover_at(moments.right_center() - egui::vec2(back, 0.0));
+    });
+    window.drop_at(moments.right_center());
+    window.run_steps(2);
+    // Back to the finished tree.
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::G);
+    window.run_steps(6);
+    spent
 }
 
 /// The window thread's time of a frame.

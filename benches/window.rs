@@ -17,17 +17,23 @@ use x11rb::protocol::xproto::{ConnectionExt, ImageFormat};
 const ROUNDS: usize = 5;
 
 fn main() {
-    startup();
-    println!("rings with 46,201 objects, 512 × 512 pixels, D_AREC 4; {ROUNDS} rounds each");
     changes();
+    println!("rings with 46,201 objects, 512 × 512 pixels, D_AREC 4; {ROUNDS} rounds each");
     stops();
+    startup();
     idle();
 }
 
-fn first_request() -> Setup {
+/// The scenes of [`changes`], with the goal for the first coarse picture.
+const SCENES: [(&str, Duration); 2] = [
+    ("balls", Duration::from_millis(100)),
+    ("rings", Duration::from_millis(150)),
+];
+
+fn first_request(scene: &str) -> Setup {
     let scene = SceneRequest {
         cylinders: Cylinders::Polygons(10),
-        ..SceneRequest::parse("rings")
+        ..SceneRequest::parse(scene)
     };
     let loaded = load(&scene, &Progress::new()).expect("the generator works");
     Setup {
@@ -67,12 +73,16 @@ impl Pictures {
 
     /// Waits until an update of this request is `wanted`, or until it is done if none is. Returns the
     /// time when it arrived.
-    fn until(&self, job: &Handle<RenderPicture>, wanted: impl Fn(&Update) -> bool) -> Instant {
+    fn until(
+        &self,
+        job: &Handle<RenderPicture>,
+        mut wanted: impl FnMut(&Update) -> bool,
+    ) -> Instant {
         loop {
             let _ = self.woken.recv_timeout(Duration::from_millis(50));
             let now = Instant::now();
             let news = job.receive();
-            if news.partials.iter().any(&wanted) {
+            if news.partials.iter().any(&mut wanted) {
                 return now;
             }
             match news.end {
@@ -88,10 +98,25 @@ impl Pictures {
     }
 }
 
-/// From each change to the first picture and to complete figures.
+/// From each change to the first picture and to complete figures, as a table. The first picture of a
+/// change of method, D_MAX or N_OILF waits for the whole tree; until then, the window keeps the old
+/// picture, which has the same pixels.
 fn changes() {
+    println!(
+        "{:5}  {:11}  {:6}  {:>9} {:>9} {:>9} {:>9}  {:>9}",
+        "scene", "pixels", "change", "tree", "first", "worst", "goal", "complete"
+    );
+    for (scene, goal) in SCENES {
+        for size in [[512, 512], [1600, 1000]] {
+            changes_of(scene, size, goal);
+        }
+    }
+}
+
+fn changes_of(scene: &str, [width, height]: [u32; 2], goal: Duration) {
     let pictures = Pictures::new();
-    let mut wanted = first_request();
+    let mut wanted = first_request(scene);
+    (wanted.render.width, wanted.render.height) = (width, height);
     pictures.until_done(&pictures.request(wanted.clone()));
     type Change = fn(&mut Setup, usize);
     let kinds: [(&str, Change); 4] = [
@@ -113,18 +138,39 @@ fn changes() {
         }),
     ];
     for (name, change) in kinds {
-        let (mut first, mut full) = (Vec::new(), Vec::new());
+        let is_small = wanted.render.width * wanted.render.height < 1 << 20;
+        let (mut tree, mut first, mut full) = (Vec::new(), Vec::new(), Vec::new());
         for round in 0..ROUNDS {
             change(&mut wanted, round);
             let begun = Instant::now();
             let job = pictures.request(wanted.clone());
-            let shown = pictures.until(&job, |u| matches!(u, Update::Shown(_)));
+            let previews = |u: &Update| matches!(u, Update::Stage(Stage::Previewing));
+            let is_shown = |u: &Update| matches!(u, Update::Shown(_));
+            // Both can arrive at once.
+            let mut built = None;
+            let shown = pictures.until(&job, |update| {
+                if previews(update) {
+                    built = Some(Instant::now());
+                }
+                is_shown(update)
+            });
+            tree.push(built.unwrap_or(shown) - begun);
             first.push(shown - begun);
-            full.push(pictures.until_done(&job) - begun);
+            // A large picture takes too long to wait for; the next request cancels it.
+            let done = is_small.then(|| pictures.until_done(&job));
+            full.push(done.unwrap_or(begun) - begun);
         }
-        println!("change of {name}");
-        report("to the first coarse picture", first);
-        report("to the full pass and all counts", full);
+        for times in [&mut tree, &mut first, &mut full] {
+            times.sort_unstable();
+        }
+        let ms = |time: Duration| format!("{:.1} ms", time.as_secs_f64() * 1e3);
+        let [tree, of_first, full] = [&tree, &first, &full].map(|times| ms(times[ROUNDS / 2]));
+        let full = if is_small { full } else { "–".to_owned() };
+        let (worst, goal) = (ms(first[ROUNDS - 1]), ms(goal));
+        let size = format!("{width} × {height}");
+        println!(
+            "{scene:5}  {size:11}  {name:6}  {tree:>9} {of_first:>9} {worst:>9} {goal:>9}  {full:>9}"
+        );
     }
 }
 
@@ -132,7 +178,7 @@ fn changes() {
 /// loaded.
 fn stops() {
     let pictures = Pictures::new();
-    let first = first_request();
+    let first = first_request("rings");
     for (name, stage) in [
         ("building", Stage::Building),
         ("rendering", Stage::Rendering),

@@ -15,13 +15,26 @@ use crate::scene::Scene;
 use crate::setup::Setup;
 use crate::structure::Tree;
 use crate::trace::{
-    Picture, RenderError, RenderSettings, Tile, TimedRender, preview, render_timed,
+    Picture, RenderError, RenderSettings, TILE, Tile, TimedRender, preview, render_timed,
 };
 use rayon::ThreadPool;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Edge, in pixels, of the squares of the coarse first picture.
-const PREVIEW_STEP: u32 = 8;
+/// The least edge, in pixels, of the squares of the coarse first picture.
+const LEAST_STEP: u32 = 8;
+
+/// The most squares of the coarse first picture, which is to be there at once.
+const MOST_SQUARES: u32 = 6400;
+
+/// Returns the edge of the squares of the coarse first picture: a divisor of a tile's edge.
+fn preview_step(width: u32, height: u32) -> u32 {
+    let squares = |step: u32| u64::from(width.div_ceil(step)) * u64::from(height.div_ceil(step));
+    let mut step = LEAST_STEP;
+    while step < TILE && squares(step) > u64::from(MOST_SQUARES) {
+        step *= 2;
+    }
+    step
+}
 
 /// Answers a setup. Redoes only what its settings affect, compared with the setups in the cache: a
 /// camera move builds no tree, a new `D_MAX` loads no scene, and after a change of the kernel only the
@@ -252,7 +265,8 @@ impl Answer<'_> {
         self.context.unit(|progress| {
             let picture = Mutex::new(Picture::new(render.width, render.height));
             let add = |tile: &Tile, colors: &[Vec3]| lock(&picture).add_tile(tile, 0, colors);
-            preview(scene, tree, render, PREVIEW_STEP, &self.pool, progress, add)?;
+            let step = preview_step(render.width, render.height);
+            preview(scene, tree, render, step, &self.pool, progress, add)?;
             let picture = picture.into_inner();
             Ok::<_, JobError>(picture.unwrap_or_else(PoisonError::into_inner))
         })
@@ -296,4 +310,24 @@ impl Answer<'_> {
 
 fn lock(picture: &Mutex<Picture>) -> MutexGuard<'_, Picture> {
     picture.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_picture_of_a_large_picture_is_coarser() {
+        for (width, height, step) in [
+            (48, 48, 8),
+            (512, 512, 8),
+            (1024, 768, 16),
+            (1600, 1000, 16),
+            (3840, 2160, 32),
+            (16_384, 16_384, 32),
+        ] {
+            assert_eq!(preview_step(width, height), step, "{width} × {height}");
+            assert_eq!(TILE % step, 0);
+        }
+    }
 }
