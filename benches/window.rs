@@ -229,8 +229,9 @@ fn display(number: u32) -> Option<Running> {
 /// From starting the program to the first frame of its window, and to the first picture of balls in it,
 /// as they are seen on the screen; every time with an empty settings folder.
 fn startup() {
-    /// Where the picture lies at first, in pixels of the screen: corner and size.
-    const PICTURE: [i16; 4] = [400, 280, 60, 60];
+    /// A part of the picture that the card of the first start leaves free, in pixels of the screen: corner and
+    /// size.
+    const PICTURE: [i16; 4] = [180, 430, 60, 60];
     /// A piece of the bar at the top.
     const BAR: [i16; 4] = [0, 0, 300, 20];
     let Some(_server) = display(88) else {
