@@ -245,7 +245,8 @@ impl Side {
         let root = discriminant.sqrt();
         let q = -(b + root.copysign(b));
         let eq = eb + spread / root + 4.0 * U * q.abs();
-        if !(q.abs() > 2.0 * eq) {
+        let is_far_from_zero = q.abs() > 2.0 * eq;
+        if !is_far_from_zero {
             return [Estimate::UNSURE; 2];
         }
         let (s0, s1) = (q / a, c / q);

@@ -186,7 +186,8 @@ pub(super) fn sphere(center: Vec3, radius: f64, ray: &Ray) -> [Estimate; 2] {
     let discriminant = squared_radius - offset;
     let wide = radius + 2.0 * delta;
     let spread = (2.0 * wide + delta) * delta + 8.0 * U * wide * wide;
-    if !(discriminant > 2.0 * spread) {
+    let is_positive = discriminant > 2.0 * spread;
+    if !is_positive {
         return [Estimate::UNSURE; 2];
     }
     let root = (a * discriminant).sqrt();
@@ -200,6 +201,107 @@ pub(super) fn sphere(center: Vec3, radius: f64, ray: &Ray) -> [Estimate; 2] {
     let e1 = eq / a + 8.0 * U * t1.abs() + UNDERFLOW;
     let [t0, t1] = [Estimate::new(t0, e0), Estimate::new(t1, e1)];
     if t0.t < t1.t { [t0, t1] } else { [t1, t0] }
+}
+
+/// An edge that crosses the first axis, with bounds on the errors of where.
+#[derive(Clone, Copy)]
+struct EdgeCrossing {
+    x: f64,
+    x_error: f64,
+    t: f64,
+    t_error: f64,
+}
+
+/// Returns where a ray's line crosses the area within an outline, outline included, as
+/// [`Surface::Outline`] defines it.
+///
+/// A sheared coordinate has an error of at most `e` = u r, an edge function one of at most `bound`
+/// ([`triangle`]). An edge crosses the first axis at edge function / rise; the rise has an
+/// error of 2 e, and so the place one of 2 (`bound` + 2 e |place|) / rise as long as that is small. The
+/// distance there is interpolated between those of the vertices, with an error of 2 e / rise of their
+/// difference; likewise that between both ends of the chord.
+#[inline(always)]
+pub(super) fn outline(vertices: impl Iterator<Item = Vec3> + Clone, ray: &Ray) -> Estimate {
+    let Some(shear) = Shear::of(ray.direction) else {
+        return Estimate::UNSURE;
+    };
+    let relative = vertices.map(|v| shear.rotate(v - ray.origin));
+    let Some(last) = relative.clone().last() else {
+        return Estimate::MISS;
+    };
+    let (mut from, mut a) = (last, shear.apply_rotated(last));
+    let (mut left, mut right): (Option<EdgeCrossing>, Option<EdgeCrossing>) = (None, None);
+    let (mut inside, mut is_ambiguous) = (false, false);
+    let (mut area, mut area_error, mut largest) = (0.0, 0.0, 0.0_f64);
+    for to in relative {
+        let b = shear.apply_rotated(to);
+        let size = a.x.abs().max(a.y.abs()).max(b.x.abs()).max(b.y.abs());
+        let r = 8.0 * from.z.abs().max(to.z.abs()) + 2.0 * size + UNDERFLOW;
+        let e = U * r;
+        let bound = 7.0 * e * (size + 2.0 * e) + UNDERFLOW;
+        let cross = a.x * b.y - a.y * b.x;
+        area += cross;
+        area_error += 2.0 * bound;
+        largest = largest.max(b.z.abs());
+        let is_near = a.y.abs() <= 2.0 * e || b.y.abs() <= 2.0 * e;
+        let is_straddling = (a.y > 0.0) != (b.y > 0.0);
+        let has_side = cross.abs() > 4.0 * bound;
+        if (is_near || is_straddling) && !has_side {
+            return Estimate::UNSURE;
+        }
+        if is_straddling {
+            let rise = b.y - a.y;
+            let is_steep = rise.abs() > 8.0 * e;
+            if !is_steep {
+                return Estimate::UNSURE;
+            }
+            let x = cross / rise;
+            let share = 4.0 * e / rise.abs();
+            let depth = (b.z - a.z).abs() + 8.0 * U * (a.z.abs() + b.z.abs());
+            let crossing = EdgeCrossing {
+                x,
+                x_error: 2.0 * bound / rise.abs() + share * x.abs() + 4.0 * U * x.abs(),
+                t: (a.z * b.y - a.y * b.z) / rise,
+                t_error: 2.0 * share * depth + 16.0 * U * (a.z.abs() + b.z.abs()),
+            };
+            let nearest = if x > 0.0 {
+                inside = !inside;
+                &mut right
+            } else {
+                &mut left
+            };
+            match nearest {
+                Some(other) => {
+                    let are_apart = (other.x - x).abs() > other.x_error + crossing.x_error;
+                    is_ambiguous |= !are_apart;
+                    if x.abs() < other.x.abs() {
+                        *other = crossing;
+                    }
+                }
+                None => *nearest = Some(crossing),
+            }
+        }
+        (from, a) = (to, b);
+    }
+    match (inside, left, right) {
+        (false, ..) => Estimate::MISS,
+        (true, Some(left), Some(right)) if !is_ambiguous => {
+            let chord = right.x - left.x;
+            let error = left.x_error + right.x_error;
+            if !(area.abs() > area_error && chord > 4.0 * error) {
+                return Estimate::UNSURE;
+            }
+            let t = (left.t * right.x - right.t * left.x) / chord;
+            let t_error = left.t_error.max(right.t_error);
+            let depth = (right.t - left.t).abs() + 2.0 * t_error;
+            let rounding = 16.0 * U * (left.t.abs() + right.t.abs() + largest);
+            Estimate::new(
+                t,
+                2.0 * (t_error + depth * error / chord) + rounding + UNDERFLOW,
+            )
+        }
+        _ => Estimate::UNSURE,
+    }
 }
 
 impl Surface<'_> {

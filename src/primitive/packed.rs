@@ -15,7 +15,6 @@
 use super::estimate::{self, Estimate};
 use super::exact::{ConeEnds, Known, Root, Surface};
 use super::numeric::Shear;
-use super::polygon::estimate_outline;
 use super::{
     Cone, PackedRay, Polygon, Precision, Primitive, Shape, Sphere, Triangle, UnitFrame, cone,
 };
@@ -334,7 +333,7 @@ impl Form for PackedPolygon {
 
     #[inline(always)]
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        let estimate = estimate_outline(self.vertices.iter().map(|v| v.as_dvec3()), ray);
+        let estimate = estimate::outline(self.vertices.iter().map(|v| v.as_dvec3()), ray);
         Estimate::settle([estimate], [ray.t_min, ray.t_max], t_max, |known| {
             Surface::Outline(&self.wide_vertices()).intersect(known, ray, Precision::F32)
         })

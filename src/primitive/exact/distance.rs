@@ -23,6 +23,9 @@ struct Surd<N> {
     product: N,
 }
 
+/// Where a line crosses a surface, in ascending order.
+pub(super) type Crossings<N> = [Option<Distance<N>>; 2];
+
 /// Returns how `a ± √radicand` compares with 0, where `side` is the sign of the square root.
 #[inline(always)]
 fn sign_with_surd<N: Number>(a: &N, side: Ordering, radicand: &N) -> Result<Ordering, Unsure> {
@@ -60,7 +63,7 @@ impl<N: Number> Distance<N> {
     /// Returns the roots of `a t² − 2 b t + c` in ascending order. There is none if the equation holds
     /// everywhere.
     #[inline(always)]
-    pub(super) fn roots(a: N, b: N, c: N) -> Result<[Option<Self>; 2], Unsure> {
+    pub(super) fn roots(a: N, b: N, c: N) -> Result<Crossings<N>, Unsure> {
         let (a, b, c) = match a.sign()? {
             Ordering::Less => (-a, -b, -c),
             Ordering::Equal => return Ok([Distance::fraction(c, b.clone() + b)?, None]),

@@ -26,7 +26,7 @@ pub use root::Root;
 
 use super::Precision;
 use crate::geometry::{Ray, Vec3};
-use distance::{Distance, Round};
+use distance::{Crossings, Distance, Round};
 use double_word::DoubleWord;
 use number::{Number, Rational};
 use std::cmp::Ordering;
@@ -64,9 +64,6 @@ pub enum Stage {
     /// Without rounding.
     Fractions,
 }
-
-/// Where a line crosses a surface, in ascending order.
-type Crossings<N> = [Option<Distance<N>>; 2];
 
 impl Surface<'_> {
     /// Returns where the ray's line crosses the surface, in ascending order.

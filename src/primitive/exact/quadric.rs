@@ -1,6 +1,6 @@
 //! Spheres, cylinders and cones: roots of quadratic equations.
 
-use super::distance::Distance;
+use super::distance::{Crossings, Distance};
 use super::number::{Number, Unsure};
 use super::vector::{Vector, squared_length};
 use crate::geometry::{Ray, Vec3};
@@ -17,7 +17,7 @@ pub(super) fn sphere<N: Number>(
     center: Vec3,
     radius: f64,
     ray: &Ray,
-) -> Result<[Option<Distance<N>>; 2], Unsure> {
+) -> Result<Crossings<N>, Unsure> {
     let to_center = Vector::<N>::difference(center, ray.origin);
     let b = to_center.dot_with(ray.direction);
     let c = to_center.dot(&to_center) - N::of(radius).times(radius);
@@ -63,7 +63,7 @@ impl<N: Number> Height<N> {
 pub(super) fn cone<N: Number>(
     ends: &ConeEnds,
     ray: &Ray,
-) -> Result<([Option<Distance<N>>; 2], Height<N>), Unsure> {
+) -> Result<(Crossings<N>, Height<N>), Unsure> {
     let axis = Vector::<N>::difference(ends.apex, ends.base);
     let from_base = Vector::difference(ray.origin, ends.base);
     let squared_axis = axis.dot(&axis);
