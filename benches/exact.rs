@@ -75,7 +75,7 @@ fn times(
     objects: &[Primitive],
     rays: &[Ray],
     tests: &[Test],
-    ways: [&dyn Fn(&Primitive, &Ray, Option<f64>) -> bool; 2],
+    ways: [fn(&Primitive, &Ray, Option<f64>) -> bool; 2],
 ) -> [f64; 2] {
     let mut all = [Vec::new(), Vec::new()];
     for _ in 0..ROUNDS {
@@ -144,10 +144,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 rays,
                 &tests,
                 [
-                    &|object, ray, limit| {
+                    |object, ray, limit| {
                         plain::intersect(object, ray, limit.unwrap_or(ray.t_max)).is_some()
                     },
-                    &|object, ray, limit| match limit {
+                    |object, ray, limit| match limit {
                         Some(limit) => object.intersect(ray, limit).is_some(),
                         None => object.is_hit(ray),
                     },

@@ -284,7 +284,7 @@ impl Probe for Visited {
     fn leaf(&mut self, node: u32, _: &[u32], within: [f64; 2]) {
         self.0.push((node, within));
     }
-    fn test(&mut self, _: u32, _: Option<f64>) {}
+    fn test(&mut self, _: u32, _: impl FnOnce() -> Option<f64>) {}
 }
 
 #[test]
