@@ -5,7 +5,7 @@ use bspscope::jobs::{Cache, End, Handle, RenderPicture, Scheduler, Stage, Update
 use bspscope::progress::Progress;
 use bspscope::scene::{CameraOverride, Cylinders, SceneRequest, load};
 use bspscope::setup::Setup;
-use bspscope::structure::{BuildSettings, MaxDepth, Method};
+use bspscope::structure::{BuildSettings, MaxDepth, Method, RootMargin};
 use bspscope::trace::RenderSettings;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
@@ -124,7 +124,7 @@ fn changes_of(scene: &str, [width, height]: [u32; 2], goal: Duration) {
             let methods = Method::of_the_paper();
             request.build = BuildSettings::for_method(methods[(round + 1) % 2]);
             // Not a tree that is at hand.
-            request.build.root_margin = 0.001 + round as f64 * 1e-6;
+            request.build.root_margin = RootMargin::Length(0.001 + round as f64 * 1e-6);
         }),
         ("D_MAX", |request, round| {
             request.build.d_max = MaxDepth::Fixed(12 + round as u32 % 8);

@@ -335,7 +335,7 @@ fn value_name(setting: &Setting) -> &'static str {
     match setting.kind {
         Kind::Number(range) if !range.unit.is_empty() => "N",
         Kind::Number(range) if range.whole => "N",
-        Kind::Depth | Kind::Switch => "N",
+        Kind::Depth | Kind::Switch | Kind::Automatic(_) => "N",
         Kind::Number(_) => "X",
         Kind::Angle(_) => "DEGREES",
         Kind::Point => "X,Y,Z",

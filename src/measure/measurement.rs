@@ -73,6 +73,8 @@ pub struct Measurement {
     pub precision: ChosenPrecision,
     /// Bytes of the objects in the layout that intersection tests use in this precision.
     pub object_bytes: u64,
+    /// The resolved root margin, a length.
+    pub root_margin: f64,
     /// The resolved maximum depth.
     pub depth_limit: u32,
     pub scene: SceneFacts,
@@ -100,6 +102,7 @@ impl Measurement {
             camera: render.camera.resolve(scene.camera()),
             object_bytes: scene.shapes(precision.precision).bytes() as u64,
             precision,
+            root_margin: tree.root_margin(),
             depth_limit: tree.depth_limit(),
             scene: SceneFacts::of(scene),
             tree: TreeFacts::of(tree),

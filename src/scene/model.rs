@@ -15,6 +15,7 @@ pub struct Scene {
     parts: SceneParts,
     bounds: Aabb,
     requirements: Requirements,
+    published_margin: Option<f64>,
     prepared: Prepared,
 }
 
@@ -36,10 +37,12 @@ impl Scene {
             .iter()
             .fold(Aabb::EMPTY, |b, object| b.union(&object.bounds()));
         let requirements = Requirements::of(&parts);
+        let published_margin = parts.notes.iter().find_map(Note::root_margin);
         Scene {
             parts,
             bounds,
             requirements,
+            published_margin,
             prepared: Prepared::default(),
         }
     }
@@ -73,6 +76,12 @@ impl Scene {
     /// Returns the tight bounding box of all objects; empty if there are none.
     pub fn bounds(&self) -> Aabb {
         self.bounds
+    }
+
+    /// Returns how far the root cell extends beyond the bounds in the scene's publication, in the
+    /// scene's units of length ([`Note::of_root_margin`]); `None` without such a note.
+    pub fn published_margin(&self) -> Option<f64> {
+        self.published_margin
     }
 
     /// Returns which features rendering this scene requires.

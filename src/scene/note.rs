@@ -40,6 +40,9 @@ impl NoteKind {
     }
 }
 
+/// The start of a note on the root margin.
+const ROOT_MARGIN: &str = "root margin ";
+
 /// One entry of the load report.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Note {
@@ -51,6 +54,25 @@ impl Note {
     pub fn new(kind: NoteKind, text: impl Into<String>) -> Self {
         let text = text.into();
         Note { kind, text }
+    }
+
+    /// Returns the note of a scene whose published figures hold for root cells that extend by `margin`
+    /// beyond the bounds, in the scene's units of length. `source` is the publication. NFF files keep
+    /// the note, so that a scene has the same trees wherever it is loaded from.
+    pub fn of_root_margin(margin: f64, source: &str) -> Self {
+        Note::new(
+            NoteKind::Remark,
+            format!("{ROOT_MARGIN}{margin} (published: {source})"),
+        )
+    }
+
+    /// Returns the margin of a note that [`Note::of_root_margin`] created.
+    pub fn root_margin(&self) -> Option<f64> {
+        let rest = self.text.strip_prefix(ROOT_MARGIN)?;
+        let (number, _) = rest.split_once(" (published: ")?;
+        let margin: f64 = number.parse().ok()?;
+        let is_margin = self.kind == NoteKind::Remark && margin >= 0.0 && margin.is_finite();
+        is_margin.then_some(margin)
     }
 }
 

@@ -78,6 +78,8 @@ pub enum Kind {
     /// A number, or the scene's own.
     Angle(Range),
     Depth,
+    /// A number, or one that follows from the scene.
+    Automatic(Range),
     Cylinders,
 }
 
@@ -113,7 +115,12 @@ pub enum Value {
     Cylinders(Cylinders),
     /// The value of the scene.
     Own,
+    /// The value that follows from the scene.
+    Automatic,
 }
+
+/// The text for [`Value::Automatic`].
+const AUTOMATIC: &str = "auto";
 
 /// The text for [`Value::Own`].
 const OWN: &str = "scene";
@@ -236,7 +243,8 @@ impl Setting {
             }),
             Kind::Point | Kind::Angle(_) if text == OWN => Some(Value::Own),
             Kind::Point => point(text).map(Value::Point),
-            Kind::Angle(_) => text.parse().ok().map(Value::Number),
+            Kind::Automatic(_) if text == AUTOMATIC => Some(Value::Automatic),
+            Kind::Angle(_) | Kind::Automatic(_) => text.parse().ok().map(Value::Number),
             Kind::Depth => return Ok(Value::Depth(text.parse()?)),
             Kind::Cylinders => return Ok(Value::Cylinders(text.parse()?)),
         };
@@ -249,9 +257,10 @@ impl Setting {
     /// What was expected.
     pub fn check(&self, value: Value) -> Result<Value, String> {
         let is_allowed = match (self.kind, value) {
-            (Kind::Number(range) | Kind::Angle(range), Value::Number(number)) => {
-                range.contains(number)
-            }
+            (
+                Kind::Number(range) | Kind::Angle(range) | Kind::Automatic(range),
+                Value::Number(number),
+            ) => range.contains(number),
             (Kind::Size, Value::Size(sides)) => !sides.contains(&0),
             (Kind::Point, Value::Point(point)) => point.is_finite(),
             _ => true,
@@ -275,7 +284,8 @@ impl Setting {
             Kind::Size => "a width and a height of at least 1 pixel, such as 512x512".into(),
             Kind::Point => format!("three numbers, such as 0,-4,1.5, or '{OWN}'"),
             Kind::Angle(range) => format!("{} or '{OWN}'", range.in_words()),
-            Kind::Depth => format!("a depth from 0 to {} or 'auto'", MaxDepth::LIMIT),
+            Kind::Depth => format!("a depth from 0 to {} or '{AUTOMATIC}'", MaxDepth::LIMIT),
+            Kind::Automatic(range) => format!("{} or '{AUTOMATIC}'", range.in_words()),
             Kind::Cylinders => "'exact' or 'polygons:N'".into(),
         }
     }
@@ -336,6 +346,7 @@ impl Setting {
             Kind::Depth => [MaxDepth::Fixed(7), MaxDepth::Automatic]
                 .map(Value::Depth)
                 .to_vec(),
+            Kind::Automatic(range) => vec![Value::Number(range.lowest + 0.3), Value::Automatic],
             Kind::Cylinders => vec![Value::Cylinders(Cylinders::Polygons(10))],
         }
     }
@@ -417,6 +428,7 @@ impl std::fmt::Display for Value {
             Value::Depth(depth) => write!(f, "{depth}"),
             Value::Cylinders(cylinders) => write!(f, "{cylinders}"),
             Value::Own => f.write_str(OWN),
+            Value::Automatic => f.write_str(AUTOMATIC),
         }
     }
 }

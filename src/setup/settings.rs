@@ -4,7 +4,7 @@ use super::choices::{axes, kernels, methods, overlaps, precisions, samplings};
 use super::setting::{Affects, Group, Kind, Range, Setting, Value};
 use crate::geometry::{Axis, Vec3};
 use crate::scene::Sampling;
-use crate::structure::{Method, OverlapRule};
+use crate::structure::{Method, OverlapRule, RootMargin};
 use crate::trace::{KernelChoice, PrecisionChoice};
 
 /// All settings but the constants of build methods, in the order in which people see them. The
@@ -77,11 +77,25 @@ pub static SETTINGS: &[Setting] = &[
         label: "Root margin",
         group: Group::Structure,
         about: "How far the root cell extends beyond the scene's bounds on every side, in the \
-                scene's units of length",
-        kind: real(0.0, f64::MAX, "units"),
+                scene's units of length; 'auto' for 0.001 of half the longest edge of the bounds, \
+                or the scene's published margin: 0.001 units for balls, rings and tetra",
+        kind: Kind::Automatic(Range {
+            lowest: 0.0,
+            highest: f64::MAX,
+            whole: false,
+            unit: "units",
+        }),
         affects: Affects::Structure,
-        get: |_, setup| Value::Number(setup.build.root_margin),
-        set: |_, setup, value| setup.build.root_margin = value.number(),
+        get: |_, setup| match setup.build.root_margin {
+            RootMargin::Length(length) => Value::Number(length),
+            RootMargin::Automatic => Value::Automatic,
+        },
+        set: |_, setup, value| {
+            setup.build.root_margin = match value {
+                Value::Automatic => RootMargin::Automatic,
+                value => RootMargin::Length(value.number()),
+            };
+        },
     },
     Setting {
         name: "overlap",
@@ -377,6 +391,8 @@ mod tests {
         assert_eq!(list("precision", "f32,f64"), Ok(both));
         let numbers = [0.0, 0.001].map(Value::Number).to_vec();
         assert_eq!(list("root-margin", "0,0.001"), Ok(numbers));
+        let auto_and_number = [Value::Automatic, Value::Number(0.5)].to_vec();
+        assert_eq!(list("root-margin", "auto,0.5"), Ok(auto_and_number));
         assert_eq!(list("from", "0,1,2;3,4,5").unwrap().len(), 2);
         for wrong in ["", "5..3", "1,,2", "x", "2,1..3", "101"] {
             assert!(list("d-max", wrong).is_err(), "{wrong}");

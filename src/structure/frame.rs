@@ -16,6 +16,7 @@ pub type ObjectPlanes = [[f32; 2]; 3];
 pub struct Frame {
     center: Vec3,
     half: Vec3,
+    margin: f64,
     slack: f64,
 }
 
@@ -34,6 +35,7 @@ impl Frame {
         Frame {
             center: bounds.center(),
             half: half.max(Vec3::splat(4.0 * slack)),
+            margin,
             slack,
         }
     }
@@ -47,6 +49,11 @@ impl Frame {
     #[inline]
     pub fn center_and_half(&self) -> (Vec3, Vec3) {
         (self.center, self.half)
+    }
+
+    /// Returns the length by which the root cell extends beyond the bounds on every side.
+    pub fn margin(&self) -> f64 {
+        self.margin
     }
 
     /// Returns the largest distance that rounding can put between equal coordinates inside the root

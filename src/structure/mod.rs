@@ -26,7 +26,9 @@ pub use frame::{Frame, ObjectPlanes, is_inside};
 pub use index::{NodeFacts, TreeIndex};
 pub use moment::Moment;
 pub use node::{Node, NodeKind, StopReason};
-pub use settings::{BuildSettings, Constants, MaxDepth, Method, OverlapRule, SettingsError};
+pub use settings::{
+    BuildSettings, Constants, MaxDepth, Method, OverlapRule, RootMargin, SettingsError,
+};
 pub use simd_tree::SimdTree;
 pub use tree::{CellOfNode, Tree};
 pub use validate::{Invalid, validate};

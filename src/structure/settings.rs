@@ -3,6 +3,7 @@
 use super::method::{Constant, Structure};
 use super::split::rule::SplitRule;
 use crate::geometry::Axis;
+use crate::scene::Scene;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 
@@ -84,6 +85,9 @@ impl MethodInfo {
     }
 }
 
+/// The text of a value that follows from the scene.
+const AUTOMATIC: &str = "auto";
+
 /// Maximum depth, `D_MAX`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaxDepth {
@@ -115,9 +119,9 @@ impl std::str::FromStr for MaxDepth {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         match text.parse::<u32>() {
             Ok(depth) if depth <= Self::LIMIT => Ok(MaxDepth::Fixed(depth)),
-            _ if text == "auto" => Ok(MaxDepth::Automatic),
+            _ if text == AUTOMATIC => Ok(MaxDepth::Automatic),
             _ => Err(format!(
-                "expected a depth from 0 to {} or 'auto', found '{text}'",
+                "expected a depth from 0 to {} or '{AUTOMATIC}', found '{text}'",
                 Self::LIMIT
             )),
         }
@@ -128,7 +132,7 @@ impl std::fmt::Display for MaxDepth {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             MaxDepth::Fixed(depth) => write!(f, "{depth}"),
-            MaxDepth::Automatic => f.write_str("auto"),
+            MaxDepth::Automatic => f.write_str(AUTOMATIC),
         }
     }
 }
@@ -156,6 +160,73 @@ impl<'de> Deserialize<'de> for MaxDepth {
             Written::Text(text) => text,
         };
         text.parse().map_err(serde::de::Error::custom)
+    }
+}
+
+/// How far the root cell extends beyond the scene's bounds on every side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RootMargin {
+    /// A length in the scene's units.
+    Length(f64),
+    /// The margin that was published with the scene ([`Scene::published_margin`]), or else
+    /// [`RootMargin::SHARE`] of half the longest edge of the scene's bounds. A scene that is scaled as
+    /// a whole then keeps its tree.
+    Automatic,
+}
+
+impl RootMargin {
+    /// The automatic margin, as a share of half the longest edge. A sphere of radius 1 gets the
+    /// paper's margin of 0.001.
+    pub const SHARE: f64 = 0.001;
+
+    /// Returns the margin of a scene as a length.
+    pub fn resolve(self, scene: &Scene) -> f64 {
+        match self {
+            RootMargin::Length(length) => length,
+            RootMargin::Automatic => scene.published_margin().unwrap_or_else(|| {
+                // Halves first: the difference of extreme bounds may overflow.
+                let bounds = scene.bounds();
+                let half = (bounds.hi * 0.5 - bounds.lo * 0.5).max_element();
+                if half > 0.0 { Self::SHARE * half } else { 0.0 }
+            }),
+        }
+    }
+}
+
+impl std::fmt::Display for RootMargin {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            RootMargin::Length(length) => write!(f, "{length}"),
+            RootMargin::Automatic => f.write_str(AUTOMATIC),
+        }
+    }
+}
+
+/// A number, or `"auto"`.
+impl Serialize for RootMargin {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            RootMargin::Length(length) => serializer.serialize_f64(*length),
+            RootMargin::Automatic => serializer.serialize_str(AUTOMATIC),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for RootMargin {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Written {
+            Number(f64),
+            Text(String),
+        }
+        match Written::deserialize(deserializer)? {
+            Written::Number(length) => Ok(RootMargin::Length(length)),
+            Written::Text(text) if text == AUTOMATIC => Ok(RootMargin::Automatic),
+            Written::Text(text) => Err(serde::de::Error::custom(format!(
+                "expected a length or '{AUTOMATIC}', found '{text}'"
+            ))),
+        }
     }
 }
 
@@ -208,8 +279,8 @@ pub struct BuildSettings {
     pub d_max: MaxDepth,
     /// A cell with at most this many objects becomes a leaf, `N_OILF`.
     pub n_oilf: u32,
-    /// Length by which the root cell extends beyond the scene's bounds on every side.
-    pub root_margin: f64,
+    /// How far the root cell extends beyond the scene's bounds on every side.
+    pub root_margin: RootMargin,
     /// Whether an object belongs to a cell.
     pub overlap: OverlapRule,
     /// The axis that methods in cyclic order split first.
@@ -246,13 +317,14 @@ pub enum SettingsError {
 }
 
 impl BuildSettings {
-    /// Returns the paper's settings with this method: `D_MAX` 20, `N_OILF` 1, margin 0.001.
+    /// Returns the default settings with this method: the paper's `D_MAX` 20 and `N_OILF` 1, and the
+    /// automatic margin.
     pub fn for_method(method: Method) -> Self {
         BuildSettings {
             method,
             d_max: MaxDepth::Fixed(20),
             n_oilf: 1,
-            root_margin: 0.001,
+            root_margin: RootMargin::Automatic,
             overlap: OverlapRule::Paper,
             first_axis: Axis::X,
             constants: Constants::new(),
@@ -294,8 +366,10 @@ impl BuildSettings {
         {
             return Err(SettingsError::Depth(depth));
         }
-        if !(self.root_margin >= 0.0 && self.root_margin.is_finite()) {
-            return Err(SettingsError::RootMargin(self.root_margin));
+        if let RootMargin::Length(length) = self.root_margin
+            && !(length >= 0.0 && length.is_finite())
+        {
+            return Err(SettingsError::RootMargin(length));
         }
         for (name, &value) in &self.constants {
             let known = self.method.constants;

@@ -82,6 +82,11 @@ impl Tree {
         &self.settings
     }
 
+    /// Returns the root margin as a length, whether it was automatic or not.
+    pub fn root_margin(&self) -> f64 {
+        self.frame.margin()
+    }
+
     /// Returns the depth limit `D_MAX`, whether it was automatic or not; a grid can be deeper.
     pub fn depth_limit(&self) -> u32 {
         self.depth_limit

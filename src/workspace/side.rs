@@ -46,7 +46,9 @@ impl Serialize for Written {
             Value::Size(size) => size.serialize(serializer),
             Value::Point(point) => point.to_array().serialize(serializer),
             Value::Depth(depth) => depth.serialize(serializer),
-            Value::Choice(_) | Value::Cylinders(_) | Value::Own => serializer.collect_str(&self.0),
+            Value::Choice(_) | Value::Cylinders(_) | Value::Own | Value::Automatic => {
+                serializer.collect_str(&self.0)
+            }
         }
     }
 }

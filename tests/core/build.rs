@@ -7,8 +7,8 @@ use bspscope::progress::Progress;
 use bspscope::scene::Scene;
 use bspscope::structure::split::Structure;
 use bspscope::structure::{
-    BuildError, BuildSettings, Constants, MaxDepth, Method, NodeKind, OverlapRule, SettingsError,
-    StopReason, Tree, TreeIndex, build, validate,
+    BuildError, BuildSettings, Constants, MaxDepth, Method, NodeKind, OverlapRule, RootMargin,
+    SettingsError, StopReason, Tree, TreeIndex, build, validate,
 };
 
 fn with(method: &str, change: impl FnOnce(&mut BuildSettings)) -> BuildSettings {
@@ -189,7 +189,7 @@ fn settings_out_of_range_are_named() {
     let depth = with("midpoint", |s| s.d_max = MaxDepth::Fixed(101));
     assert_eq!(error(&depth), SettingsError::Depth(101));
     for margin in [-1.0, f64::NAN, f64::INFINITY] {
-        let settings = with("midpoint", |s| s.root_margin = margin);
+        let settings = with("midpoint", |s| s.root_margin = RootMargin::Length(margin));
         assert!(matches!(error(&settings), SettingsError::RootMargin(_)));
     }
     let unknown = with("midpoint", |s| {

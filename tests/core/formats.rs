@@ -5,7 +5,7 @@ use bspscope::primitive::Primitive;
 use bspscope::progress::Progress;
 use bspscope::scene::builtin::{self, BUILTINS};
 use bspscope::scene::format::{FORMATS, Input, nff, read_file};
-use bspscope::scene::{Material, NoteKind, SceneParts};
+use bspscope::scene::{Material, Note, NoteKind, SceneParts};
 use std::path::{Path, PathBuf};
 
 const VIEW: &str = "v\nfrom 0 -5 0\nat 0 0 0\nup 0 0 1\nangle 45\nhither 1\nresolution 64 48\n";
@@ -328,5 +328,6 @@ fn a_reconstruction_says_so_from_its_file_too() {
         assert!(said(&read)[0].starts_with("A reconstruction"), "{name}");
     }
     let parts = builtin::generate("balls", Some(1)).unwrap();
-    assert_eq!(parts.notes, []);
+    let margins: Vec<_> = parts.notes.iter().map(Note::root_margin).collect();
+    assert_eq!(margins, [Some(0.001)]);
 }

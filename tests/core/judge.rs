@@ -11,7 +11,7 @@ use bspscope::primitive::Precision;
 use bspscope::primitive::{Cone, Polygon, Primitive, Sphere, Triangle};
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
-use bspscope::structure::BuildSettings;
+use bspscope::structure::{BuildSettings, RootMargin};
 use bspscope::trace::{Hit, RayKind};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -227,7 +227,7 @@ fn a_case_reads_back_as_it_was_written() {
         let case = Case {
             scene: scene.clone(),
             settings: BuildSettings {
-                root_margin: 0.1 + 0.2,
+                root_margin: RootMargin::Length(0.1 + 0.2),
                 ..BuildSettings::default()
             },
             kind,

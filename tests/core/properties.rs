@@ -7,7 +7,9 @@ use bspscope::geometry::{Ray, Vec3};
 use bspscope::measure::{RaySample, answer, compare, unsplit};
 use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
-use bspscope::structure::{BuildSettings, MaxDepth, Method, OverlapRule, build, validate};
+use bspscope::structure::{
+    BuildSettings, MaxDepth, Method, OverlapRule, RootMargin, build, validate,
+};
 use bspscope::trace::{Batch, RayKind, RayTracer, ScalarKernel, thread_pool};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -30,7 +32,7 @@ fn settings() -> impl Strategy<Value = BuildSettings> {
                 overlap,
                 d_max: MaxDepth::Fixed(depth),
                 n_oilf,
-                root_margin,
+                root_margin: RootMargin::Length(root_margin),
                 ..BuildSettings::for_method(method)
             },
         )

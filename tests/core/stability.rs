@@ -1,7 +1,9 @@
 //! The torture set: every case by every method is right.
 
-use bspscope::measure::stability::{CASES, Cell, KERNELS, Outcome, run};
-use bspscope::primitive::Precision;
+use crate::support::scenes::{scene, scene_of};
+use bspscope::geometry::Vec3;
+use bspscope::measure::stability::{CASES, Cell, KERNELS, Outcome, Trial, run};
+use bspscope::primitive::{Precision, Primitive, Triangle};
 use bspscope::progress::Progress;
 use bspscope::scene::{Scene, builtin};
 use bspscope::structure::Method;
@@ -69,4 +71,66 @@ fn the_cases_for_any_scene_are_right_on_generated_ones() {
         assert_eq!(cells.len(), applicable * 2 * KERNELS.len());
         assert_right(&cells);
     }
+}
+
+/// A sphere of triangles, in rings from pole to pole.
+fn ball_of_triangles(around: u32, rings: u32) -> Scene {
+    let vertex = |i: u32, j: u32| {
+        let (turn, tilt) = (
+            std::f64::consts::TAU * f64::from(i % around) / f64::from(around),
+            std::f64::consts::PI * f64::from(j) / f64::from(rings),
+        );
+        let across = libm::sin(tilt);
+        Vec3::new(
+            across * libm::cos(turn),
+            across * libm::sin(turn),
+            libm::cos(tilt),
+        )
+    };
+    let mut objects = Vec::new();
+    for i in 0..around {
+        for j in 0..rings {
+            let [a, b] = [vertex(i, j), vertex(i + 1, j)];
+            let [c, d] = [vertex(i + 1, j + 1), vertex(i, j + 1)];
+            for corners in [[a, b, c], [a, c, d]] {
+                objects.extend(Triangle::new(corners, None).ok().map(Primitive::Triangle));
+            }
+        }
+    }
+    scene_of(objects)
+}
+
+/// A mesh, a symmetric scene with many ties, and all kinds of objects.
+#[test]
+fn a_scaled_scene_keeps_its_tree_by_every_method() {
+    let case = CASES
+        .iter()
+        .flat_map(|(_, cases)| cases.iter())
+        .find(|case| case.name == "tree of a scaled scene")
+        .unwrap();
+    let ball = ball_of_triangles(24, 16);
+    assert!(ball.objects().len() > 500);
+    let mut wrong = Vec::new();
+    for (name, scene) in [
+        ("ball", ball),
+        ("tetra:3", scene("tetra:3")),
+        ("teaching", scene("teaching")),
+    ] {
+        for method in Method::all() {
+            for kernel in KERNELS {
+                let trial = Trial {
+                    scene: Some(&scene),
+                    method,
+                    kernel,
+                    quick: true,
+                    progress: &Progress::new(),
+                };
+                let outcome = (case.run)(&trial);
+                if !matches!(outcome, Outcome::Pass { rays } if rays > 1000) {
+                    wrong.push((name, method.name, kernel.precision, outcome));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }

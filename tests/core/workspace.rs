@@ -6,7 +6,7 @@ use bspscope::measure::model::Region;
 use bspscope::present::overlay::Visited;
 use bspscope::scene::{Camera, Cylinders, Sampling, SceneRequest, SceneSource};
 use bspscope::setup::Setup;
-use bspscope::structure::{BuildSettings, MaxDepth, Method, Moment, OverlapRule};
+use bspscope::structure::{BuildSettings, MaxDepth, Method, Moment, OverlapRule, RootMargin};
 use bspscope::trace::{KernelChoice, PrecisionChoice, RenderSettings};
 use bspscope::workspace::{
     Arrangement, CutSettings, Heat, NODES_PER_RAY, PicturePlace, Selected, VERSION, View,
@@ -36,7 +36,7 @@ fn changed() -> Workspace {
     b.scene.cylinders = Cylinders::Polygons(10);
     b.build.d_max = MaxDepth::Automatic;
     b.build.n_oilf = 4;
-    b.build.root_margin = 0.1;
+    b.build.root_margin = RootMargin::Length(0.1);
     b.build.overlap = OverlapRule::Exact;
     b.build.first_axis = Axis::Y;
     b.build.constants.insert("gap-fraction".into(), 0.05);
@@ -199,7 +199,8 @@ threads = 3
 #[test]
 fn files_of_version_1_are_read() {
     let read = Workspace::parse(VERSION_1, Path::new("a.bspscope")).unwrap();
-    let changed = changed();
+    let mut changed = changed();
+    changed.a.build.root_margin = RootMargin::Length(0.001);
     assert_eq!(read.a, changed.a);
     assert_eq!(read.b, changed.b);
     assert_eq!(read.notes, "Old.");

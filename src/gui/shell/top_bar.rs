@@ -133,6 +133,7 @@ fn setting(ui: &mut egui::Ui, name: &str, doc: &Document, edits: &mut Edits, sli
         largest: 0,
         camera: None,
         depth_limit: doc.current.as_ref().map(|c| c.shown.tree.depth_limit()),
+        root_margin: doc.current.as_ref().map(|c| c.shown.tree.root_margin()),
         slider: Some(slider),
         note: &|_, _| None,
     };

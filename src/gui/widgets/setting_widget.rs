@@ -25,6 +25,8 @@ pub struct Around<'a> {
     pub camera: Option<&'a Camera>,
     /// The depth limit of the tree on view; `None` before the first.
     pub depth_limit: Option<u32>,
+    /// The root margin of the tree on view, a length; `None` before the first.
+    pub root_margin: Option<f64>,
     /// The width of the slider for the depth, in points; `None` for a number alone.
     pub slider: Option<f32>,
     /// A few words to stand beside a setting's widget, with a tooltip.
@@ -136,6 +138,7 @@ fn control(
         }
         (Kind::Size, Value::Size(size)) => sides(ui, size, around.largest).map(Value::Size),
         (Kind::Depth, Value::Depth(now)) => depth(ui, now, around, said).map(Value::Depth),
+        (Kind::Automatic(range), value) => automatic(ui, range, value, around, said),
         (Kind::Cylinders, Value::Cylinders(now)) => cylinders(ui, now, said).map(Value::Cylinders),
         (Kind::Point, value) => {
             let own = around
@@ -288,6 +291,32 @@ fn depth(
         Some(MaxDepth::Automatic)
     } else {
         (is_changed || auto != automatic).then_some(MaxDepth::Fixed(depth))
+    }
+}
+
+/// A number with a switch for the one that follows from the scene. While automatic, the number is that of
+/// the tree on view.
+fn automatic(
+    ui: &mut egui::Ui,
+    range: Range,
+    value: Value,
+    around: &Around<'_>,
+    said: Said<'_>,
+) -> Option<Value> {
+    let is_automatic = value == Value::Automatic;
+    let now = match value {
+        Value::Number(now) => now,
+        _ => around.root_margin.unwrap_or(range.lowest),
+    };
+    let edited = ui.add_enabled_ui(!is_automatic, |ui| number(ui, range, now, said));
+    let mut auto = is_automatic;
+    ui.checkbox(&mut auto, "Auto")
+        .on_hover_text("Relative to the size of the scene.")
+        .accessible_name(&format!("{}: auto", said.name));
+    match (is_automatic, auto) {
+        (false, true) => Some(Value::Automatic),
+        (true, false) => Some(Value::Number(now)),
+        _ => edited.inner,
     }
 }
 

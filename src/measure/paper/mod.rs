@@ -10,7 +10,7 @@ use super::{
 };
 use crate::progress::Progress;
 use crate::scene::{Cylinders, LoadError, Sampling, SceneRequest, SceneSource, load};
-use crate::structure::{BuildSettings, Method};
+use crate::structure::{BuildSettings, Method, RootMargin};
 use crate::trace::RenderSettings;
 
 /// How a computed figure relates to the printed one.
@@ -53,7 +53,7 @@ pub struct Reproduction {
     /// The reasons why the two are not comparable; empty if they are. `None` until both are
     /// measured.
     pub unequal: Option<Vec<Unequal>>,
-    /// The notes of the scene.
+    /// The notes of the scene, except that on its root margin, which is the paper's.
     pub notes: Vec<String>,
 }
 
@@ -108,7 +108,8 @@ impl PaperScene {
 }
 
 /// Measures a scene as the paper did, with both methods: cylinders as ten polygons, samples from
-/// the first to the last across the angle of view, the D_AREC of Table 4, D_MAX 20, N_OILF 1.
+/// the first to the last across the angle of view, the D_AREC of Table 4, D_MAX 20, N_OILF 1, and a root
+/// margin of 0.001, also for the reconstructions of scenes that were not published.
 ///
 /// Calls `on_measured` with the results so far after each method. `progress` restarts with each
 /// stage of each method.
@@ -142,11 +143,17 @@ pub fn reproduce(
         scene,
         runs: [None, None],
         unequal: None,
-        notes: loaded.notes().iter().map(|n| n.text.clone()).collect(),
+        notes: (loaded.notes().iter())
+            .filter(|note| note.root_margin().is_none())
+            .map(|note| note.text.clone())
+            .collect(),
     };
     let mut first: Option<Measured> = None;
     for (i, method) in Method::of_the_paper().into_iter().enumerate() {
-        let build = BuildSettings::for_method(method);
+        let build = BuildSettings {
+            root_margin: RootMargin::Length(0.001),
+            ..BuildSettings::for_method(method)
+        };
         let measured = measure(&loaded, &build, &render, progress)?;
         result.runs[i] = Some(measured.measurement.clone());
         if let Some(first) = &first {

@@ -5,20 +5,26 @@ use super::scenes::{aims, ball, base, features, polygon, scene_of, sphere, trian
 use super::trial::{Outcome, Trial};
 use crate::geometry::{Ray, Vec3};
 use crate::measure::judge::{Answer, Tolerance, Verdict, scale_of, settle};
-use crate::measure::unsplit;
+use crate::measure::{DELTA, Measured, measure, parameter, unsplit};
 use crate::primitive::Precision;
 use crate::primitive::{Cone, Polygon, Primitive, ShapeError, Sphere, Triangle};
-use crate::scene::{Scene, SceneParts};
-use crate::structure::BuildSettings;
-use crate::trace::{Hit, RayKind};
+use crate::scene::{Camera, Light, Scene, SceneParts};
+use crate::trace::{Hit, PrecisionChoice, RayKind, RenderSettings};
 
 pub const CASES: &[Case] = &[
     Case {
         name: "scaled",
-        rule: "scene, rays and root margin times 10^k, k from -30 to 30 in f64: the hits of the \
-               unscaled scene, or the judge says tie or rounding",
+        rule: "scene and rays times 10^k, k from -30 to 30 in f64: the hits of the unscaled scene, or \
+               the judge says tie or rounding",
         any_scene: true,
         run: scaled,
+    },
+    Case {
+        name: "tree of a scaled scene",
+        rule: "scene, lights and camera times 2^k, k from -100 to 100 in f64: the same Δ and the same \
+               picture; times 10^k, k from -5 to 5: Δ within 1 %",
+        any_scene: true,
+        run: scaled_tree,
     },
     Case {
         name: "moved",
@@ -71,6 +77,8 @@ impl Map {
         })
     }
 
+    /// Maps a scene with its lights and its camera. Its notes, and so a published margin, apply only to
+    /// the original.
     fn scene(&self, scene: &Scene) -> Result<Scene, Outcome> {
         let objects = scene.objects().iter().enumerate().map(|(i, object)| {
             self.object(object)
@@ -80,6 +88,19 @@ impl Map {
         });
         Ok(Scene::new(SceneParts {
             objects: objects.collect::<Result<_, _>>()?,
+            lights: (scene.lights().iter())
+                .map(|light| Light {
+                    position: self.point(light.position),
+                    ..*light
+                })
+                .collect(),
+            camera: Camera {
+                from: self.point(scene.camera().from),
+                at: self.point(scene.camera().at),
+                near: scene.camera().near * self.factor,
+                ..*scene.camera()
+            },
+            notes: Vec::new(),
             ..scene.parts().clone()
         }))
     }
@@ -153,11 +174,7 @@ fn compare(trial: &Trial<'_>, maps: impl Iterator<Item = (String, Map)>) -> Outc
             Ok(mapped) => mapped,
             Err(outcome) => return outcome.of(&name),
         };
-        let settings = BuildSettings {
-            root_margin: trial.settings().root_margin * map.factor,
-            ..trial.settings()
-        };
-        let tree = match trial.tree(&mapped, &settings) {
+        let tree = match trial.tree(&mapped, &trial.settings()) {
             Ok(tree) => tree,
             Err(outcome) => return outcome.of(&name),
         };
@@ -180,6 +197,74 @@ fn compare(trial: &Trial<'_>, maps: impl Iterator<Item = (String, Map)>) -> Outc
         }
         right.of(&name)
     }))
+}
+
+/// Measures scaled scenes. A power of two rounds nothing, so nothing may change.
+fn scaled_tree(trial: &Trial<'_>) -> Outcome {
+    let (exponents_of_2, exponents_of_10): (&[i32], &[i32]) =
+        match (trial.kernel.precision, trial.quick) {
+            (Precision::F64, true) => (&[-100, -40, -7, 7, 40, 100], &[-5, 2, 5]),
+            (Precision::F64, false) => (
+                &[-100, -40, -7, -1, 1, 7, 40, 100],
+                &[-5, -4, -3, -2, -1, 1, 2, 3, 4, 5],
+            ),
+            (Precision::F32, true) => (&[-40, 40], &[]),
+            (Precision::F32, false) => (&[-40, -7, 7, 40], &[-5, 5]),
+        };
+    let original = match measured(trial, 1.0) {
+        Ok(original) => original,
+        Err(outcome) => return outcome,
+    };
+    let exactly = exponents_of_2.iter().map(|&k| (2.0, k, 0.0));
+    let nearly = exponents_of_10.iter().map(|&k| (10.0, k, 0.01));
+    Outcome::all(exactly.chain(nearly).map(|(base, k, tolerance)| {
+        let name = format!("times {base}^{k}");
+        let scaled = match measured(trial, f64::powi(base, k)) {
+            Ok(scaled) => scaled,
+            Err(outcome) => return outcome.of(&name),
+        };
+        for symbol in DELTA {
+            let [expected, found] =
+                [&original, &scaled].map(|m| parameter(symbol).value(&m.measurement));
+            let is_close = match (expected, found) {
+                (Some(expected), Some(found)) => {
+                    (found - expected).abs() <= tolerance * expected.abs()
+                }
+                (expected, found) => expected == found,
+            };
+            if !is_close {
+                return Outcome::fail(format!("{name}: {symbol} is {found:?}, not {expected:?}"));
+            }
+        }
+        if tolerance == 0.0 && scaled.picture != original.picture {
+            return Outcome::fail(format!("{name}: the picture differs"));
+        }
+        let counted = scaled.measurement.all_rays();
+        Outcome::Pass {
+            rays: counted.map_or(0, |all| all.rays),
+        }
+    }))
+}
+
+/// Measures the scene times a factor, without a published margin, in a small picture.
+fn measured(trial: &Trial<'_>, factor: f64) -> Result<Measured, Outcome> {
+    let map = Map {
+        factor,
+        offset: Vec3::ZERO,
+    };
+    let scene = map.scene(&base(trial))?;
+    let render = RenderSettings {
+        width: 16,
+        height: 16,
+        threads: 1,
+        precision: match trial.kernel.precision {
+            Precision::F64 => PrecisionChoice::F64,
+            Precision::F32 => PrecisionChoice::F32,
+        },
+        ..RenderSettings::for_camera(*scene.camera())
+    };
+    measure(&scene, &trial.settings(), &render, trial.progress)
+        .map_err(|error| Outcome::fail(error.to_string()))
 }
 
 fn mixed(trial: &Trial<'_>) -> Outcome {

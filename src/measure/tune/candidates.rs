@@ -81,14 +81,14 @@ pub(super) fn refinements(setups: &[Setup], objects: usize) -> Vec<Setup> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::structure::OverlapRule;
+    use crate::structure::{OverlapRule, RootMargin};
 
     #[test]
     fn every_method_is_tried_under_equal_conditions_and_none_only_in_small_scenes() {
         let mut setup = Setup::of_method(Method::named("sah-cut").unwrap());
         setup.build.constants.insert("gap-fraction".into(), 0.5);
         setup.build.overlap = OverlapRule::Exact;
-        setup.build.root_margin = 0.5;
+        setup.build.root_margin = RootMargin::Length(0.5);
         setup.build.n_oilf = 7;
         let methods: Vec<_> = Method::all().collect();
         let names = |objects| -> Vec<_> {
@@ -111,7 +111,7 @@ mod tests {
             assert_eq!((build.d_max, build.n_oilf), (MaxDepth::Automatic, 1));
             assert_eq!(
                 (build.overlap, build.root_margin),
-                (OverlapRule::Exact, 0.5)
+                (OverlapRule::Exact, RootMargin::Length(0.5))
             );
             assert_eq!(
                 (candidate.scene, candidate.render),

@@ -91,6 +91,7 @@ fn settings(report: &Report, run: &Measurement) -> Value {
         }
     }
     settings.insert("depth_limit".into(), json!(run.depth_limit));
+    settings.insert("root_margin_length".into(), json!(run.root_margin));
     let overlap = run.build.method.overlap_text(run.build.overlap);
     settings.insert("overlap_in_words".into(), json!(overlap));
     settings.insert("constants".into(), Value::Object(constants));
@@ -127,7 +128,7 @@ fn value(setting: &Setting, setup: &Setup) -> Value {
         Of::Size(size) => json!(size),
         Of::Point(point) => json!(point.to_array()),
         Of::Depth(depth) => json!(depth),
-        value @ (Of::Choice(_) | Of::Cylinders(_)) => json!(value.to_string()),
+        value @ (Of::Choice(_) | Of::Cylinders(_) | Of::Automatic) => json!(value.to_string()),
     }
 }
 

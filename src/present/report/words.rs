@@ -5,8 +5,9 @@ use crate::geometry::Vec3;
 use crate::measure::Measurement;
 use crate::present::number::{Digits, counted};
 use crate::setup::{Group, Kind, Setting, Setup, Value};
-use crate::structure::MaxDepth;
+
 use crate::structure::split::Structure;
+use crate::structure::{MaxDepth, RootMargin};
 use std::time::Duration;
 
 /// Describes the scene and which features it does not need, one sentence per line.
@@ -106,7 +107,9 @@ fn with_value(setting: &Setting, setup: &Setup) -> String {
         Value::Number(0.0) if setting.name == "threads" => "threads 0 (all cores)".into(),
         value => {
             let unit = match setting.kind {
-                Kind::Number(range) if !range.unit.is_empty() => format!(" {}", range.unit),
+                Kind::Number(range) | Kind::Automatic(range) if !range.unit.is_empty() => {
+                    format!(" {}", range.unit)
+                }
                 _ => String::new(),
             };
             format!("{} {value}{unit}", setting.word())
@@ -154,6 +157,13 @@ fn tree(report: &Report, run: &Measurement) -> String {
             }
             "d-max" if build.d_max == MaxDepth::Automatic => {
                 words.push(format!("D_MAX auto ({})", run.depth_limit));
+            }
+            "root-margin" if build.root_margin == RootMargin::Automatic => {
+                words.push(format!(
+                    "{} auto ({} units)",
+                    setting.word(),
+                    run.root_margin
+                ));
             }
             "overlap" => words.push(format!(
                 "{} ({})",

@@ -1,6 +1,6 @@
 //! `balls`: the sphereflake (E. Haines, Standard Procedural Databases).
 
-use super::entry::{Builtin, SPD_BACKGROUND};
+use super::entry::{Builtin, SPD_BACKGROUND, margin_note};
 use super::percent_g::{round_g, round_point};
 use crate::geometry::Vec3;
 use crate::primitive::{Polygon, Primitive, Sphere};
@@ -77,7 +77,7 @@ fn generate(size: u32) -> SceneParts {
             near: 1.0,
             resolution: [512, 512],
         },
-        notes: Vec::new(),
+        notes: vec![margin_note()],
     }
 }
 

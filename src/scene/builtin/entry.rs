@@ -21,6 +21,13 @@ pub struct Builtin {
 /// Linear background color of the Standard Procedural Databases.
 pub(super) const SPD_BACKGROUND: Vec3 = Vec3::new(0.078, 0.361, 0.753);
 
+/// Returns the note of a scene that was published, on the root margin with which the paper's figures are
+/// reproduced to the integer.
+pub(super) fn margin_note() -> Note {
+    const SOURCE: &str = "V. Havran and J. Žára, Evaluation of BSP properties for ray-tracing";
+    Note::of_root_margin(0.001, SOURCE)
+}
+
 /// Returns the note of a scene that replaces one that was never published.
 pub(super) fn reconstruction_note(name: &str) -> Note {
     let text = format!(

@@ -1,6 +1,6 @@
 //! `rings`: a pyramid of interlocked rings (E. Haines, Standard Procedural Databases).
 
-use super::entry::{Builtin, SPD_BACKGROUND};
+use super::entry::{Builtin, SPD_BACKGROUND, margin_note};
 use super::percent_g::{round_g, round_point};
 use crate::geometry::Vec3;
 use crate::primitive::{Cone, Polygon, Primitive, Sphere};
@@ -65,7 +65,7 @@ fn generate(size: u32) -> SceneParts {
             near: 1.0,
             resolution: [512, 512],
         },
-        notes: Vec::new(),
+        notes: vec![margin_note()],
     }
 }
 

@@ -1,6 +1,6 @@
 //! `tetra`: a tetrahedral pyramid (E. Haines, Standard Procedural Databases).
 
-use super::entry::{Builtin, SPD_BACKGROUND};
+use super::entry::{Builtin, SPD_BACKGROUND, margin_note};
 use super::percent_g::round_point;
 use crate::geometry::Vec3;
 use crate::primitive::{Primitive, Triangle};
@@ -54,7 +54,7 @@ fn generate(size: u32) -> SceneParts {
             near: 1.0,
             resolution: [512, 512],
         },
-        notes: Vec::new(),
+        notes: vec![margin_note()],
     }
 }
 

@@ -50,7 +50,7 @@ fn in_pool(
     progress: &Progress,
 ) -> Result<Tree, BuildError> {
     let objects = scene.objects();
-    let frame = Frame::around(&scene.bounds(), settings.root_margin);
+    let frame = Frame::around(&scene.bounds(), settings.root_margin.resolve(scene));
     let depth_limit = settings.d_max.resolve(objects.len());
     let rule = (settings.method.rule)(settings);
     let limits = Limits::new(
@@ -214,7 +214,7 @@ impl Driver<'_> {
         };
         match self.rule.decide(&cell) {
             Decision::Split { axis, plane } | Decision::FailedSplit { axis, plane }
-                if !cell.divides(axis, plane) =>
+                if !(cell.divides(axis, plane) && cell.divides_in_world(axis, plane)) =>
             {
                 Decision::Leaf(StopReason::TooThin)
             }

@@ -1,6 +1,7 @@
 //! The middle of the cell's longest axis.
 
 use super::rule::{Cell, Decision, SplitRule};
+use crate::geometry::{Axis, Vec3};
 use crate::structure::method::Structure;
 use crate::structure::settings::MethodInfo;
 
@@ -21,10 +22,20 @@ struct MidpointLongest;
 
 impl SplitRule for MidpointLongest {
     fn decide(&self, cell: &Cell<'_>) -> Decision {
-        let axis = cell.bounds.longest_axis();
+        let axis = longest_axis(cell.bounds.size());
         Decision::Split {
             axis,
             plane: cell.midpoint(axis),
         }
     }
+}
+
+/// Returns the axis of the longest edge; the first of equals. Edges that differ only by rounding are equal,
+/// or a scene that is scaled or moved would get another tree.
+fn longest_axis(size: Vec3) -> Axis {
+    const ROUNDING: f64 = 1e-9;
+    let longest = size.max_element() * (1.0 - ROUNDING);
+    let mut axes = Axis::ALL.into_iter();
+    axes.find(|axis| size[axis.index()] >= longest)
+        .unwrap_or(Axis::X)
 }

@@ -81,6 +81,13 @@ impl Cell<'_> {
         lo < plane && plane < hi
     }
 
+    /// Returns whether a plane is strictly inside the cell in world coordinates, too. Far away from the
+    /// origin, these are sparser than local coordinates.
+    pub fn divides_in_world(&self, axis: Axis, plane: f32) -> bool {
+        let (plane, k) = (self.frame.to_world(axis, f64::from(plane)), axis.index());
+        self.bounds.lo[k] < plane && plane < self.bounds.hi[k]
+    }
+
     /// Returns the extent of an object along an axis, clipped to the cell, in world coordinates.
     pub fn clipped(&self, object: u32, axis: Axis) -> [f64; 2] {
         let (bounds, k) = (&self.object_bounds[object as usize], axis.index());

@@ -6,11 +6,12 @@
 //! is cheaper than a leaf. A cut takes out the gap with two planes and counts as one level.
 
 use super::rule::{Cell, Decision, SplitRule};
-use super::sweep::{Areas, CandidatePlane, Sweep};
+use super::sweep::{Areas, CandidatePlane, Sweep, compare_costs};
 use crate::geometry::Axis;
 use crate::structure::method::{Constant, Structure};
 use crate::structure::node::StopReason;
 use crate::structure::settings::{BuildSettings, MethodInfo};
+use std::cmp::Ordering;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-cut",
@@ -29,8 +30,9 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             lowest: 0.0,
             highest: 0.1,
             step: 0.0,
-            unit: "length",
-            about: "Distance of planes from the bounds of an object.",
+            unit: "of 1000 root margins",
+            about: "Distance of planes from the bounds of an object. With the paper's root margin of 0.001 \
+                    it is a length in the scene's units.",
             source: "search for method 2: 1e-7 to 1e-5 fit the paper's figures",
         },
         Constant {
@@ -81,6 +83,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
 };
 
 struct SahCut {
+    /// In units of 1000 root margins.
     epsilon: f64,
     median_interval: f64,
     gap_fraction: f64,
@@ -110,6 +113,11 @@ impl SahCut {
         }
     }
 
+    /// Returns the distance of planes from the bounds of an object, as a length.
+    fn plane_distance(&self, cell: &Cell<'_>) -> f64 {
+        self.epsilon * (1000.0 * cell.frame.margin())
+    }
+
     /// Updates `best` with the planes of an axis. Returns the widest gap between objects, if it is
     /// wide enough to cut: its fraction of the cell's width, and its ends.
     fn search(
@@ -118,7 +126,7 @@ impl SahCut {
         axis: Axis,
         best: &mut Option<Candidate>,
     ) -> Option<(f64, [f64; 2])> {
-        let k = axis.index();
+        let (k, epsilon) = (axis.index(), self.plane_distance(cell));
         let (cell_lo, cell_hi) = (cell.bounds.lo[k], cell.bounds.hi[k]);
         let width = cell_hi - cell_lo;
         let mut extents: Vec<[f64; 2]> = cell
@@ -140,7 +148,7 @@ impl SahCut {
             world,
             below,
             above,
-        } in sweep.planes(cell, axis, self.epsilon)
+        } in sweep.planes(cell, axis, epsilon)
         {
             if world < from || world > to {
                 continue;
@@ -167,12 +175,13 @@ impl SahCut {
 
 impl Candidate {
     /// Returns whether this candidate is cheaper, or equally cheap and nearer to the middle of the
-    /// cell. Costs that differ only by rounding count as equal, or noise would decide the many ties
-    /// of symmetric scenes.
+    /// cell.
     fn beats(&self, other: &Candidate) -> bool {
-        let rounding = 1e-12 * other.cost;
-        self.cost < other.cost - rounding
-            || (self.cost <= other.cost + rounding && self.off_center < other.off_center)
+        match compare_costs(self.cost, other.cost) {
+            Ordering::Less => true,
+            Ordering::Equal => self.off_center < other.off_center,
+            Ordering::Greater => false,
+        }
     }
 }
 
@@ -195,9 +204,10 @@ impl SplitRule for SahCut {
             return Decision::Leaf(StopReason::LeafIsCheaper);
         }
         if let Some((_, axis, [lower, upper])) = gap {
+            let epsilon = self.plane_distance(cell);
             let slab = [
-                cell.frame.plane_above(axis, lower + self.epsilon),
-                cell.frame.plane_below(axis, upper - self.epsilon),
+                cell.frame.plane_above(axis, lower + epsilon),
+                cell.frame.plane_below(axis, upper - epsilon),
             ];
             if slab[0] < slab[1] && slab.iter().all(|&plane| cell.divides(axis, plane)) {
                 return Decision::Cut { axis, slab };

@@ -5,11 +5,12 @@
 //! the cheapest axis or along the axes in cyclic order.
 
 use super::rule::{Cell, Decision, SplitRule};
-use super::sweep::Areas;
+use super::sweep::{Areas, compare_costs};
 use crate::geometry::Axis;
 use crate::structure::method::{Constant, Structure};
 use crate::structure::node::StopReason;
 use crate::structure::settings::{BuildSettings, MethodInfo};
+use std::cmp::Ordering;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-sampled",
@@ -119,9 +120,12 @@ impl SplitRule for SahSampled {
             .into_iter()
             .flat_map(|axis| self.candidates(cell, axis))
             .filter(|c| cell.divides(c.axis, c.plane))
-            .min_by(|a, b| {
-                let by_cost = a.cost.total_cmp(&b.cost);
-                by_cost.then(a.off_center.cmp(&b.off_center))
+            .reduce(|best, other| {
+                let by_cost = compare_costs(other.cost, best.cost);
+                match by_cost.then(other.off_center.cmp(&best.off_center)) {
+                    Ordering::Less => other,
+                    _ => best,
+                }
             });
         let Some(best) = best else {
             return Decision::Leaf(StopReason::NoCandidate);

@@ -2,6 +2,7 @@
 
 use super::rule::Cell;
 use crate::geometry::{Aabb, Axis};
+use std::cmp::Ordering;
 
 /// The lower and upper ends of the objects of a cell along an axis, both sorted.
 pub(super) struct Sweep {
@@ -63,6 +64,19 @@ impl Sweep {
                     above: self.highs.len() - self.highs.partition_point(|&hi| hi < world - slack),
                 }
             })
+    }
+}
+
+/// Returns how `cost` compares with another cost. Costs that differ only by rounding are equal, or noise
+/// would decide the many ties of symmetric scenes.
+pub(super) fn compare_costs(cost: f64, other: f64) -> Ordering {
+    let rounding = 1e-12 * other.abs();
+    if cost < other - rounding {
+        Ordering::Less
+    } else if cost <= other + rounding {
+        Ordering::Equal
+    } else {
+        Ordering::Greater
     }
 }
 

@@ -29,6 +29,7 @@ impl Pane for SettingsPane {
             largest: ui.input(|i| i.max_texture_side).min(16_384) as u32,
             camera: doc.current.as_ref().map(|c| &c.shown.measurement.camera),
             depth_limit: doc.current.as_ref().map(|c| c.shown.tree.depth_limit()),
+            root_margin: doc.current.as_ref().map(|c| c.shown.tree.root_margin()),
             slider: None,
             note: &note,
         };
