@@ -32,6 +32,12 @@ impl Structure {
         }
     }
 
+    /// Returns how many levels a cell at this depth may be split if `D_MAX` is `limit`. It does not limit a
+    /// grid.
+    pub(super) fn levels_left(self, depth: u32, limit: u32) -> u32 {
+        (limit - limit % self.levels()).saturating_sub(depth)
+    }
+
     /// Returns advice on how to get a smaller tree.
     pub(super) fn how_to_shrink(self) -> &'static str {
         match self {

@@ -19,7 +19,7 @@ mod tree;
 mod validate;
 mod voxels;
 
-pub use build::{BuildError, build};
+pub use build::{BuildError, Inseparable, build};
 pub use cost::{CostCurve, NodeCost, SplitCost};
 pub use find::{Field, Order, Query};
 pub use frame::{Frame, ObjectPlanes, is_inside};

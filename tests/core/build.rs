@@ -7,8 +7,8 @@ use bspscope::progress::Progress;
 use bspscope::scene::Scene;
 use bspscope::structure::split::Structure;
 use bspscope::structure::{
-    BuildError, BuildSettings, Constants, MaxDepth, Method, NodeKind, OverlapRule, RootMargin,
-    SettingsError, StopReason, Tree, TreeIndex, build, validate,
+    BuildError, BuildSettings, Constants, Inseparable, MaxDepth, Method, NodeKind, OverlapRule,
+    RootMargin, SettingsError, StopReason, Tree, TreeIndex, build, validate,
 };
 
 fn with(method: &str, change: impl FnOnce(&mut BuildSettings)) -> BuildSettings {
@@ -151,7 +151,9 @@ fn clipped_objects_make_another_tree_with_fewer_expected_tests() {
 #[test]
 fn a_tree_beyond_the_memory_limit_is_refused_before_it_is_there() {
     let tetra = scene("tetra:6");
-    let settings = with("midpoint", |s| {
+    // A method whose planes depend on the objects: the driver cannot foresee the size of its tree.
+    let settings = with("sah-sampled", |s| {
+        s.constants.insert("cost-stop".into(), 0.0);
         s.d_max = MaxDepth::Fixed(100);
         s.n_oilf = 0;
         s.memory_limit = 64 << 20;
@@ -169,6 +171,59 @@ fn a_tree_beyond_the_memory_limit_is_refused_before_it_is_there() {
     assert_eq!(limit, 64 << 20);
     assert!(nodes * 8 + references * 4 < 64 << 20);
     assert!(nodes > 100_000, "it went as far as it could");
+}
+
+/// Methods that split to the depth limit wherever the objects lie stop at once; the others build a leaf.
+#[test]
+fn coincident_objects_that_cannot_fit_are_recognized_at_the_root() {
+    let [a, b, c] = [
+        Vec3::ZERO,
+        Vec3::new(2.0, 0.0, 1.0),
+        Vec3::new(0.0, 1.0, 1.5),
+    ];
+    let triangle = Primitive::Triangle(Triangle::new([a, b, c], None).unwrap());
+    let ball = Primitive::Sphere(Sphere::new(a, 1.0).unwrap());
+    for object in [triangle, ball] {
+        let scene = scenes::scene_of(vec![object; 20_000]);
+        for method in ["midpoint", "midpoint-longest", "octree", "grid"] {
+            let error = build(&scene, &scenes::settings(method), &Progress::new()).unwrap_err();
+            let BuildError::MemoryLimit {
+                depth,
+                references,
+                inseparable: Some(Inseparable { objects, leaves }),
+                ..
+            } = error
+            else {
+                panic!("{method}: {error}");
+            };
+            assert_eq!((depth, references, objects), (0, 0, 20_000), "{method}");
+            assert!(leaves > 20_000, "{method}: {leaves}");
+        }
+        for method in ["sah", "sah-cut", "sah-auto", "sah-sampled"] {
+            let tree = tree_with(&scene, &scenes::settings(method));
+            assert!(tree.references().len() < 100 * 20_000, "{method}");
+        }
+    }
+}
+
+/// What is foreseen is a lower bound of what is built: the limit that just suffices is not refused.
+#[test]
+fn coincident_objects_that_fit_are_split_to_the_depth_limit() {
+    let ball = Primitive::Sphere(Sphere::new(Vec3::ZERO, 1.0).unwrap());
+    let scene = scenes::scene_of(vec![ball; 50]);
+    for method in ["midpoint", "midpoint-longest", "octree", "grid"] {
+        let settings = with(method, |s| s.d_max = MaxDepth::Fixed(9));
+        let tree = tree_with(&scene, &settings);
+        assert!(method == "grid" || tree.depth_reached() == 9, "{method}");
+        // The driver counts three times the size of the arrays while they grow.
+        let fits = 3 * (tree.nodes().len() * 8 + tree.references().len() * 4) + 50 * 72;
+        let limited = BuildSettings {
+            memory_limit: fits as u64,
+            ..settings
+        };
+        let again = tree_with(&scene, &limited);
+        assert_eq!(again.nodes(), tree.nodes(), "{method}");
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@
 //! in depth-first order. The tree is the same for any number of threads.
 
 use super::cell_objects::CellObjects;
-use super::error::BuildError;
+use super::error::{BuildError, Inseparable};
 use super::limits::Limits;
 use super::overlap::{HalfCell, Overlap, Side};
 use super::part::Part;
@@ -169,6 +169,7 @@ impl Driver<'_> {
         if objects.len() > LARGE || part.nodes.len().is_multiple_of(64) {
             self.progress.check()?;
         }
+        self.check_separable(objects, place)?;
         match self.decide(objects, place) {
             Decision::Leaf(stop) => self.leaf(part, objects, place.depth, stop),
             Decision::Split { axis, plane } => {
@@ -185,6 +186,83 @@ impl Driver<'_> {
         }
     }
 
+    /// Returns a cell as rules see it.
+    fn seen<'c>(&'c self, objects: &'c CellObjects, place: &Place) -> Cell<'c> {
+        Cell {
+            frame: self.frame,
+            bounds: place.bounds,
+            local: place.local,
+            depth: place.depth,
+            depth_limit: self.depth_limit,
+            failed_splits: place.failed_splits,
+            inside: &objects.inside,
+            touching: &objects.touching,
+            primitives: self.objects,
+            object_bounds: self.bounds,
+            object_planes: self.planes,
+            progress: self.progress,
+        }
+    }
+
+    /// Stops the build if the subtree of a cell certainly exceeds the memory limit, because its objects
+    /// have a part in common and the rule divides that part wherever the objects lie. Otherwise a rule
+    /// that splits to `D_MAX` would do all the work first.
+    ///
+    /// The splits are not skipped where they fit in memory, although they separate nothing: `D_MAX` and
+    /// `N_OILF` alone define the leaves of these methods, and so the counts of the paper.
+    fn check_separable(&self, objects: &CellObjects, place: &Place) -> Result<(), BuildError> {
+        /// Number of slices along an axis below which planes are certainly distinct `f32` numbers.
+        const DISTINCT: f64 = (1 << 22) as f64;
+        let structure = self.settings.method.structure;
+        let levels = structure.levels_left(place.depth, self.depth_limit);
+        let all = objects.len() as f64;
+        let is_grid = structure == Structure::Grid;
+        let could_be_too_many = is_grid
+            || self
+                .limits
+                .are_too_many(all * libm::exp2(f64::from(levels)));
+        if !could_be_too_many || !is_grid && objects.len() <= self.settings.n_oilf as usize {
+            return Ok(());
+        }
+        let Some(slices) = self.rule.slices(&self.seen(objects, place), levels) else {
+            return Ok(());
+        };
+        if !self
+            .limits
+            .are_too_many(all * slices.iter().product::<f64>())
+        {
+            return Ok(());
+        }
+        let mut common = place.local;
+        for &object in objects.inside.iter().chain(&objects.touching) {
+            let Some(core) = self.overlap.core(self.frame, object) else {
+                return Ok(());
+            };
+            for (common, core) in common.iter_mut().zip(core) {
+                *common = [common[0].max(core[0]), common[1].min(core[1])];
+                if common[0] > common[1] {
+                    return Ok(());
+                }
+            }
+        }
+        let mut leaves = 1.0;
+        for k in 0..3 {
+            let [width, shared] =
+                [place.local[k], common[k]].map(|[lo, hi]| f64::from(hi) - f64::from(lo));
+            let slices = slices[k].min(width * DISTINCT);
+            // The common part reaches into as many slices as it is long, at least.
+            leaves *= (shared / width * slices * (1.0 - 1e-6)).ceil().max(1.0);
+        }
+        if !self.limits.are_too_many(all * leaves) {
+            return Ok(());
+        }
+        let inseparable = Inseparable {
+            objects: objects.len(),
+            leaves: leaves as u64,
+        };
+        Err(self.limits.inseparable(place.depth, inseparable))
+    }
+
     fn decide(&self, objects: &CellObjects, place: &Place) -> Decision {
         let structure = self.settings.method.structure;
         if structure.ends_at(place.depth) {
@@ -198,20 +276,7 @@ impl Driver<'_> {
                 return Decision::Leaf(StopReason::MaxDepth);
             }
         }
-        let cell = Cell {
-            frame: self.frame,
-            bounds: place.bounds,
-            local: place.local,
-            depth: place.depth,
-            depth_limit: self.depth_limit,
-            failed_splits: place.failed_splits,
-            inside: &objects.inside,
-            touching: &objects.touching,
-            primitives: self.objects,
-            object_bounds: self.bounds,
-            object_planes: self.planes,
-            progress: self.progress,
-        };
+        let cell = self.seen(objects, place);
         match self.rule.decide(&cell) {
             Decision::Split { axis, plane } | Decision::FailedSplit { axis, plane }
                 if !(cell.divides(axis, plane) && cell.divides_in_world(axis, plane)) =>

@@ -5,6 +5,14 @@ use crate::structure::method::Structure;
 use crate::structure::node::Node;
 use crate::structure::settings::SettingsError;
 
+/// Objects that overlap each other so that no further split separates them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Inseparable {
+    pub objects: usize,
+    /// A lower bound on the number of leaves that would hold all of them.
+    pub leaves: u64,
+}
+
 /// Why a tree could not be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BuildError {
@@ -13,9 +21,17 @@ pub enum BuildError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     #[error(
-        "the tree exceeds the memory limit of {} MiB: stopped at depth {depth} after {nodes} nodes \
-         and {references} references; {} or raise the limit",
+        "the tree exceeds the memory limit of {} MiB: {}; {} or raise the limit",
         .limit >> 20,
+        match .inseparable {
+            None => format!(
+                "stopped at depth {depth} after {nodes} nodes and {references} references"
+            ),
+            Some(Inseparable { objects, leaves }) => format!(
+                "at depth {depth}, {objects} objects lie in one place, and the method would split them \
+                 into at least {leaves} leaves that all hold every one of them"
+            ),
+        },
         .structure.how_to_shrink()
     )]
     MemoryLimit {
@@ -25,6 +41,8 @@ pub enum BuildError {
         /// Approximate: the exact number depends on the order in which threads work.
         nodes: usize,
         references: usize,
+        /// Why the build stopped long before the limit; `None` if it reached the limit.
+        inseparable: Option<Inseparable>,
         /// The structure that the method builds.
         structure: Structure,
     },

@@ -1,6 +1,6 @@
 //! The memory limit of a build.
 
-use super::error::BuildError;
+use super::error::{BuildError, Inseparable};
 use crate::geometry::Aabb;
 use crate::structure::frame::ObjectPlanes;
 use crate::structure::method::Structure;
@@ -64,8 +64,27 @@ impl Limits {
             depth,
             nodes: held_nodes,
             references: held_references,
+            inseparable: None,
             structure: self.structure,
         })
+    }
+
+    /// Returns whether a tree with this many references certainly exceeds the limit.
+    pub(super) fn are_too_many(&self, references: f64) -> bool {
+        let bytes = references * (size_of::<u32>() * GROWTH) as f64;
+        bytes > self.limit as f64 || references >= f64::from(u32::MAX)
+    }
+
+    /// Returns the error for a cell at `depth` whose tree certainly exceeds the limit.
+    pub(super) fn inseparable(&self, depth: u32, inseparable: Inseparable) -> BuildError {
+        BuildError::MemoryLimit {
+            limit: self.limit,
+            depth,
+            nodes: self.nodes.load(Relaxed),
+            references: self.references.load(Relaxed),
+            inseparable: Some(inseparable),
+            structure: self.structure,
+        }
     }
 
     /// Accounts for the lists of objects that are pending on the path to a cell at `depth`.

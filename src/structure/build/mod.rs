@@ -8,4 +8,4 @@ mod overlap;
 mod part;
 
 pub use driver::build;
-pub use error::BuildError;
+pub use error::{BuildError, Inseparable};

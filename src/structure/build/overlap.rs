@@ -1,7 +1,7 @@
 //! Distributes the objects of a cell to its parts.
 
 use super::cell_objects::CellObjects;
-use crate::geometry::{Aabb, Axis};
+use crate::geometry::{Aabb, Axis, Vec3};
 use crate::primitive::{Primitive, PrimitiveKind, Shape};
 use crate::structure::frame::{Frame, ObjectPlanes};
 use crate::structure::settings::{BuildSettings, OverlapRule};
@@ -74,6 +74,24 @@ impl<'a> Overlap<'a> {
             planes,
             exact,
             slack,
+        }
+    }
+
+    /// Returns a box, given by its planes, of which every part of the cell that overlaps it certainly
+    /// contains the object; `None` if no such box is known.
+    pub(super) fn core(&self, frame: &Frame, object: u32) -> Option<ObjectPlanes> {
+        let primitive = &self.objects[object as usize];
+        if !self.exact[primitive.kind() as usize] {
+            return Some(self.planes[object as usize]);
+        }
+        match primitive {
+            Primitive::Sphere(sphere) => {
+                // Slightly less than 1 / sqrt(3): the cube inside the sphere.
+                let half = Vec3::splat(0.577 * sphere.radius);
+                let cube = Aabb::new(sphere.center - half, sphere.center + half);
+                Some(frame.planes_around(&cube))
+            }
+            _ => None,
         }
     }
 

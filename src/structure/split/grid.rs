@@ -114,6 +114,13 @@ impl SplitRule for UniformGrid {
             Decision::Leaf(StopReason::Voxel)
         }
     }
+
+    fn slices(&self, cell: &Cell<'_>, _levels: u32) -> Option<[f64; 3]> {
+        Some(Axis::ALL.map(|axis| {
+            let [from, to] = self.range(cell, axis);
+            f64::from(to - from)
+        }))
+    }
 }
 
 #[cfg(test)]

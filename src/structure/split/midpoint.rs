@@ -29,4 +29,12 @@ impl SplitRule for Midpoint {
             plane: cell.midpoint(axis),
         }
     }
+
+    fn slices(&self, cell: &Cell<'_>, levels: u32) -> Option<[f64; 3]> {
+        let mut slices = [1.0; 3];
+        for depth in cell.depth..cell.depth + levels {
+            slices[Axis::from_index(self.0.index() + depth as usize).index()] *= 2.0;
+        }
+        Some(slices)
+    }
 }

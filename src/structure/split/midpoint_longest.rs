@@ -28,6 +28,17 @@ impl SplitRule for MidpointLongest {
             plane: cell.midpoint(axis),
         }
     }
+
+    fn slices(&self, cell: &Cell<'_>, levels: u32) -> Option<[f64; 3]> {
+        let (mut size, mut slices) = (cell.bounds.size(), [1.0_f64; 3]);
+        for _ in 0..levels {
+            let axis = longest_axis(size).index();
+            size[axis] *= 0.5;
+            slices[axis] *= 2.0;
+        }
+        // Rounding may decide between edges of equal length otherwise in some parts of the cell.
+        Some(slices.map(|n| (n * 0.5).max(1.0)))
+    }
 }
 
 /// Returns the axis of the longest edge; the first of equals. Edges that differ only by rounding are equal,

@@ -10,6 +10,13 @@ use crate::structure::node::StopReason;
 pub trait SplitRule: Send + Sync {
     /// Decides on a cell that contains more than `N_OILF` objects and is above depth `D_MAX`.
     fn decide(&self, cell: &Cell<'_>) -> Decision;
+
+    /// Returns into how many equal slices along each axis the rule divides a cell at the least if it
+    /// splits every part of it for `levels` levels; `None` if that depends on the objects. The driver
+    /// stops a build that cannot fit in memory before it does the work.
+    fn slices(&self, _cell: &Cell<'_>, _levels: u32) -> Option<[f64; 3]> {
+        None
+    }
 }
 
 /// A decision on a cell. Planes are in local coordinates ([`Frame`]).
