@@ -7,12 +7,13 @@
 
 use super::rule::{Cell, Decision, SplitRule};
 use super::sah::CLIP;
-use super::sweep::{Areas, Sweep};
+use super::sweep::{Areas, Sweep, compare_costs};
 use crate::geometry::{Aabb, Axis};
 use crate::primitive::Shape;
 use crate::structure::method::{Constant, Structure};
 use crate::structure::node::StopReason;
 use crate::structure::settings::{BuildSettings, MethodInfo};
+use std::cmp::Ordering;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "sah-auto",
@@ -116,8 +117,8 @@ impl SahAuto {
         }
     }
 
-    /// Returns the cheapest plane, or the first of several, with its expected cost in intersection
-    /// tests.
+    /// Returns the cheapest plane with its expected cost in intersection tests; of several, the one nearest
+    /// to the middle of the cell.
     fn cheapest(&self, cell: &Cell<'_>) -> Option<(f64, Axis, f32)> {
         let parts: Vec<Aabb> = cell
             .objects()
@@ -125,6 +126,7 @@ impl SahAuto {
             .collect();
         let whole = cell.bounds.surface_area();
         let mut best: Option<(f64, Axis, f32)> = None;
+        let mut best_off_center = f64::INFINITY;
         for axis in Axis::ALL {
             let areas = Areas::new(&cell.bounds, axis);
             let k = axis.index();
@@ -135,7 +137,15 @@ impl SahAuto {
                 if candidate.below == 0 || candidate.above == 0 {
                     cost *= self.empty_factor;
                 }
-                if best.is_none_or(|(least, ..)| cost < least) {
+                let middle = cell.bounds.center()[k];
+                let off_center = ((candidate.world - middle) / cell.bounds.size()[k]).abs();
+                let is_better = best.is_none_or(|(least, ..)| match compare_costs(cost, least) {
+                    Ordering::Less => true,
+                    Ordering::Equal => off_center < best_off_center,
+                    Ordering::Greater => false,
+                });
+                if is_better {
+                    best_off_center = off_center;
                     best = Some((cost, axis, candidate.plane));
                 }
             }
