@@ -3,9 +3,10 @@
 use super::args::CompareArgs;
 use super::outcome::Outcome;
 use super::{measure, output, resolve};
-use crate::measure::unequal;
-use crate::present::report::Report;
-use crate::setup::Edits;
+use crate::measure::{Measured, unequal};
+use crate::present::report::{Failure, Report};
+use crate::scene::Scene;
+use crate::setup::{Edits, Setup};
 use anyhow::{Result, anyhow};
 
 pub fn run(args: &CompareArgs) -> Result<Outcome> {
@@ -21,8 +22,13 @@ pub fn run(args: &CompareArgs) -> Result<Outcome> {
     let scene_of_b = other.as_ref().unwrap_or(&scene);
     of_a.render.view(&scene)?;
     of_b.render.view(scene_of_b)?;
-    let a = measure::run_of(&scene, &of_a)?;
-    let b = measure::run_of(scene_of_b, &of_b)?;
+    let (a, b) = match (
+        measure::run_or_failure(&scene, &of_a)?,
+        measure::run_or_failure(scene_of_b, &of_b)?,
+    ) {
+        (Ok(a), Ok(b)) => (a, b),
+        (a, b) => return one_alone([(&scene, &of_a, a), (scene_of_b, &of_b, b)], args),
+    };
     let reasons = unequal((&a.measurement, &a.picture), (&b.measurement, &b.picture));
     if !reasons.is_empty() {
         output::write_to(None, |out| {
@@ -39,4 +45,28 @@ pub fn run(args: &CompareArgs) -> Result<Outcome> {
     };
     output::write_report(&report, &args.report)?;
     Ok(Outcome::Done)
+}
+
+/// Reports what could be measured of two trees that cannot be compared, because one is too large.
+fn one_alone(
+    sides: [(&Scene, &Setup, std::result::Result<Measured, Failure>); 2],
+    args: &CompareArgs,
+) -> Result<Outcome> {
+    let (mut runs, mut failures) = (Vec::new(), Vec::new());
+    for (scene, setup, result) in sides {
+        match result {
+            Ok(measured) => runs.push((scene, setup, measured.measurement)),
+            Err(failure) => failures.push(failure),
+        }
+    }
+    measure::check_any(&runs, &failures)?;
+    for (scene, setup, measurement) in runs {
+        let report = Report {
+            per_kind: args.per_kind,
+            failures: failures.clone(),
+            ..Report::new(scene, &setup.scene, vec![measurement])
+        };
+        output::write_report(&report, &args.report)?;
+    }
+    Ok(Outcome::CheckFailed)
 }

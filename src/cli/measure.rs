@@ -3,30 +3,79 @@
 use super::args::MeasureArgs;
 use super::outcome::Outcome;
 use super::{bar, output, resolve};
-use crate::measure::{Measured, measure};
-use crate::present::report::Report;
+use crate::measure::{MeasureError, Measured, measure};
+use crate::present::report::{Failure, Report};
 use crate::scene::Scene;
 use crate::setup::Setup;
-use anyhow::Result;
+use anyhow::{Result, bail};
+use std::io::Write;
 
 pub fn run(args: &MeasureArgs) -> Result<Outcome> {
     output::check_place(args.report.output.as_deref())?;
     let setups = args.settings.setups(&args.scene)?;
     let scene = resolve::scene_in_view(&setups[0])?;
-    let mut runs = Vec::new();
-    for setup in &setups {
-        runs.push(run_of(&scene, setup)?.measurement);
-    }
-    let report = Report::new(&scene, &setups[0].scene, runs);
+    let (runs, failures) = each(&scene, &setups)?;
+    let runs = runs.into_iter().map(|measured| measured.measurement);
+    let report = Report {
+        failures,
+        ..Report::new(&scene, &setups[0].scene, runs.collect())
+    };
     output::write_report(&report, &args.report)?;
     Ok(Outcome::Done)
 }
 
-/// Measures a setup under a progress bar.
-pub fn run_of(scene: &Scene, setup: &Setup) -> Result<Measured> {
-    Ok(bar::with_bar(&stage(scene, setup), |progress| {
-        measure(scene, &setup.build, &setup.render, progress)
-    })?)
+/// Measures setups of a scene. One whose tree is too large does not hide the others.
+///
+/// # Errors
+/// No setup could be measured.
+pub fn each(scene: &Scene, setups: &[Setup]) -> Result<(Vec<Measured>, Vec<Failure>)> {
+    let (mut runs, mut failures) = (Vec::new(), Vec::new());
+    for setup in setups {
+        match run_or_failure(scene, setup)? {
+            Ok(measured) => runs.push(measured),
+            Err(failure) => failures.push(failure),
+        }
+    }
+    check_any(&runs, &failures)?;
+    Ok((runs, failures))
+}
+
+/// Measures a setup under a progress bar. A tree that is too large is a failure of this setup alone. It is
+/// also printed to standard error, because not every report format has a place for it.
+pub fn run_or_failure(
+    scene: &Scene,
+    setup: &Setup,
+) -> Result<std::result::Result<Measured, Failure>> {
+    let measured = bar::with_bar(&stage(scene, setup), |progress| {
+        match measure(scene, &setup.build, &setup.render, progress) {
+            Err(error) if error.is_too_large() => Ok(Err(Failure {
+                method: setup.build.method.name,
+                reason: error.to_string(),
+            })),
+            result => result.map(Ok),
+        }
+    });
+    let measured: std::result::Result<_, MeasureError> = measured;
+    Ok(measured?)
+}
+
+/// Prints the failures to standard error.
+///
+/// # Errors
+/// All setups failed.
+pub fn check_any<T>(runs: &[T], failures: &[Failure]) -> Result<()> {
+    let reasons: Vec<String> = failures.iter().map(ToString::to_string).collect();
+    if runs.is_empty() {
+        match failures {
+            [only] => bail!("{}", only.reason),
+            _ => bail!("{}", reasons.join("\n")),
+        }
+    }
+    for reason in reasons {
+        // Without a standard error stream there is nobody to tell.
+        let _ = writeln!(std::io::stderr(), "bspscope: {reason}");
+    }
+    Ok(())
 }
 
 /// Returns the text beside the bar of a measurement.

@@ -59,14 +59,33 @@ pub fn run(args: &SweepArgs) -> Result<Outcome> {
         scene: (first.scene.clone(), Arc::new(scene)),
         plan: Arc::new(plan),
     };
+    let mut failures = Vec::new();
     bar::follow(job, |row| {
         // One call per row, so that an interruption leaves whole rows and at most one torn row.
         file.write_all(line(&row, form).as_bytes())
             .with_context(name)?;
+        if let Some(reason) = &row.failure {
+            failures.push(format!(
+                "point {} ({}): {reason}",
+                row.point + 1,
+                row.key.method
+            ));
+        }
         rows.push(row);
         Ok(())
     })?;
+    for failure in &failures {
+        // Without a standard error stream there is nobody to tell.
+        let _ = writeln!(io::stderr(), "bspscope: {failure}");
+    }
     finish(&rows, &args.charts)?;
+    if !failures.is_empty()
+        && rows
+            .iter()
+            .all(|row| row.values.iter().all(Option::is_none))
+    {
+        bail!("no point could be measured");
+    }
     Ok(Outcome::Done)
 }
 

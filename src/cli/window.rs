@@ -113,14 +113,13 @@ fn scene_text(args: &WindowArgs) -> &str {
 fn summary(setups: &[Setup], file: Option<&Path>) -> Result<Outcome> {
     let first = setups.first().context("there is at least one method")?;
     let scene = &resolve::scene_in_view(first)?;
-    let mut runs = Vec::new();
-    let mut last = None;
-    for setup in setups {
-        let measured = measure::run_of(scene, setup)?;
-        runs.push(measured.measurement);
-        last = Some(measured.picture);
-    }
-    let report = Report::new(scene, &first.scene, runs);
+    let (runs, failures) = measure::each(scene, setups)?;
+    let last = runs.last().map(|run| run.picture.clone());
+    let runs = runs.into_iter().map(|measured| measured.measurement);
+    let report = Report {
+        failures,
+        ..Report::new(scene, &first.scene, runs.collect())
+    };
     output::write_to(None, |out| write_summary(&report, out))?;
 
     if let Some(file) = file {

@@ -62,11 +62,26 @@ impl Job for FitTimeModel {
             context.part(0, steps);
             time_in_place(&build)?;
         }
-        let mut observations = Vec::new();
+        let (mut observations, mut too_large) = (Vec::new(), Vec::new());
         for (place, build) in builds.iter().enumerate() {
             context.part(place + usize::from(is_first), steps);
-            let observation =
-                context.timed(|progress| observe(&scene, build, &render, rounds, progress))?;
+            let observed = context.timed(|progress| {
+                match observe(&scene, build, &render, rounds, progress) {
+                    Err(error) if error.is_too_large() => Ok(Err(error)),
+                    result => result.map(Ok),
+                }
+            })?;
+            let observation = match observed {
+                Ok(observation) => observation,
+                Err(error) => {
+                    let BuildSettings { method, d_max, .. } = build;
+                    too_large.push(format!(
+                        "{}, D_MAX {d_max}: not timed: {error}",
+                        method.name
+                    ));
+                    continue;
+                }
+            };
             observations.push(observation.clone());
             context.send(Timed::Tree(observation));
         }
@@ -74,7 +89,12 @@ impl Job for FitTimeModel {
             context.part(steps - 1, steps);
             time_in_place(&fastest.build)?;
         }
+        if let ([], [reason, ..]) = (&observations[..], &too_large[..]) {
+            return Err(JobError::new(reason.as_str()));
+        }
         let [fitted, _] = parted(&observations);
-        Ok(fit(&fitted, &Term::of(&scene), equation)?)
+        let mut fit = fit(&fitted, &Term::of(&scene), equation)?;
+        fit.notes.extend(too_large);
+        Ok(fit)
     }
 }

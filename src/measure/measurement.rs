@@ -24,6 +24,14 @@ pub enum MeasureError {
 }
 
 impl MeasureError {
+    /// Returns whether the tree of these settings is too large, so that others can be measured nevertheless.
+    pub fn is_too_large(&self) -> bool {
+        matches!(
+            self,
+            MeasureError::Build(BuildError::MemoryLimit { .. } | BuildError::TooManyObjects(_))
+        )
+    }
+
     /// Returns whether the task was cancelled.
     pub fn is_cancelled(&self) -> bool {
         matches!(

@@ -219,6 +219,67 @@ fn the_load_report_is_told_on_standard_error_and_in_the_report() {
     );
 }
 
+/// An OBJ file with this many triangles in one place.
+fn coincident_triangles(count: usize) -> String {
+    "v 0 0 0\nv 2 0 1\nv 0 1 1.5\n".to_owned() + &"f 1 2 3\n".repeat(count)
+}
+
+#[test]
+fn a_tree_that_is_too_large_does_not_hide_the_others() {
+    let program = Program::new();
+    program.write("pile.obj", &coincident_triangles(3000));
+    let options = format!("{QUICK} --memory-limit 16");
+    let output = program.run(&format!("measure pile.obj {options} --format json"));
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{errors}");
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let methods = |key: &str| -> Vec<String> {
+        let entries = report[key].as_array().unwrap().iter();
+        entries
+            .map(|one| one["method"].as_str().unwrap().to_owned())
+            .collect()
+    };
+    assert_eq!(methods("runs"), ["sah-cut"]);
+    assert_eq!(methods("failures"), ["midpoint"]);
+    let reason = report["failures"][0]["reason"].as_str().unwrap();
+    assert!(reason.contains("3000 objects lie in one place"), "{reason}");
+    assert!(
+        errors.contains(&format!("bspscope: midpoint: not measured: {reason}")),
+        "{errors}"
+    );
+    let text = program.ends(0, &format!("measure pile.obj {options}"));
+    assert!(
+        text.contains(&format!("midpoint: not measured: {reason}")),
+        "{text}"
+    );
+
+    // Nothing can be measured.
+    let both = "--method midpoint --method octree";
+    let refused = program.refused(&format!("measure pile.obj {options} {both}"));
+    assert!(refused.contains("midpoint: not measured"), "{refused}");
+    assert!(refused.contains("octree: not measured"), "{refused}");
+    // The other side is reported, but there is no comparison.
+    let sides = "--a method=midpoint --b method=sah";
+    let text = program.ends(1, &format!("compare pile.obj {options} {sides}"));
+    assert!(
+        text.contains("midpoint: not measured") && text.contains("sah: tree built"),
+        "{text}"
+    );
+    // A point of a sweep without values does not end it.
+    let points = "--d-max 2,20 --n-oilf 1 -o rows.jsonl";
+    let text = program.ends(0, &format!("sweep pile.obj {options} {points}"));
+    assert!(
+        text.contains("point 2 (midpoint): the tree exceeds"),
+        "{text}"
+    );
+    let rows = program.read("rows.jsonl");
+    let rows = rows
+        .lines()
+        .map(|row| serde_json::from_str::<Value>(row).unwrap());
+    let is_empty: Vec<bool> = rows.map(|row| row["N_LS"].is_null()).collect();
+    assert_eq!(is_empty, [false, true, false, false]);
+}
+
 #[test]
 fn what_has_no_value_is_null_and_not_zero() {
     let program = Program::new();

@@ -72,6 +72,18 @@ impl Row {
             points,
             key,
             values: parameters().iter().map(|p| p.value(measurement)).collect(),
+            failure: None,
+        }
+    }
+
+    /// Returns the row of a point that could not be measured.
+    pub fn without_values(point: usize, points: usize, key: Key, failure: String) -> Row {
+        Row {
+            point,
+            points,
+            key,
+            values: vec![None; parameters().len()],
+            failure: Some(failure),
         }
     }
 

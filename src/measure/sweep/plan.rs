@@ -84,10 +84,11 @@ impl Plan {
         }
     }
 
-    /// Measures a point of the sweep, given by its number, in the scene of its setup.
+    /// Measures a point of the sweep, given by its number, in the scene of its setup. A point whose tree is
+    /// too large has a row without values, so that it does not end the sweep.
     ///
     /// # Errors
-    /// The same as those of [`measure`].
+    /// The others of [`measure`].
     ///
     /// # Panics
     /// If there is no such point.
@@ -98,13 +99,14 @@ impl Plan {
         progress: &Progress,
     ) -> Result<Row, MeasureError> {
         let Point { setup, key } = &self.points[point];
-        let measured = measure(scene, &setup.build, &setup.render, progress)?;
-        Ok(Row::of(
-            point,
-            self.points.len(),
-            key.clone(),
-            &measured.measurement,
-        ))
+        let (points, key) = (self.points.len(), key.clone());
+        match measure(scene, &setup.build, &setup.render, progress) {
+            Ok(measured) => Ok(Row::of(point, points, key, &measured.measurement)),
+            Err(error) if error.is_too_large() => {
+                Ok(Row::without_values(point, points, key, error.to_string()))
+            }
+            Err(error) => Err(error),
+        }
     }
 }
 

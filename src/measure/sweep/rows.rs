@@ -33,6 +33,8 @@ pub struct Row {
     /// The values of all [`parameters`], in their order. Shares are fractions; times are in
     /// seconds.
     pub values: Vec<Option<f64>>,
+    /// Why the point could not be measured; it then has no values. Files have only the row without values.
+    pub failure: Option<String>,
 }
 
 /// The text format of rows.
@@ -242,6 +244,7 @@ fn row(
         values: (0..parameters().len())
             .map(|place| number(TITLES.len() + place))
             .collect::<Option<_>>()?,
+        failure: None,
     })
 }
 
@@ -310,6 +313,7 @@ mod tests {
                 picture: "resolution=8x8".into(),
             },
             values,
+            failure: None,
         }
     }
 

@@ -3,6 +3,8 @@
 use crate::geometry::Aabb;
 use crate::measure::Measurement;
 use crate::scene::{Camera, Note, Requirements, Scene, SceneRequest};
+use serde::Serialize;
+use std::fmt;
 
 /// The measurements of one scene with one or more methods.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,8 +12,23 @@ pub struct Report {
     pub scene: SceneSummary,
     /// One per method, in the order of the request.
     pub runs: Vec<Measurement>,
+    /// The methods that could not be measured.
+    pub failures: Vec<Failure>,
     /// Whether there are tables for each kind of ray.
     pub per_kind: bool,
+}
+
+/// A method that could not be measured, and why.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Failure {
+    pub method: &'static str,
+    pub reason: String,
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: not measured: {}", self.method, self.reason)
+    }
 }
 
 /// The scene of a report.
@@ -45,6 +62,7 @@ impl Report {
                 camera: *scene.camera(),
             },
             runs,
+            failures: Vec::new(),
             per_kind: false,
         }
     }

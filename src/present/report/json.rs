@@ -20,6 +20,7 @@ fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
     let mut value = json!({
         "scene": scene(&report.scene)?,
         "runs": report.runs.iter().map(|one| run(report, one)).collect::<Vec<_>>(),
+        "failures": report.failures,
     });
     if let Some(per_kind) = per_kind::json(report) {
         value["per_kind"] = per_kind;

@@ -22,7 +22,7 @@ pub mod tune;
 mod words;
 mod writer;
 
-pub use content::{Report, SceneSummary};
+pub use content::{Failure, Report, SceneSummary};
 pub use machine::{Machine, now};
 pub use page::{Figure, Page};
 pub use registry::WRITERS;

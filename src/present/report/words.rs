@@ -117,30 +117,31 @@ fn with_value(setting: &Setting, setup: &Setup) -> String {
     }
 }
 
-/// Describes the times of each run and its threads, one sentence per line.
+/// Describes the times of each run and its threads, and the methods that could not be measured, one
+/// sentence per line.
 pub fn times(report: &Report) -> Vec<String> {
-    report
-        .runs
-        .iter()
-        .map(|run| {
-            let mut line = format!(
-                "{}: tree built in {} ({} CPU) on {}",
-                run.build.method.name,
-                time(run.building.wall),
-                time(run.building.cpu),
-                counted(run.building.threads, "thread")
+    let runs = report.runs.iter();
+    let failures = report.failures.iter().map(ToString::to_string);
+    runs.map(|run| {
+        let mut line = format!(
+            "{}: tree built in {} ({} CPU) on {}",
+            run.build.method.name,
+            time(run.building.wall),
+            time(run.building.cpu),
+            counted(run.building.threads, "thread")
+        );
+        if let Some(rendering) = run.rendering {
+            line += &format!(
+                "; picture rendered in {} ({} CPU) on {}",
+                time(rendering.wall),
+                time(rendering.cpu),
+                counted(rendering.threads, "thread")
             );
-            if let Some(rendering) = run.rendering {
-                line += &format!(
-                    "; picture rendered in {} ({} CPU) on {}",
-                    time(rendering.wall),
-                    time(rendering.cpu),
-                    counted(rendering.threads, "thread")
-                );
-            }
-            line
-        })
-        .collect()
+        }
+        line
+    })
+    .chain(failures)
+    .collect()
 }
 
 /// Returns the settings that a tree was built with.
