@@ -163,7 +163,7 @@ fn tree(report: &Report, run: &Measurement) -> String {
                 words.push(format!(
                     "{} auto ({} units)",
                     setting.word(),
-                    run.root_margin
+                    Digits::Four.number(run.root_margin)
                 ));
             }
             "overlap" => words.push(format!(
