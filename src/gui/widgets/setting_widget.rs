@@ -312,7 +312,7 @@ fn automatic(
     let mut auto = is_automatic;
     ui.checkbox(&mut auto, "Auto")
         .on_hover_text("Relative to the size of the scene.")
-        .accessible_name(&format!("{}: auto", said.name));
+        .accessible_name(format!("{}: auto", said.name));
     match (is_automatic, auto) {
         (false, true) => Some(Value::Automatic),
         (true, false) => Some(Value::Number(now)),
