@@ -14,6 +14,7 @@ pub fn run(args: &RenderArgs) -> Result<Outcome> {
     output::check_place(Some(&args.output))?;
     let setup = args.settings.setup(&args.scene)?;
     let scene = resolve::scene_in_view(&setup)?;
+    resolve::warn_of_precision(&scene, &setup.render);
     let tree = resolve::tree(&scene, &setup)?;
     let render = setup.render;
     let bytes = match args.heat.show {

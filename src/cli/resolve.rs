@@ -6,7 +6,7 @@ use crate::scene::format::{FORMATS, FormatError};
 use crate::scene::{LoadError, NoteKind, Scene, SceneRequest, SceneSource, builtin, load};
 use crate::setup::Setup;
 use crate::structure::{Tree, build};
-use crate::trace::thread_pool;
+use crate::trace::{RenderSettings, thread_pool};
 use anyhow::{Result, bail};
 use std::io::{ErrorKind, Write};
 use std::path::Path;
@@ -50,6 +50,19 @@ pub fn tree(scene: &Scene, setup: &Setup) -> Result<Tree> {
     Ok(bar::with_bar(&stage, |progress| {
         pool.install(|| build(scene, &setup.build, progress))
     })?)
+}
+
+/// Prints a warning to standard error if the chosen precision cannot represent the scene, in the words in
+/// which `measure` reports the precision.
+pub fn warn_of_precision(scene: &Scene, render: &RenderSettings) {
+    if let Some(warning) = render.precision_for(scene).warning() {
+        // Without a standard error stream there is nobody to warn.
+        let _ = writeln!(
+            std::io::stderr().lock(),
+            "bspscope: {}: {warning}",
+            scene.name()
+        );
+    }
 }
 
 /// Prints what was skipped, changed or defaulted in a file to standard error. The whole load report

@@ -68,6 +68,7 @@ fn findings_of(text: &str, args: &VerifyArgs) -> Result<Vec<Finding>> {
         ..
     } = &setups[0];
     let scene = resolve::scene(request)?;
+    resolve::warn_of_precision(&scene, render);
     let pool = thread_pool(render.threads)?;
     let precision = render.precision_for(&scene).precision;
     let mut expected: Option<(RaySample, Answers)> = None;

@@ -34,6 +34,16 @@ pub struct ChosenPrecision {
     pub precision: Precision,
     /// A sentence without its full stop.
     pub why: String,
+    /// Whether `f32` is used although it cannot represent the scene as the camera sees it.
+    pub is_doubtful: bool,
+}
+
+impl ChosenPrecision {
+    /// Returns a warning without its full stop if `f32` is used although it cannot represent the scene:
+    /// its shadows and small objects may be wrong.
+    pub fn warning(&self) -> Option<String> {
+        self.is_doubtful.then(|| format!("Precision: {self}"))
+    }
 }
 
 /// Checks whether `f32` can represent a scene as a camera sees it in an image of `height` pixels. A scene
@@ -89,11 +99,15 @@ impl RenderSettings {
     pub fn precision_for(&self, scene: &Scene) -> ChosenPrecision {
         let camera = self.camera.resolve(scene.camera());
         let fits = || fits_f32(scene, &camera, self.height);
+        let mut is_doubtful = false;
         let (precision, why) = match self.precision {
             PrecisionChoice::F64 => (Precision::F64, "as chosen".into()),
             PrecisionChoice::F32 => match fits() {
                 Ok(()) => (Precision::F32, "as chosen".into()),
-                Err(reason) => (Precision::F32, format!("as chosen, though {reason}")),
+                Err(reason) => {
+                    is_doubtful = true;
+                    (Precision::F32, format!("as chosen, though {reason}"))
+                }
             },
             PrecisionChoice::Auto => match fits() {
                 Ok(()) => (
@@ -103,7 +117,11 @@ impl RenderSettings {
                 Err(reason) => (Precision::F64, format!("because {reason}")),
             },
         };
-        ChosenPrecision { precision, why }
+        ChosenPrecision {
+            precision,
+            why,
+            is_doubtful,
+        }
     }
 }
 

@@ -94,9 +94,15 @@ fn note(doc: &Document, setting: &Setting, setup: &Setup) -> Option<[String; 2]>
         "precision" => {
             let measured = &doc.current.as_ref()?.shown.measurement;
             let used = &measured.precision;
-            let is_auto = measured.render.precision == PrecisionChoice::Auto;
             let in_words = format!("Used: {used}.");
-            is_auto.then(|| [format!("used {}", used.precision.name()), in_words])
+            match measured.render.precision {
+                PrecisionChoice::Auto => {
+                    Some([format!("used {}", used.precision.name()), in_words])
+                }
+                _ => used
+                    .warning()
+                    .map(|warning| ["too imprecise for this scene".to_owned(), warning + "."]),
+            }
         }
         "kernel" => {
             let used = setup.render.kernel.description();
