@@ -10,6 +10,7 @@ mod geometry;
 #[cfg(test)]
 mod mutants;
 mod rays;
+mod scales;
 mod scenes;
 mod settings;
 mod transforms;
@@ -28,6 +29,7 @@ use serde::Serialize;
 /// All cases by theme.
 pub static CASES: &[(&str, &[Case])] = &[
     ("transforms", transforms::CASES),
+    ("scales", scales::CASES),
     ("rays", rays::CASES),
     ("geometry", geometry::CASES),
     ("settings", settings::CASES),

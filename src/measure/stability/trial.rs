@@ -51,6 +51,27 @@ impl Outcome {
         Outcome::Pass { rays: sum }
     }
 
+    /// Returns a failure if there is one, otherwise a pass with the sum of all rays. If the precision can
+    /// represent none of them, returns the first reason.
+    pub fn all_representable(outcomes: impl IntoIterator<Item = Outcome>) -> Outcome {
+        let (mut sum, mut not_representable, mut any_pass) = (0, None, false);
+        for outcome in outcomes {
+            match outcome {
+                Outcome::Pass { rays } => {
+                    any_pass = true;
+                    sum += rays;
+                }
+                Outcome::NotRepresentable { .. } => {
+                    not_representable = not_representable.or(Some(outcome));
+                }
+                Outcome::Fail { .. } => return outcome,
+            }
+        }
+        not_representable
+            .filter(|_| !any_pass)
+            .unwrap_or(Outcome::Pass { rays: sum })
+    }
+
     /// Prefixes the reason of an outcome with what was tested.
     pub fn of(self, what: &str) -> Outcome {
         match self {
