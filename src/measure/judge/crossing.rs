@@ -49,6 +49,12 @@ impl<'a> Line<'a> {
         }
     }
 
+    /// Returns whether no coordinate varies.
+    pub fn is_exact(&self) -> bool {
+        let mut all = self.origin.0.iter().chain(&self.direction.0);
+        all.all(Span::is_exact)
+    }
+
     /// Returns `origin + t · direction − from`: the point at parameter `t`, relative to another
     /// point.
     pub fn offset_at(&self, t: &Span, from: &SpanVec) -> SpanVec {

@@ -1,42 +1,36 @@
 //! Triangles and polygons: intersections of a ray with the area inside an outline.
 
+use super::chord;
 use super::crossing::{Crossing, Line};
 use super::root::Root;
-use super::span::{Span, SpanVec, rational};
-use crate::primitive::{Polygon, Triangle};
+use super::span::{Span, SpanVec};
+use crate::geometry::Vec3;
 use dashu_ratio::Relaxed as Rational;
 use std::cmp::Ordering;
 
 /// Returns the intersection with a triangle whose vertices move by at most `reach`.
-pub fn triangle(triangle: &Triangle, line: &Line<'_>, reach: &Rational) -> Option<Crossing> {
-    let vertices = triangle.vertices.map(|v| SpanVec::around(v, reach));
-    outline(&vertices, line)
+pub fn triangle(vertices: &[Vec3; 3], line: &Line<'_>, reach: &Rational) -> Option<Crossing> {
+    outline(&vertices.map(|v| SpanVec::around(v, reach)), line)
 }
 
 /// Returns the intersection with a polygon whose vertices move by at most `reach`.
 ///
-/// The polygon's surface lies in the mean plane of its vertices. Each vertex is first moved into
-/// that plane, exactly, along the axis that the projection drops. The tolerance applies after that.
-pub fn polygon(polygon: &Polygon, line: &Line<'_>, reach: &Rational) -> Option<Crossing> {
-    let exact: Vec<SpanVec> = polygon
-        .vertices()
+/// Without a tolerance, it is the exact one with the area within the outline ([`chord::pierced`]). With a
+/// tolerance, the vertices lie in a common plane up to `reach`.
+pub fn polygon(vertices: &[Vec3], line: &Line<'_>, reach: &Rational) -> Option<Crossing> {
+    if *reach == Rational::ZERO && line.is_exact() {
+        let pierced = chord::pierced(vertices, line.ray)?;
+        return Some(Crossing {
+            earliest: pierced.t.clone(),
+            latest: pierced.t,
+            certain: !pierced.on_outline,
+        });
+    }
+    let around: Vec<_> = vertices
         .iter()
-        .map(|&v| SpanVec::around(v, &Rational::ZERO))
+        .map(|&v| SpanVec::around(v, reach))
         .collect();
-    let normal = newell_normal(&exact);
-    let share = Span::exactly(&Rational::ONE / &rational(exact.len() as f64));
-    let mean = exact
-        .iter()
-        .map(|v| v.scaled(&share))
-        .reduce(|sum, v| &sum + &v)?;
-    let k = polygon.projection_axis().index();
-    let moved = exact.into_iter().map(|v| {
-        let off_plane = normal.dot(&(&v - &mean)).divided_by(&normal.0[k])?;
-        let mut moved = v;
-        moved.0[k] = &moved.0[k] - &off_plane;
-        Some(SpanVec(moved.0.map(|x| Span::around(x.lo, reach))))
-    });
-    outline(&moved.collect::<Option<Vec<_>>>()?, line)
+    outline(&around, line)
 }
 
 /// Returns the sum of the cross products of a triangle fan. It points along the normal, and its

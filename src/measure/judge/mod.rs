@@ -9,15 +9,19 @@
 //! first rounded by at most a [`Tolerance`].
 
 mod case;
+mod chord;
 mod crossing;
 mod flat;
-mod object;
 mod quadric;
 mod root;
 mod span;
+mod surface;
 mod tolerance;
 mod verdict;
 
 pub use case::{Case, CaseError};
+pub(super) use crossing::Line;
+pub(super) use root::Root;
+pub(super) use surface::{Frustum, Surface};
 pub use tolerance::Tolerance;
 pub use verdict::{Answer, Standing, Tally, Verdict, examine, scale_of, settle};

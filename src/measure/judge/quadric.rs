@@ -3,16 +3,16 @@
 use super::crossing::{Crossing, Line};
 use super::root::Root;
 use super::span::{Span, SpanVec, rational};
+use super::surface::Frustum;
 use crate::geometry::Vec3;
-use crate::primitive::{Cone, Shape, Sphere};
 use dashu_ratio::Relaxed as Rational;
 use std::cmp::Ordering;
 
 /// Returns the intersections with a sphere whose center and radius vary by at most `reach`.
-pub fn sphere(sphere: &Sphere, line: &Line<'_>, reach: &Rational) -> Vec<Crossing> {
-    let start = nearest(sphere.center, line);
-    let center = SpanVec::around(sphere.center, reach);
-    let radius = Span::around(rational(sphere.radius), reach);
+pub fn sphere(center: Vec3, radius: f64, line: &Line<'_>, reach: &Rational) -> Vec<Crossing> {
+    let start = nearest(center, line);
+    let center = SpanVec::around(center, reach);
+    let radius = Span::around(rational(radius), reach);
     let from_center = line.offset_at(&start, &center);
     let a = line.direction.squared_length();
     let b = from_center.dot(&line.direction);
@@ -29,14 +29,17 @@ pub fn sphere(sphere: &Sphere, line: &Line<'_>, reach: &Rational) -> Vec<Crossin
 /// The axis `w` from base to apex is not normalized, which keeps every coefficient rational. For a
 /// point `p` relative to the base, the scaled height is `h = p·w`, from 0 to `w·w`. Its distance
 /// from the axis is `|w × p| / |w|`. The surface at that height has the radius `r₀ + (r₁ − r₀) h /
-/// w·w`.
-pub fn cone(cone: &Cone, line: &Line<'_>, reach: &Rational) -> Vec<Crossing> {
-    let start = nearest(0.5 * cone.base() + 0.5 * cone.apex(), line);
-    let base = SpanVec::around(cone.base(), reach);
-    let axis = &SpanVec::around(cone.apex(), reach) - &base;
+/// w·w`. A cone whose ends are equal has no surface.
+pub fn cone(cone: &Frustum, line: &Line<'_>, reach: &Rational) -> Vec<Crossing> {
+    let start = nearest(0.5 * cone.base + 0.5 * cone.apex, line);
+    let base = SpanVec::around(cone.base, reach);
+    let axis = &SpanVec::around(cone.apex, reach) - &base;
     let squared_axis = axis.squared_length();
-    let base_radius = Span::around(rational(cone.base_radius()), reach);
-    let growth = &Span::around(rational(cone.apex_radius()), reach) - &base_radius;
+    if squared_axis.sign() == Some(Ordering::Equal) {
+        return Vec::new();
+    }
+    let base_radius = Span::around(rational(cone.base_radius), reach);
+    let growth = &Span::around(rational(cone.apex_radius), reach) - &base_radius;
 
     let from_base = line.offset_at(&start, &base);
     let (height, rise) = (from_base.dot(&axis), line.direction.dot(&axis));
@@ -156,7 +159,7 @@ fn between_ends(
 }
 
 /// Returns an uncertain crossing that covers the whole box of the cone.
-fn anywhere(cone: &Cone, line: &Line<'_>) -> Crossing {
+fn anywhere(cone: &Frustum, line: &Line<'_>) -> Crossing {
     let bounds = cone.bounds();
     let speed = line.ray.direction.length();
     let middle = nearest(bounds.center(), line);

@@ -1,5 +1,7 @@
 //! Roots of quadratic equations with rational coefficients, compared without rounding.
 
+use super::span::rational;
+use crate::primitive::Precision;
 use dashu_ratio::Relaxed as Rational;
 use std::cmp::Ordering;
 
@@ -72,7 +74,49 @@ impl Root {
         }
     }
 
-    /// Returns the number rounded to `f64`, for comparison with a kernel's answer.
+    /// Returns the nearest number of a precision; of two the one whose last bit is 0. Larger numbers
+    /// become the largest.
+    pub fn nearest(&self, precision: Precision) -> f64 {
+        let most = key_of(f64::MAX, precision);
+        let is_at_most = |key: i64| Root::from(rational(number_of(key, precision))) <= *self;
+        // The estimate is wrong by far if its terms cancel, so the steps grow.
+        let start = key_of(self.to_f64(), precision);
+        let (mut low, mut high, mut step) = (start, start, 1);
+        if is_at_most(start) {
+            while high < most && is_at_most(high) {
+                low = high;
+                high = (high + step).min(most);
+                step *= 2;
+            }
+            if is_at_most(high) {
+                return number_of(high, precision);
+            }
+        } else {
+            while low > -most && !is_at_most(low) {
+                high = low;
+                low = (low - step).max(-most);
+                step *= 2;
+            }
+        }
+        while high - low > 1 {
+            let middle = low + (high - low) / 2;
+            if is_at_most(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let [below, above] = [low, high].map(|key| number_of(key, precision));
+        let middle = (rational(below) + rational(above)) / Rational::from(2);
+        match self.cmp(&Root::from(middle)) {
+            Ordering::Less => below,
+            Ordering::Greater => above,
+            Ordering::Equal if low % 2 == 0 => below,
+            Ordering::Equal => above,
+        }
+    }
+
+    /// Returns roughly the number, for comparison with a kernel's answer.
     pub fn to_f64(&self) -> f64 {
         let (mut near_one, mut half) = (self.radicand.clone(), 0);
         let mut step = |near_one: &mut Rational, by: i32| {
@@ -89,6 +133,30 @@ impl Root {
         let sign = if self.minus { -1.0 } else { 1.0 };
         self.rational.to_f64().value() + sign * surd
     }
+}
+
+/// Returns the number of a precision with this key. Keys are consecutive integers: the bits of the absolute
+/// value, with the sign of the number.
+fn number_of(key: i64, precision: Precision) -> f64 {
+    let bits = key.unsigned_abs();
+    let size = match precision {
+        Precision::F64 => f64::from_bits(bits),
+        Precision::F32 => f64::from(f32::from_bits(bits as u32)),
+    };
+    if key < 0 { -size } else { size }
+}
+
+/// Returns the key of a number of the precision near this one; that of the largest for an infinite one, and
+/// 0 for NaN.
+fn key_of(number: f64, precision: Precision) -> i64 {
+    if number.is_nan() {
+        return 0;
+    }
+    let size = match precision {
+        Precision::F64 => number.abs().min(f64::MAX).to_bits() as i64,
+        Precision::F32 => i64::from((number.abs() as f32).min(f32::MAX).to_bits()),
+    };
+    if number < 0.0 { -size } else { size }
 }
 
 impl Ord for Root {
@@ -132,7 +200,6 @@ impl Eq for Root {}
 
 #[cfg(test)]
 mod tests {
-    use super::super::span::rational;
     use super::*;
 
     fn root(p: f64, minus: bool, w: f64) -> Root {
@@ -158,6 +225,40 @@ mod tests {
                 assert_eq!(a.cmp(b), x.partial_cmp(y).unwrap(), "{a:?} {b:?}");
             }
         }
+    }
+
+    #[test]
+    fn the_nearest_number_is_exact_also_where_terms_cancel() {
+        let f64_of = |root: &Root| root.nearest(Precision::F64);
+        assert_eq!(f64_of(&root(0.0, false, 2.0)), std::f64::consts::SQRT_2);
+        assert_eq!(f64_of(&root(-3.0, false, 0.0)), -3.0);
+        assert_eq!(f64_of(&root(0.0, false, 0.0)), 0.0);
+        // 1 − √(1 − 2⁻⁷⁰) = 2⁻⁷¹ (1 + 2⁻⁷² + …).
+        let tiny = rational(2.0f64.powi(-70));
+        let cancelled = Root::new(rational(1.0), true, &(&rational(1.0) - &tiny));
+        assert_eq!(f64_of(&cancelled), 2.0f64.powi(-71));
+        assert_eq!(cancelled.nearest(Precision::F32), 2.0f64.powi(-71));
+        // Halfway between two numbers, and the least beyond it.
+        let half = f64::EPSILON / 2.0;
+        let halfway = |x: f64| Root::from(rational(x) + rational(half));
+        assert_eq!(f64_of(&halfway(1.0)), 1.0);
+        assert_eq!(f64_of(&halfway(1.0f64.next_up())), 1.0 + 2.0 * f64::EPSILON);
+        let beyond = halfway(1.0).plus(&rational(1e-300));
+        assert_eq!(f64_of(&beyond), 1.0f64.next_up());
+        assert_eq!(f64_of(&halfway(-1.0)), -1.0 + half);
+        // Subnormal and huge.
+        assert_eq!(f64_of(&Root::from(rational(1.5e-323))), 1.5e-323);
+        assert_eq!(f64_of(&Root::from(rational(f64::MAX))), f64::MAX);
+        let double = Root::from(rational(f64::MAX) * rational(2.0));
+        assert_eq!(f64_of(&double), f64::MAX);
+        let f32_half = f64::from(f32::EPSILON) / 2.0;
+        let near_f32 = |x: f64| Root::from(rational(x)).nearest(Precision::F32);
+        assert_eq!(near_f32(1.0 + f32_half), 1.0);
+        assert_eq!(
+            near_f32(1.0 + f32_half * 1.000001),
+            f64::from(1.0f32.next_up())
+        );
+        assert_eq!(near_f32(0.1), f64::from(0.1f32));
     }
 
     #[test]

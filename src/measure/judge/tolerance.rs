@@ -12,7 +12,7 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    pub(super) const NONE: Tolerance = Tolerance {
+    pub(in crate::measure) const NONE: Tolerance = Tolerance {
         length: 0.0,
         relative: 0.0,
     };

@@ -1,8 +1,8 @@
 //! Verdicts on answers about rays.
 
 use super::crossing::{Crossing, Line};
-use super::object::crossings;
 use super::root::Root;
+use super::surface::Surface;
 use super::tolerance::Tolerance;
 use crate::geometry::{Aabb, Ray};
 use crate::primitive::Shape;
@@ -81,7 +81,8 @@ impl Evidence {
             .enumerate()
             .filter(|(_, object)| may_meet(ray, &object.bounds(), tolerance));
         let all = near.flat_map(|(number, object)| {
-            crossings(object, &line, tolerance)
+            Surface::of(object)
+                .crossings(&line, tolerance)
                 .into_iter()
                 .map(move |crossing| (number as u32, crossing))
         });
