@@ -428,9 +428,14 @@ pub enum ListFormat {
 /// If two hits differ, exact arithmetic decides whether it is a tie (both are exactly right) or a
 /// fault. Exits with code 1 if a tree is invalid or there is a fault. The first faults are written
 /// to fault.json, fault-1.json and so on, each with as few objects as needed to reproduce it.
+///
+/// With --exact, every answer is compared with exact arithmetic instead: of testing every object and
+/// of every tree, by every kernel of this processor, in f64 and f32. The rays are random ones, rays of
+/// the picture, and rays at the limits of rounding.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope verify\n\
     bspscope verify teaching scenes/balls.nff --rays 10000 --method sah-cut\n\
+    bspscope verify balls --exact 100000\n\
     bspscope verify --replay fault.json"))]
 pub struct VerifyArgs {
     /// Scene files or generators [default: all generators]
@@ -439,6 +444,9 @@ pub struct VerifyArgs {
     /// Repeat the fault in this file, and nothing else
     #[arg(long, value_name = "FILE", conflicts_with = "scenes")]
     pub replay: Option<PathBuf>,
+    /// Compare the answers about N rays per scene and precision with exact arithmetic
+    #[arg(long, value_name = "N", conflicts_with_all = ["replay", "rays"], value_parser = clap::value_parser!(u32).range(1..))]
+    pub exact: Option<u32>,
     /// Number of rays to compare, per scene and kind
     #[arg(long, value_name = "N", default_value_t = 50_000, value_parser = clap::value_parser!(u32).range(1..))]
     pub rays: u32,

@@ -29,6 +29,7 @@ mod sweep;
 mod tune;
 mod values;
 mod verify;
+mod verify_exact;
 mod window;
 
 use args::{Arguments, Command};

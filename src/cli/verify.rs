@@ -2,7 +2,7 @@
 
 use super::args::VerifyArgs;
 use super::outcome::Outcome;
-use super::{bar, output, resolve};
+use super::{bar, output, resolve, verify_exact};
 use crate::measure::judge::{Answer, Case, Verdict};
 use crate::measure::{Answers, RaySample, Verification, answer, compare, sample_rays, unsplit};
 use crate::present::number::counted;
@@ -32,6 +32,12 @@ impl Finding {
     fn passed(&self) -> bool {
         self.tree.is_ok() && self.rays.passed()
     }
+
+    /// Returns whether the tree itself is wrong. Where it differs from testing every object, the tree may be
+    /// right.
+    fn tree_is_wrong(&self) -> bool {
+        self.tree.is_err() || self.rays.tree_wrong > 0
+    }
 }
 
 pub fn run(args: &VerifyArgs) -> Result<Outcome> {
@@ -43,6 +49,9 @@ pub fn run(args: &VerifyArgs) -> Result<Outcome> {
     } else {
         args.scenes.clone()
     };
+    if let Some(count) = args.exact {
+        return verify_exact::run(&scenes, args, count);
+    }
     let mut findings = Vec::new();
     for scene in &scenes {
         findings.extend(findings_of(scene, args)?);
@@ -268,16 +277,25 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
             )?;
         }
     }
-    let wrong = findings.iter().filter(|f| !f.passed()).count();
-    if wrong == 0 {
-        writeln!(
+    if findings.iter().all(Finding::passed) {
+        return writeln!(
             out,
             "All {} trees are valid and all hits are right.",
             findings.len()
-        )
-    } else {
-        writeln!(out, "{wrong} of {} trees are wrong.", findings.len())
+        );
     }
+    let wrong = findings.iter().filter(|f| f.tree_is_wrong()).count();
+    let mut scenes: Vec<&str> = findings
+        .iter()
+        .filter(|f| f.rays.every_object_wrong > 0)
+        .map(|f| f.scene.as_str())
+        .collect();
+    scenes.dedup();
+    if !scenes.is_empty() {
+        let scenes = scenes.join(", ");
+        writeln!(out, "Testing every object is wrong in: {scenes}.")?;
+    }
+    writeln!(out, "{wrong} of {} trees are wrong.", findings.len())
 }
 
 #[cfg(test)]
@@ -304,6 +322,7 @@ mod tests {
         };
         let mut wrong_hit = right();
         wrong_hit.rays.others[RayKind::Shadow as usize].faults = 3;
+        wrong_hit.rays.tree_wrong = 3;
         wrong_hit.rays.faults = vec![(RayKind::Shadow, Ray::new(Vec3::ZERO, Vec3::Y))];
 
         assert_eq!(outcome(&[right(), right()]), Outcome::Done);
@@ -319,5 +338,31 @@ mod tests {
             assert!(text.contains(said), "{text}");
             assert!(text.contains("1 of 2 trees are wrong"), "{text}");
         }
+    }
+
+    #[test]
+    fn the_summary_says_when_testing_every_object_is_wrong() {
+        let mut finding = Finding {
+            scene: "teaching:1".into(),
+            method: Method::of_the_paper()[0],
+            precision: Precision::F64,
+            tree: Ok(()),
+            rays: Verification::default(),
+            files: Vec::new(),
+        };
+        finding.rays.others[0].faults = 1;
+        finding.rays.every_object_wrong = 1;
+        assert_eq!(
+            outcome(std::slice::from_ref(&finding)),
+            Outcome::CheckFailed
+        );
+        let mut text = Vec::new();
+        write(&[finding], &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert!(
+            text.contains("Testing every object is wrong in: teaching:1."),
+            "{text}"
+        );
+        assert!(text.contains("0 of 1 trees are wrong."), "{text}");
     }
 }

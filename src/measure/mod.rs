@@ -4,6 +4,7 @@
 pub mod accuracy;
 mod comparison;
 mod counter;
+pub mod exact;
 mod facts;
 pub mod heat;
 pub mod judge;

@@ -47,6 +47,10 @@ pub struct Verification {
     pub rays: [u64; 4],
     /// Number of rays with different answers, per verdict.
     pub others: [Tally; 4],
+    /// Number of faults in which testing every object is wrong.
+    pub every_object_wrong: u64,
+    /// Number of faults in which the tree is wrong. Both may be.
+    pub tree_wrong: u64,
     /// The first few faults.
     pub faults: Vec<(RayKind, Ray)>,
 }
@@ -70,6 +74,8 @@ impl std::ops::AddAssign for Verification {
             self.rays[k] += other.rays[k];
             self.others[k] += other.others[k];
         }
+        self.every_object_wrong += other.every_object_wrong;
+        self.tree_wrong += other.tree_wrong;
         self.faults.extend(other.faults);
         self.faults.truncate(EXAMPLES);
     }
@@ -293,7 +299,16 @@ pub fn compare(
             let tolerance = rounding.map(|p| Tolerance::of(p, scale_of(scene, ray)));
             let verdict = settle(scene, ray, answers, tolerance);
             result.others[k].add(verdict);
-            if matches!(verdict, Verdict::Fault { .. }) && result.faults.len() < EXAMPLES {
+            let Verdict::Fault {
+                a_is_wrong,
+                b_is_wrong,
+            } = verdict
+            else {
+                continue;
+            };
+            result.every_object_wrong += u64::from(a_is_wrong);
+            result.tree_wrong += u64::from(b_is_wrong);
+            if result.faults.len() < EXAMPLES {
                 result.faults.push((kind, *ray));
             }
         }

@@ -28,6 +28,8 @@ fn wrong_use_is_told_with_exit_code_2() {
         "render teaching",
         "render teaching --samples 0 -o a.png",
         "verify teaching --rays 0",
+        "verify teaching --exact 0",
+        "verify teaching --exact 10 --rays 10",
     ] {
         let output = program.run(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments}");
@@ -515,6 +517,56 @@ fn verify_checks_every_kind_of_ray() {
     assert_eq!(text.matches("  f32  ").count(), 4, "{text}");
     let text = program.done("verify balls:1 tetra:2 --rays 100 --method sah-cut");
     assert!(text.contains("All 2 trees"), "{text}");
+}
+
+#[test]
+fn verify_exact_compares_every_structure_and_kernel_with_exact_arithmetic() {
+    let program = Program::new();
+    let text = program.done("verify teaching --exact 100 --method midpoint --method grid");
+    for structure in ["every object", "midpoint", "grid"] {
+        let rows = text.lines().filter(|line| line.contains(structure));
+        let rows: Vec<_> = rows.filter(|line| line.starts_with("teaching:1")).collect();
+        assert_eq!(rows.len(), 2, "{structure}: {text}");
+    }
+    for words in [
+        "scalar",
+        "counting",
+        "stream, portable",
+        "100 rays in each precision",
+        "tangent",
+        "All answers are exactly right, of testing every object and of every structure.",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    assert_eq!(program.files(), [""; 0]);
+}
+
+#[test]
+fn f32_for_a_scene_that_it_cannot_represent_is_warned_of() {
+    let program = Program::new();
+    let ground = "s 0 0 -6371000 6371000\ns 0 0 1 1\n";
+    let header = "v\nfrom 0 -9 2\nat 0 0 1\nup 0 0 1\nangle 45\nhither 0.1\nresolution 16 16\n";
+    program.write(
+        "earth.nff",
+        &format!("{header}b 0 0 0\nl 5 -5 50\nf 1 1 1 1 0 0 0 0\n{ground}"),
+    );
+    let options = "--precision f32 --method midpoint";
+    let measured = program.done(&format!("measure earth.nff {options} --resolution 16x16"));
+    let line = measured.lines().find(|line| line.contains("Precision: "));
+    let words = line.expect("measure says the precision").trim();
+    assert!(words.contains("as chosen, though object 1"), "{words}");
+    for command in [
+        format!("render earth.nff {options} --resolution 16x16 -o earth.png"),
+        format!("verify earth.nff {options} --rays 10"),
+        format!("verify earth.nff {options} --exact 10"),
+    ] {
+        let output = program.run(&command);
+        let errors = String::from_utf8(output.stderr).unwrap();
+        assert!(errors.contains(words), "{command}: {errors}");
+        let other = program.run(&command.replace("f32", "f64"));
+        let errors = String::from_utf8(other.stderr).unwrap();
+        assert!(!errors.contains("Precision"), "{command}: {errors}");
+    }
 }
 
 #[test]

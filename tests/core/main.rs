@@ -7,6 +7,7 @@ mod accuracy;
 mod build;
 mod compare;
 mod conformance;
+mod exact;
 mod export;
 mod foreign;
 mod formats;
