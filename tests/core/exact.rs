@@ -135,7 +135,7 @@ fn the_oracle_rounds_distances_to_the_nearest_number() {
             .closest(&Ray::new(Vec3::ZERO, Vec3::ONE))
             .t
     };
-    assert_eq!(oracle(Precision::F64), 0.577_350_269_189_625_8);
+    assert_eq!(oracle(Precision::F64), 0.577_350_269_189_625_7);
     assert_eq!(
         oracle(Precision::F32),
         f64::from((1.0 / 3.0f64.sqrt()) as f32)

@@ -75,7 +75,7 @@ pub struct ExactRays {
 
 impl ExactRays {
     /// Returns `count` rays of a scene, evenly distributed over the sources. Where a source has no ray, as
-    /// tangents of triangles, a random ray takes its place. Those on surfaces are on the surfaces in the
+    /// tangents of triangles, one of another source takes its place. Those on surfaces are on the surfaces in the
     /// oracle's precision.
     ///
     /// # Errors
@@ -101,7 +101,7 @@ impl ExactRays {
             };
             let (source, ray) = match ray {
                 Some(ray) => (source, ray),
-                None => (RaySource::Random, places.random()),
+                None => places.instead(),
             };
             rays.push(ray);
             sources.push(source);
@@ -227,7 +227,7 @@ impl<'a> Places<'a> {
 
     /// Returns a ray of a source; `None` if a few random objects have none.
     fn ray(&mut self, source: RaySource) -> Option<Ray> {
-        const TRIES: usize = 16;
+        const TRIES: usize = 64;
         if self.objects.is_empty() {
             return None;
         }
@@ -253,6 +253,14 @@ impl<'a> Places<'a> {
                 _ => None,
             }
         })
+    }
+
+    /// Returns a ray in place of one that a source does not have.
+    fn instead(&mut self) -> (RaySource, Ray) {
+        let others = [RaySource::Tangents, RaySource::Vertices];
+        let ray_of = |source| Some((source, self.ray(source)?));
+        let other = others.into_iter().find_map(ray_of);
+        other.unwrap_or_else(|| (RaySource::Random, self.random()))
     }
 
     fn at_vertex(&mut self, surface: &Surface) -> Option<Ray> {
