@@ -95,6 +95,7 @@ impl ExactRays {
         for i in 0..count - derived {
             let source = RaySource::ALL[i % 8];
             let ray = match source {
+                RaySource::Random => Some(places.random()),
                 RaySource::Picture if of_picture.is_empty() => None,
                 RaySource::Picture => Some(of_picture[i / 8 % of_picture.len()]),
                 _ => places.ray(source),
