@@ -525,7 +525,9 @@ fn verify_exact_compares_every_structure_and_kernel_with_exact_arithmetic() {
     let text = program.done("verify teaching --exact 100 --method midpoint --method grid");
     for structure in ["every object", "midpoint", "grid"] {
         let rows = text.lines().filter(|line| line.contains(structure));
-        let rows: Vec<_> = rows.filter(|line| line.starts_with("teaching:1")).collect();
+        let rows: Vec<_> = rows
+            .filter(|line| line.starts_with(" teaching:1"))
+            .collect();
         assert_eq!(rows.len(), 2, "{structure}: {text}");
     }
     for words in [

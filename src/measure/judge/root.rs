@@ -81,12 +81,12 @@ impl Root {
         let is_at_most = |key: i64| Root::from(rational(number_of(key, precision))) <= *self;
         // The estimate is wrong by far if its terms cancel, so the steps grow.
         let start = key_of(self.to_f64(), precision);
-        let (mut low, mut high, mut step) = (start, start, 1);
+        let (mut low, mut high, mut step) = (start, start, 1i64);
         if is_at_most(start) {
             while high < most && is_at_most(high) {
                 low = high;
-                high = (high + step).min(most);
-                step *= 2;
+                high = high.saturating_add(step).min(most);
+                step = step.saturating_mul(2);
             }
             if is_at_most(high) {
                 return number_of(high, precision);
@@ -94,12 +94,12 @@ impl Root {
         } else {
             while low > -most && !is_at_most(low) {
                 high = low;
-                low = (low - step).max(-most);
-                step *= 2;
+                low = low.saturating_sub(step).max(-most);
+                step = step.saturating_mul(2);
             }
         }
-        while high - low > 1 {
-            let middle = low + (high - low) / 2;
+        while high.saturating_sub(low) > 1 {
+            let middle = low.midpoint(high);
             if is_at_most(middle) {
                 low = middle;
             } else {
@@ -238,6 +238,13 @@ mod tests {
         let cancelled = Root::new(rational(1.0), true, &(&rational(1.0) - &tiny));
         assert_eq!(f64_of(&cancelled), 2.0f64.powi(-71));
         assert_eq!(cancelled.nearest(Precision::F32), 2.0f64.powi(-71));
+        // Terms so large that the estimate is not a number.
+        let huge = Rational::from(2).pow(1099);
+        let square = &huge * &huge;
+        for difference in [0.0, 5.0, -5.0, 1e300, -1e300] {
+            let root = Root::new(&huge + rational(difference), true, &square);
+            assert_eq!(f64_of(&root), difference);
+        }
         // Halfway between two numbers, and the least beyond it.
         let half = f64::EPSILON / 2.0;
         let halfway = |x: f64| Root::from(rational(x) + rational(half));
