@@ -12,13 +12,18 @@ use crate::trace::{Hit, thread_pool};
 /// An intersection test with `f64` objects: the distance within `t_max`.
 type Test = fn(&Primitive, &Ray, f64) -> Option<f64>;
 
-/// Tests every object.
+/// Tests every object. Of equal rounded distances, the exactly smaller one wins, then the lower number.
 fn closest(scene: &Scene, ray: &Ray, test: Test) -> Hit {
     let mut best = Hit::MISS;
-    for (object, number) in scene.objects().iter().zip(0..) {
-        if let Some(t) = test(object, ray, ray.t_max)
-            && t < best.t
-        {
+    let objects = scene.objects();
+    for (object, number) in objects.iter().zip(0..) {
+        let Some(t) = test(object, ray, ray.t_max) else {
+            continue;
+        };
+        let is_nearer = t < best.t
+            || t == best.t
+                && object.exact_distance(ray) < objects[best.object as usize].exact_distance(ray);
+        if is_nearer {
             best = Hit { t, object: number };
         }
     }
@@ -104,7 +109,7 @@ fn accepting_hits_4_units_beyond_an_edge_is_caught() {
 fn accepting_hits_beyond_the_end_is_caught() {
     let test: Test = |object, ray, t_max| {
         let end = 4.0f64.mul_add(f64::EPSILON * t_max, t_max);
-        object.intersect(ray, end)
+        object.intersect(&Ray { t_max: end, ..*ray }, end)
     };
     assert!(caught(test) > 0);
 }
