@@ -2,7 +2,8 @@
 
 use super::meeting::{Meeting, enlarged};
 use crate::geometry::{Aabb, Ray};
-use crate::measure::judge::{Line, Root, Surface, Tolerance};
+use crate::measure::judge::{Line, Surface, Tolerance};
+use crate::primitive::exact::Root;
 use crate::primitive::{PackedRay, Precision, Shapes, UnitFrame};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;

@@ -1,8 +1,8 @@
 //! The exact intersection of a ray with the area within an outline.
 
-use super::root::Root;
 use super::span::rational;
 use crate::geometry::{Ray, Vec3};
+use crate::primitive::exact::Root;
 use dashu_ratio::Relaxed as Rational;
 
 /// A vertex in coordinates in which the ray is the third axis. The first two are multiplied by the absolute
@@ -138,7 +138,7 @@ mod tests {
 
     fn t(vertices: &[Vec3], origin: Vec3, direction: Vec3) -> Option<(f64, bool)> {
         let ray = Ray::new(origin, direction);
-        pierced(vertices, &ray).map(|p| (p.t.to_f64(), p.on_outline))
+        pierced(vertices, &ray).map(|p| (p.t.approximate(), p.on_outline))
     }
 
     #[test]

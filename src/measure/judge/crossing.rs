@@ -1,9 +1,9 @@
 //! Intersections of a ray with one object, exact or within a tolerance.
 
-use super::root::Root;
 use super::span::{Span, SpanVec, rational};
 use super::tolerance::Tolerance;
 use crate::geometry::Ray;
+use crate::primitive::exact::Root;
 use std::cmp::Ordering;
 
 /// A possible intersection of the ray and the surface, between `earliest` and `latest`. The two are

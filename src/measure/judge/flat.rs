@@ -2,9 +2,9 @@
 
 use super::chord;
 use super::crossing::{Crossing, Line};
-use super::root::Root;
 use super::span::{Span, SpanVec};
 use crate::geometry::Vec3;
+use crate::primitive::exact::Root;
 use dashu_ratio::Relaxed as Rational;
 use std::cmp::Ordering;
 

@@ -13,7 +13,6 @@ mod chord;
 mod crossing;
 mod flat;
 mod quadric;
-mod root;
 mod span;
 mod surface;
 mod tolerance;
@@ -21,7 +20,6 @@ mod verdict;
 
 pub use case::{Case, CaseError};
 pub(super) use crossing::Line;
-pub(super) use root::Root;
 pub(super) use surface::{Frustum, Surface};
 pub use tolerance::Tolerance;
 pub use verdict::{Answer, Standing, Tally, Verdict, examine, scale_of, settle};

@@ -1,10 +1,10 @@
 //! Spheres, cylinders and cones: roots of quadratic equations.
 
 use super::crossing::{Crossing, Line};
-use super::root::Root;
 use super::span::{Span, SpanVec, rational};
 use super::surface::Frustum;
 use crate::geometry::Vec3;
+use crate::primitive::exact::Root;
 use dashu_ratio::Relaxed as Rational;
 use std::cmp::Ordering;
 

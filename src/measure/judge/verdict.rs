@@ -1,11 +1,11 @@
 //! Verdicts on answers about rays.
 
 use super::crossing::{Crossing, Line};
-use super::root::Root;
 use super::surface::Surface;
 use super::tolerance::Tolerance;
 use crate::geometry::{Aabb, Ray};
 use crate::primitive::Shape;
+use crate::primitive::exact::Root;
 use crate::scene::Scene;
 use crate::trace::Hit;
 use serde::Serialize;
@@ -100,7 +100,7 @@ impl Evidence {
     /// hit's distance.
     fn crossing_of(&self, hit: &Hit) -> Option<&Crossing> {
         let off = |c: &Crossing| {
-            let (lo, hi) = (c.earliest.to_f64(), c.latest.to_f64());
+            let (lo, hi) = (c.earliest.approximate(), c.latest.approximate());
             (lo - hit.t).max(hit.t - hi).max(0.0)
         };
         let own = self.0.iter().filter(|(object, _)| *object == hit.object);
@@ -119,7 +119,10 @@ impl Evidence {
                 let in_front = self.limit().is_none_or(|limit| crossing.earliest <= *limit);
                 let distance = slack.is_none_or(|slack| {
                     let slack = slack * hit.t.abs();
-                    let (lo, hi) = (crossing.earliest.to_f64(), crossing.latest.to_f64());
+                    let (lo, hi) = (
+                        crossing.earliest.approximate(),
+                        crossing.latest.approximate(),
+                    );
                     lo - slack <= hit.t && hit.t <= hi + slack
                 });
                 in_front && distance

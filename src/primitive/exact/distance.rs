@@ -3,6 +3,7 @@
 use super::double_word::DoubleWord;
 use super::number::{Number, Rational, Unsure};
 use super::root::Root;
+use crate::primitive::Precision;
 use std::cmp::Ordering;
 
 /// The number `(middle ± √radicand) / divisor`.
@@ -179,11 +180,11 @@ impl<const FMA: bool> Round for Distance<DoubleWord<FMA>> {
 
 impl Round for Distance<Rational> {
     fn to_f64(&self) -> Result<f64, Unsure> {
-        Ok(self.root().to_f64())
+        Ok(self.root().nearest(Precision::F64))
     }
 
     fn to_f32(&self) -> Result<f64, Unsure> {
-        Ok(self.root().to_f32())
+        Ok(self.root().nearest(Precision::F32))
     }
 }
 

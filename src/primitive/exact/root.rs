@@ -1,6 +1,7 @@
 //! Roots of quadratic equations with rational coefficients, compared without rounding.
 
 use super::number::{Number, Rational};
+use crate::primitive::Precision;
 use std::cmp::Ordering;
 
 /// The number `rational ± √radicand`.
@@ -72,19 +73,52 @@ impl Root {
         }
     }
 
-    /// Returns the nearest `f64`; of two equally near ones that whose last bit is 0. Infinite beyond the
+    /// Returns the nearest number of a precision; of two the one whose last bit is 0. Infinite beyond the
     /// largest one.
-    pub fn to_f64(&self) -> f64 {
-        Format::F64.nearest(self)
+    pub fn nearest(&self, precision: Precision) -> f64 {
+        let most = key_of(f64::MAX, precision);
+        let is_at_most = |key: i64| Root::from(rational(number_of(key, precision))) <= *self;
+        // The estimate is wrong by far if its terms cancel, so the steps grow.
+        let start = key_of(self.approximate(), precision);
+        let (mut low, mut high, mut step) = (start, start, 1i64);
+        if is_at_most(start) {
+            while high < most && is_at_most(high) {
+                low = high;
+                high = high.saturating_add(step).min(most);
+                step = step.saturating_mul(2);
+            }
+            if is_at_most(high) {
+                let largest = number_of(high, precision);
+                let is_beyond = *self > Root::from(rational(largest));
+                return if is_beyond { f64::INFINITY } else { largest };
+            }
+        } else {
+            while low > -most && !is_at_most(low) {
+                high = low;
+                low = low.saturating_sub(step).max(-most);
+                step = step.saturating_mul(2);
+            }
+        }
+        while high.saturating_sub(low) > 1 {
+            let middle = low.midpoint(high);
+            if is_at_most(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let [below, above] = [low, high].map(|key| number_of(key, precision));
+        let middle = (rational(below) + rational(above)) / Rational::from(2);
+        match self.cmp(&Root::from(middle)) {
+            Ordering::Less => below,
+            Ordering::Greater => above,
+            Ordering::Equal if low % 2 == 0 => below,
+            Ordering::Equal => above,
+        }
     }
 
-    /// Returns the nearest `f32`, likewise.
-    pub fn to_f32(&self) -> f64 {
-        Format::F32.nearest(self)
-    }
-
-    /// Returns the number with some error.
-    fn approximate(&self) -> f64 {
+    /// Returns roughly the number.
+    pub fn approximate(&self) -> f64 {
         let (mut near_one, mut half) = (self.radicand.clone(), 0);
         let mut step = |near_one: &mut Rational, by: i32| {
             *near_one = &*near_one * Rational::from(4).pow(by as isize);
@@ -102,85 +136,33 @@ impl Root {
     }
 }
 
-/// A floating-point format, as a grid of numbers. The place of 0 is 0.
-#[derive(Clone, Copy)]
-enum Format {
-    F32,
-    F64,
-}
-
-impl Format {
-    /// Returns the place of the largest number.
-    fn last(self) -> i64 {
-        self.place(f64::MAX)
-    }
-
-    /// Returns the place of a number near this one in ascending order.
-    fn place(self, x: f64) -> i64 {
-        let size = match self {
-            Format::F32 => i64::from((x.abs() as f32).min(f32::MAX).to_bits()),
-            Format::F64 => x.abs().min(f64::MAX).to_bits() as i64,
-        };
-        if x < 0.0 { -size } else { size }
-    }
-
-    fn at(self, place: i64) -> f64 {
-        let size = match self {
-            Format::F32 => f64::from(f32::from_bits(place.unsigned_abs() as u32)),
-            Format::F64 => f64::from_bits(place.unsigned_abs()),
-        };
-        if place < 0 { -size } else { size }
-    }
-
-    /// Returns the number nearest to a root.
-    fn nearest(self, root: &Root) -> f64 {
-        let is_at_most = |place: i64| Root::from(rational(self.at(place))) <= *root;
-        let (first, last) = (-self.last(), self.last());
-        // Brackets the root: `lo` is at most the root, `hi` is above it.
-        let (mut lo, mut step) = (self.place(root.approximate()), 1);
-        while !is_at_most(lo) {
-            if lo == first {
-                return f64::NEG_INFINITY;
-            }
-            lo = (lo - step).max(first);
-            step *= 2;
-        }
-        let (mut hi, mut step) = (lo + 1, 1);
-        while hi <= last && is_at_most(hi) {
-            lo = hi;
-            hi += step;
-            step *= 2;
-        }
-        if hi > last {
-            hi = last + 1;
-            if is_at_most(last) && rational(self.at(last)) != root.rational {
-                return f64::INFINITY;
-            }
-        }
-        while hi - lo > 1 {
-            let middle = lo + (hi - lo) / 2;
-            if is_at_most(middle) {
-                lo = middle;
-            } else {
-                hi = middle;
-            }
-        }
-        if hi > last {
-            return self.at(lo);
-        }
-        let [below, above] = [lo, hi].map(|place| self.at(place));
-        let halfway = (rational(below) + rational(above)) * rational(0.5);
-        match root.cmp(&Root::from(halfway)) {
-            Ordering::Less => below,
-            Ordering::Greater => above,
-            Ordering::Equal => [below, above][(lo & 1) as usize],
-        }
-    }
-}
-
 /// Returns a finite number as a fraction.
 fn rational(x: f64) -> Rational {
     <Rational as Number>::of(x)
+}
+
+/// Returns the number of a precision with this key. Keys are consecutive integers: the bits of the absolute
+/// value, with the sign of the number.
+fn number_of(key: i64, precision: Precision) -> f64 {
+    let bits = key.unsigned_abs();
+    let size = match precision {
+        Precision::F64 => f64::from_bits(bits),
+        Precision::F32 => f64::from(f32::from_bits(bits as u32)),
+    };
+    if key < 0 { -size } else { size }
+}
+
+/// Returns the key of a number of the precision near this one; that of the largest for an infinite one, and
+/// 0 for NaN.
+fn key_of(number: f64, precision: Precision) -> i64 {
+    if number.is_nan() {
+        return 0;
+    }
+    let size = match precision {
+        Precision::F64 => number.abs().min(f64::MAX).to_bits() as i64,
+        Precision::F32 => i64::from((number.abs() as f32).min(f32::MAX).to_bits()),
+    };
+    if number < 0.0 { -size } else { size }
 }
 
 impl Ord for Root {
@@ -252,39 +234,44 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_number_is_found() {
-        for x in [
-            0.0,
-            1.0,
-            -1.0,
-            0.1,
-            5e-324,
-            1e-310,
-            1e300,
-            f64::MAX,
-            -f64::MAX,
-        ] {
-            assert_eq!(Root::from(rational(x)).to_f64(), x);
-            assert_eq!(
-                Root::from(rational(x)).to_f32().abs() as f32,
-                (x.abs() as f32).min(f32::INFINITY)
-            );
+    fn the_nearest_number_is_exact_also_where_terms_cancel() {
+        let f64_of = |root: &Root| root.nearest(Precision::F64);
+        assert_eq!(f64_of(&root(0.0, false, 2.0)), std::f64::consts::SQRT_2);
+        assert_eq!(f64_of(&root(-3.0, false, 0.0)), -3.0);
+        assert_eq!(f64_of(&root(0.0, false, 0.0)), 0.0);
+        // 1 − √(1 − 2⁻⁷⁰) = 2⁻⁷¹ (1 + 2⁻⁷² + …).
+        let tiny = rational(2.0f64.powi(-70));
+        let cancelled = Root::new(rational(1.0), true, &(&rational(1.0) - &tiny));
+        assert_eq!(f64_of(&cancelled), 2.0f64.powi(-71));
+        assert_eq!(cancelled.nearest(Precision::F32), 2.0f64.powi(-71));
+        // Terms so large that the estimate is not a number.
+        let huge = Rational::from(2).pow(1099);
+        let square = &huge * &huge;
+        for difference in [0.0, 5.0, -5.0, 1e300, -1e300] {
+            let root = Root::new(&huge + rational(difference), true, &square);
+            assert_eq!(f64_of(&root), difference);
         }
-        // Halfway between two numbers, and next to that.
-        let tiny = rational(1e-300);
-        let exactly = rational(1.0) + rational(f64::EPSILON * 0.5);
-        assert_eq!(Root::from(exactly.clone()).to_f64(), 1.0);
-        assert_eq!(Root::from(&exactly + &tiny).to_f64(), 1.0 + f64::EPSILON);
-        assert_eq!(Root::from(&exactly - &tiny).to_f64(), 1.0);
-        let odd = rational(1.0) + rational(f64::EPSILON * 1.5);
-        assert_eq!(Root::from(odd).to_f64(), 1.0 + 2.0 * f64::EPSILON);
-        // Cancellation: 1 − √(1 − 2⁻¹⁰⁰) is nearly 2⁻¹⁰¹.
-        let tiny = rational(2f64.powi(-100));
-        let root = Root::new(rational(1.0), true, &(rational(1.0) - &tiny));
-        assert_eq!(root.to_f64(), 2f64.powi(-101));
-        // 2²⁹ + ½ rounds to an f32 only once.
-        let double = rational(f64::from(16_777_217_u32)) + &tiny;
-        assert_eq!(Root::from(double).to_f32(), 16_777_218.0);
+        // Halfway between two numbers, and the least beyond it.
+        let half = f64::EPSILON / 2.0;
+        let halfway = |x: f64| Root::from(rational(x) + rational(half));
+        assert_eq!(f64_of(&halfway(1.0)), 1.0);
+        assert_eq!(f64_of(&halfway(1.0f64.next_up())), 1.0 + 2.0 * f64::EPSILON);
+        let beyond = halfway(1.0).plus(&rational(1e-300));
+        assert_eq!(f64_of(&beyond), 1.0f64.next_up());
+        assert_eq!(f64_of(&halfway(-1.0)), -1.0 + half);
+        // Subnormal and huge.
+        assert_eq!(f64_of(&Root::from(rational(1.5e-323))), 1.5e-323);
+        assert_eq!(f64_of(&Root::from(rational(f64::MAX))), f64::MAX);
+        let double = Root::from(rational(f64::MAX) * rational(2.0));
+        assert_eq!(f64_of(&double), f64::INFINITY);
+        let f32_half = f64::from(f32::EPSILON) / 2.0;
+        let near_f32 = |x: f64| Root::from(rational(x)).nearest(Precision::F32);
+        assert_eq!(near_f32(1.0 + f32_half), 1.0);
+        assert_eq!(
+            near_f32(1.0 + f32_half * 1.000001),
+            f64::from(1.0f32.next_up())
+        );
+        assert_eq!(near_f32(0.1), f64::from(0.1f32));
     }
 
     #[test]
@@ -294,7 +281,7 @@ mod tests {
         let a = root(1.0, false, 2.0);
         let b = Root::new(rational(1.0), false, &(&rational(2.0) + &tiny));
         assert!(a < b);
-        assert_eq!(a.to_f64().to_bits(), b.to_f64().to_bits());
+        assert_eq!(a.approximate().to_bits(), b.approximate().to_bits());
         // 2·√2 is √8.
         assert_eq!(
             root(0.0, false, 2.0).times(&rational(2.0)),
