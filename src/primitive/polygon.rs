@@ -219,7 +219,10 @@ impl Polygon {
         let point = ray.origin + t * ray.direction;
         let reach = to_plane.abs().element_sum() + t.abs() * length + self.magnitude;
         let slack = 6.0 * FLATNESS * reach * (length / speed).abs() + UNDERFLOW;
-        if !slack.is_nan() && !self.bounds.enlarged(slack).contains(point) {
+        if !slack.is_finite() {
+            return self.estimate_parallel(ray);
+        }
+        if !self.bounds.enlarged(slack).contains(point) {
             return Estimate::MISS;
         }
         match is_inside(&self.outline, project(point, self.axis), slack) {
@@ -231,6 +234,23 @@ impl Polygon {
             }
             Some(false) => Estimate::MISS,
             None => Estimate::UNSURE,
+        }
+    }
+
+    /// [`Polygon::estimate`] of a ray that computes as parallel to the plane. The rounding of its speed towards
+    /// the plane, 4 u, counts for the distance to the farthest vertex, which is at most three times the sum
+    /// of absolute coordinates divided by L.
+    #[cold]
+    fn estimate_parallel(&self, ray: &Ray) -> Estimate {
+        let steepness = self.normal.abs();
+        let to_plane = self.anchor - ray.origin;
+        let far = 3.0 * (to_plane.abs().element_sum() + 6.0 * self.magnitude);
+        let turn = steepness.dot(ray.direction.abs()) / ray.direction.abs().element_sum();
+        let rounding = 4.0 * U * (steepness.dot(to_plane.abs()) + 2.0 * far * turn) + UNDERFLOW;
+        if self.normal.dot(to_plane).abs() > 2.0 * (self.deviation + rounding) {
+            Estimate::MISS
+        } else {
+            Estimate::UNSURE
         }
     }
 

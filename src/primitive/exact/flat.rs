@@ -6,8 +6,8 @@ use super::vector::Vector;
 use crate::geometry::{Ray, Vec3};
 use std::cmp::Ordering;
 
-/// A point in coordinates in which the ray is the third axis. All of them are multiplied by the largest
-/// component of the direction, `m`: so `z` is `m²` times the ray parameter.
+/// A point in coordinates in which the ray is the third axis. Where `m` is the largest component of the
+/// direction, the first two are multiplied by |`m`|, and the third is `m`² times the ray parameter.
 #[derive(Clone)]
 struct Seen<N> {
     x: N,
@@ -33,12 +33,12 @@ impl<N: Number> Seen<N> {
     fn of(point: Vec3, ray: &Ray) -> Self {
         let [i, j, k] = axes(ray.direction);
         let along = N::difference(point[k], ray.origin[k]);
-        let along_x = along.clone().times(ray.direction[i]);
-        let along_y = along.clone().times(ray.direction[j]);
         let major = ray.direction[k];
+        let along_x = along.clone().times(ray.direction[i] * major.signum());
+        let along_y = along.clone().times(ray.direction[j] * major.signum());
         Seen {
-            x: N::difference(point[i], ray.origin[i]).times(major) - along_x,
-            y: N::difference(point[j], ray.origin[j]).times(major) - along_y,
+            x: N::difference(point[i], ray.origin[i]).times(major.abs()) - along_x,
+            y: N::difference(point[j], ray.origin[j]).times(major.abs()) - along_y,
             z: along.times(major),
         }
     }

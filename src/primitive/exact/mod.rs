@@ -171,7 +171,7 @@ impl Surface<'_> {
         precision: Option<Precision>,
     ) -> Option<f64> {
         self.decide_in::<DoubleWord<FMA>>(known, ray, precision)
-            .unwrap_or_else(|Unsure| self.decide_rationally(ray, precision))
+            .unwrap_or_else(|Unsure| self.decide_rationally(known, ray, precision))
     }
 
     /// [`Surface::decide`] with the numbers `N`.
@@ -195,8 +195,13 @@ impl Surface<'_> {
 
     #[cold]
     #[inline(never)]
-    fn decide_rationally(&self, ray: &Ray, precision: Option<Precision>) -> Option<f64> {
-        certain(self.decide_in::<Rational>(Known::Nothing, ray, precision))
+    fn decide_rationally(
+        &self,
+        known: Known,
+        ray: &Ray,
+        precision: Option<Precision>,
+    ) -> Option<f64> {
+        certain(self.decide_in::<Rational>(known, ray, precision))
     }
 
     /// Returns the arithmetic that [`Surface::intersect`] or [`Surface::is_hit`] needs.
@@ -352,7 +357,7 @@ mod tests {
                 100_000
             },
             |surface, shape, ray| {
-                let exact = surface.decide_rationally(ray, Some(Precision::F64));
+                let exact = surface.decide_rationally(Known::Nothing, ray, Some(Precision::F64));
                 let exact = exact.filter(|t| t.is_finite());
                 let found = shape.intersect(ray, ray.t_max);
                 assert_eq!(found, exact, "{ray:?}");
@@ -372,7 +377,10 @@ mod tests {
             let precision = Some(Precision::F64);
             match surface.decide_in::<DoubleWord<false>>(Known::Nothing, ray, precision) {
                 Ok(found) => {
-                    assert_eq!(found, surface.decide_rationally(ray, precision));
+                    assert_eq!(
+                        found,
+                        surface.decide_rationally(Known::Nothing, ray, precision)
+                    );
                     certain += 1;
                 }
                 Err(Unsure) => unsure += 1,
