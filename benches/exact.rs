@@ -108,10 +108,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         RAYS_PER_KIND
     );
     println!(
-        "open: share of tests that an estimate in f64 leaves open; of these, fractions decide the last column"
+        "open: share of tests that an estimate in f64 leaves open; of these, integers decide the next column"
     );
     println!(
-        "| scene | rays | tests | open | fractions | plain, ns/test | exact, ns/test | ratio |"
+        "| scene | rays | tests | open | integers | plain, ns/test | exact, ns/test | ratio |"
     );
     println!("|---|---|---|---|---|---|---|---|");
     for name in scenes {
@@ -151,13 +151,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     },
                 ],
             );
-            let open = decided[Stage::DoubleWords as usize] + decided[Stage::Fractions as usize];
+            let open = decided[Stage::DoubleWords as usize] + decided[Stage::Integers as usize];
             println!(
                 "| {name} | {} | {} | {:.2} % | {} | {plain:.1} | {exact:.1} | {:.2} |",
                 kind.name(),
                 tests.len(),
                 100.0 * open as f64 / tests.len() as f64,
-                decided[Stage::Fractions as usize],
+                decided[Stage::Integers as usize],
                 exact / plain
             );
         }

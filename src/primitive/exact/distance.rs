@@ -1,8 +1,9 @@
 //! Distances along a ray, as fractions that may contain a square root.
 
 use super::double_word::DoubleWord;
-use super::number::{Number, Rational, Unsure};
-use super::root::Root;
+use super::dyadic::Dyadic;
+use super::number::{Number, Unsure};
+use super::root::{Rational, Root};
 use crate::primitive::Precision;
 use std::cmp::Ordering;
 
@@ -178,7 +179,7 @@ impl<const FMA: bool> Round for Distance<DoubleWord<FMA>> {
     }
 }
 
-impl Round for Distance<Rational> {
+impl Round for Distance<Dyadic> {
     fn to_f64(&self) -> Result<f64, Unsure> {
         Ok(self.root().nearest(Precision::F64))
     }
@@ -188,14 +189,15 @@ impl Round for Distance<Rational> {
     }
 }
 
-impl Distance<Rational> {
+impl Distance<Dyadic> {
     pub(super) fn root(&self) -> Root {
-        let inverse = Rational::ONE / &self.divisor;
+        let inverse = Rational::ONE / self.divisor.to_rational();
+        let middle = self.middle.to_rational();
         match &self.surd {
-            None => Root::from(&self.middle * &inverse),
+            None => Root::from(middle * inverse),
             Some(surd) => {
                 let is_less = surd.sign == Ordering::Less;
-                Root::new(self.middle.clone(), is_less, &surd.radicand).times(&inverse)
+                Root::new(middle, is_less, &surd.radicand.to_rational()).times(&inverse)
             }
         }
     }

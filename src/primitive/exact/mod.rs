@@ -3,7 +3,7 @@
 //! Every decision is the sign of an expression in the stored coordinates. An expression is first evaluated
 //! in `f64` where it is fast and with a bound on the error ([`super::estimate`]). What that leaves open is
 //! evaluated with twice the precision ([`DoubleWord`]), which also rounds distances correctly. What is
-//! still open is evaluated with fractions ([`Rational`]), which round nothing.
+//! still open is evaluated without rounding ([`Dyadic`]).
 //!
 //! So a surface is hit exactly where its coordinates say, and distances are the exact ones rounded to the
 //! nearest number. Rounding keeps the order: the exact distances of two hits need to be compared only where
@@ -14,6 +14,7 @@
 
 mod distance;
 mod double_word;
+mod dyadic;
 mod flat;
 mod number;
 mod quadric;
@@ -28,7 +29,8 @@ use super::Precision;
 use crate::geometry::{Ray, Vec3};
 use distance::{Crossings, Distance, Round};
 use double_word::DoubleWord;
-use number::{Number, Rational};
+use dyadic::Dyadic;
+use number::Number;
 use std::cmp::Ordering;
 
 /// A surface, by the numbers that define it.
@@ -61,8 +63,8 @@ pub enum Stage {
     Estimate,
     /// Sums of two `f64`.
     DoubleWords,
-    /// Without rounding.
-    Fractions,
+    /// Integers of any size.
+    Integers,
 }
 
 impl Surface<'_> {
@@ -171,7 +173,7 @@ impl Surface<'_> {
         precision: Option<Precision>,
     ) -> Option<f64> {
         self.decide_in::<DoubleWord<FMA>>(known, ray, precision)
-            .unwrap_or_else(|Unsure| self.decide_rationally(known, ray, precision))
+            .unwrap_or_else(|Unsure| self.decide_without_rounding(known, ray, precision))
     }
 
     /// [`Surface::decide`] with the numbers `N`.
@@ -195,13 +197,13 @@ impl Surface<'_> {
 
     #[cold]
     #[inline(never)]
-    fn decide_rationally(
+    fn decide_without_rounding(
         &self,
         known: Known,
         ray: &Ray,
         precision: Option<Precision>,
     ) -> Option<f64> {
-        certain(self.decide_in::<Rational>(known, ray, precision))
+        certain(self.decide_in::<Dyadic>(known, ray, precision))
     }
 
     /// Returns the arithmetic that [`Surface::intersect`] or [`Surface::is_hit`] needs.
@@ -209,7 +211,7 @@ impl Surface<'_> {
         let precision = with_distance.then_some(Precision::F64);
         match self.decide_in::<DoubleWord<false>>(known, ray, precision) {
             Ok(_) => Stage::DoubleWords,
-            Err(Unsure) => Stage::Fractions,
+            Err(Unsure) => Stage::Integers,
         }
     }
 
@@ -221,10 +223,11 @@ impl Surface<'_> {
         }
         Some(match self.axis_of_plane() {
             Some((k, place)) => {
-                let distance = Rational::difference(place, ray.origin[k]);
-                Root::from(distance / <Rational as Number>::of(ray.direction[k]))
+                let distance = Dyadic::difference(place, ray.origin[k]);
+                let over = Dyadic::of(ray.direction[k]).to_rational();
+                Root::from(distance.to_rational() / over)
             }
-            None => certain(self.first::<Rational>(Known::Nothing, ray))?.root(),
+            None => certain(self.first::<Dyadic>(Known::Nothing, ray))?.root(),
         })
     }
 
@@ -249,7 +252,7 @@ pub(super) fn is_in_plane(triangle: &[Vec3; 3], point: Vec3) -> bool {
 
 /// Returns a result of arithmetic that rounds nothing.
 fn certain<T>(result: Result<T, Unsure>) -> T {
-    result.unwrap_or_else(|Unsure| unreachable!("fractions have certain signs"))
+    result.unwrap_or_else(|Unsure| unreachable!("integers have certain signs"))
 }
 
 /// Returns whether a ray has a direction and an interval.
@@ -346,7 +349,7 @@ mod tests {
         }
     }
 
-    /// Fast tests decide as fractions do, and distances are the same bits.
+    /// Fast tests decide as integers of any size do, and distances are the same bits.
     #[test]
     fn tests_of_objects_are_exact() {
         let (mut hits, mut misses) = (0, 0);
@@ -357,7 +360,8 @@ mod tests {
                 100_000
             },
             |surface, shape, ray| {
-                let exact = surface.decide_rationally(Known::Nothing, ray, Some(Precision::F64));
+                let exact =
+                    surface.decide_without_rounding(Known::Nothing, ray, Some(Precision::F64));
                 let exact = exact.filter(|t| t.is_finite());
                 let found = shape.intersect(ray, ray.t_max);
                 assert_eq!(found, exact, "{ray:?}");
@@ -369,7 +373,7 @@ mod tests {
         assert!(hits > 1000 && misses > 1000, "{hits} {misses}");
     }
 
-    /// Twice the precision decides nearly all cases, and each of them as fractions do.
+    /// Twice the precision decides nearly all cases, and each of them as integers of any size do.
     #[test]
     fn double_words_know_their_error() {
         let (mut certain, mut unsure) = (0, 0);
@@ -379,7 +383,7 @@ mod tests {
                 Ok(found) => {
                     assert_eq!(
                         found,
-                        surface.decide_rationally(Known::Nothing, ray, precision)
+                        surface.decide_without_rounding(Known::Nothing, ray, precision)
                     );
                     certain += 1;
                 }

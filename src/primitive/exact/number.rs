@@ -1,6 +1,5 @@
 //! The arithmetic of exact decisions: numbers whose sign is certain or known to be uncertain.
 
-use dashu_ratio::Relaxed;
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -26,23 +25,4 @@ pub(crate) trait Number:
     /// # Errors
     /// The precision does not suffice.
     fn sign(&self) -> Result<Ordering, Unsure>;
-}
-
-/// Numbers without rounding.
-pub(crate) type Rational = Relaxed;
-
-impl Number for Rational {
-    /// # Panics
-    /// If the number is infinite or NaN.
-    fn of(x: f64) -> Self {
-        Rational::try_from(x).expect("only finite numbers are decided")
-    }
-
-    fn difference(a: f64, b: f64) -> Self {
-        <Self as Number>::of(a) - <Self as Number>::of(b)
-    }
-
-    fn sign(&self) -> Result<Ordering, Unsure> {
-        Ok(self.cmp(&Rational::ZERO))
-    }
 }

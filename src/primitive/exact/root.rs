@@ -1,8 +1,11 @@
 //! Roots of quadratic equations with rational coefficients, compared without rounding.
 
-use super::number::{Number, Rational};
 use crate::primitive::Precision;
+use dashu_ratio::Relaxed;
 use std::cmp::Ordering;
+
+/// A fraction.
+pub(crate) type Rational = Relaxed;
 
 /// The number `rational ± √radicand`.
 #[derive(Clone, Debug)]
@@ -138,7 +141,7 @@ impl Root {
 
 /// Returns a finite number as a fraction.
 fn rational(x: f64) -> Rational {
-    <Rational as Number>::of(x)
+    Rational::try_from(x).expect("numbers of a precision are finite")
 }
 
 /// Returns the number of a precision with this key. Keys are consecutive integers: the bits of the absolute
