@@ -8,6 +8,7 @@
 mod plain;
 
 use bspscope::geometry::Ray;
+use bspscope::measure::paper::SCENES;
 use bspscope::measure::sample_rays;
 use bspscope::primitive::{Precision, Primitive, Shape, Stage};
 use bspscope::progress::Progress;
@@ -17,7 +18,6 @@ use bspscope::trace::{Children, Probe, RayKind, RenderSettings, Scratch, any_hit
 use std::hint::black_box;
 use std::time::Instant;
 
-const SCENES: [&str; 6] = ["balls", "gears", "mount", "rings", "tetra", "tree"];
 const RAYS_PER_KIND: usize = 20_000;
 const ROUNDS: usize = 7;
 
@@ -98,7 +98,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .filter(|a| !a.starts_with('-'))
         .collect();
     let scenes: Vec<&str> = if chosen.is_empty() {
-        SCENES.to_vec()
+        SCENES.iter().map(|scene| scene.name).collect()
     } else {
         chosen.iter().map(String::as_str).collect()
     };

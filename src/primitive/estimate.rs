@@ -109,9 +109,32 @@ impl Estimate {
     }
 }
 
-/// Returns where a ray's line crosses a triangle, edges included. The vertices are relative to the ray's
-/// origin, each coordinate with a relative error of u, and [rotated](Shear::rotate). Branchless, so that a
-/// loop over many triangles is vectorized.
+/// Returns the larger number, or the second if one is NaN: one instruction.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// Returns the smaller number, likewise.
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// Returns where a ray's line crosses a triangle, edges included.
+#[inline(always)]
+pub(super) fn triangle_at(vertices: &[Vec3; 3], ray: &Ray) -> Estimate {
+    let Some(shear) = Shear::of(ray.direction) else {
+        return Estimate::UNSURE;
+    };
+    let relative = |v: Vec3| shear.rotate(v - ray.origin);
+    let [a, b, c] = *vertices;
+    triangle([relative(a), relative(b), relative(c)], &shear)
+}
+
+/// [`triangle_at`] with vertices that are relative to the ray's origin, each coordinate with a relative error
+/// of u, and [rotated](Shear::rotate). Branchless, so that a loop over many triangles is vectorized. If two
+/// edge functions are numbers, all coordinates are.
 ///
 /// After Woop, Benthin and Wald, "Watertight ray/triangle intersection" (JCGT 2(1), 2013). Where `d` is the
 /// largest third coordinate and `s` the largest of the other sheared ones:
@@ -126,23 +149,24 @@ impl Estimate {
 #[inline(always)]
 pub(super) fn triangle(vertices: [Vec3; 3], shear: &Shear) -> Estimate {
     let [a, b, c] = vertices.map(|v| shear.apply_rotated(v));
-    let size = |v: Vec3| v.x.abs().max(v.y.abs());
-    let s = size(a).max(size(b)).max(size(c));
-    let [az, bz, cz] = vertices.map(|v| v.z.abs());
-    let r = 8.0 * az.max(bz).max(cz) + 2.0 * s + UNDERFLOW;
+    let largest3 = |a: f64, b: f64, c: f64| larger(larger(a.abs(), b.abs()), c.abs());
+    let s = larger(largest3(a.x, b.x, c.x), largest3(a.y, b.y, c.y));
+    let d = largest3(vertices[0].z, vertices[1].z, vertices[2].z);
+    let r = 8.0 * d + 2.0 * s + UNDERFLOW;
     let bound = 7.0 * U * r * (s + 2.0 * U * r) + UNDERFLOW;
 
     let u = c.x * b.y - c.y * b.x;
     let v = a.x * c.y - a.y * c.x;
     let w = b.x * a.y - b.y * a.x;
-    let (least, most) = (u.min(v).min(w), u.max(v).max(w));
+    let least = smaller(smaller(u, v), w);
+    let most = larger(larger(u, v), w);
     let is_missed = (least < -bound) & (most > bound);
     let is_crossed = (least > bound) | (most < -bound);
 
     let sum = u + v + w;
     let t = (u * a.z + v * b.z + w * c.z) / sum;
-    let range = a.z.max(b.z).max(c.z) - a.z.min(b.z).min(c.z);
-    let largest = a.z.abs().max(b.z.abs()).max(c.z.abs());
+    let range = larger(larger(a.z, b.z), c.z) - smaller(smaller(a.z, b.z), c.z);
+    let largest = largest3(a.z, b.z, c.z);
     let error = 4.0 * bound / sum.abs() * range + 24.0 * U * largest + UNDERFLOW;
     let known = if is_crossed {
         Estimate { t, error }

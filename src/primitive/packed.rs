@@ -249,11 +249,7 @@ impl Form for PackedTriangle {
 
     #[inline(always)]
     fn intersect_exact(&self, ray: &Ray, t_max: f64) -> Option<f64> {
-        let vertices = self.wide_vertices();
-        let estimate = Shear::of(ray.direction).map_or(Estimate::UNSURE, |shear| {
-            let relative = vertices.map(|v| shear.rotate(v - ray.origin));
-            estimate::triangle(relative, &shear)
-        });
+        let estimate = estimate::triangle_at(&self.wide_vertices(), ray);
         Estimate::settle([estimate], [ray.t_min, ray.t_max], t_max, |known| {
             self.intersect_slowly(known, ray)
         })

@@ -3,7 +3,7 @@
 use super::clip::bounds_of_outline;
 use super::estimate::{self, Estimate};
 use super::exact::{Root, Surface};
-use super::numeric::{self, Shear};
+use super::numeric;
 use super::{Shape, ShapeError, SurfacePoint};
 use crate::geometry::{Aabb, Ray, Vec3};
 
@@ -74,10 +74,7 @@ impl Triangle {
     /// Estimates where the ray's line crosses the triangle.
     #[inline(always)]
     pub(super) fn estimate(&self, ray: &Ray) -> Estimate {
-        Shear::of(ray.direction).map_or(Estimate::UNSURE, |shear| {
-            let vertices = self.vertices.map(|v| shear.rotate(v - ray.origin));
-            estimate::triangle(vertices, &shear)
-        })
+        estimate::triangle_at(&self.vertices, ray)
     }
 
     /// Returns barycentric coordinates, not negative and of sum 1, of the projection of `point` along the

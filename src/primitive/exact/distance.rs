@@ -4,6 +4,7 @@ use super::double_word::DoubleWord;
 use super::dyadic::Dyadic;
 use super::number::{Number, Unsure};
 use super::root::{Rational, Root};
+use super::vector::minor;
 use crate::primitive::Precision;
 use std::cmp::Ordering;
 
@@ -21,7 +22,7 @@ struct Surd<N> {
     sign: Ordering,
     /// At least 0.
     radicand: N,
-    /// `middle² − radicand`, computed without them.
+    /// `(middle² − radicand) / divisor`, computed without them.
     product: N,
 }
 
@@ -71,8 +72,7 @@ impl<N: Number> Distance<N> {
             Ordering::Equal => return Ok([Distance::fraction(c, b.clone() + b)?, None]),
             Ordering::Greater => (a, b, c),
         };
-        let product = a.clone() * c;
-        let radicand = b.clone() * b.clone() - product.clone();
+        let radicand = minor(&b, &a, &c, &b);
         if radicand.sign()? == Ordering::Less {
             return Ok([None, None]);
         }
@@ -82,7 +82,7 @@ impl<N: Number> Distance<N> {
                 surd: Some(Surd {
                     sign,
                     radicand: radicand.clone(),
-                    product: product.clone(),
+                    product: c.clone(),
                 }),
                 divisor: a.clone(),
             })
@@ -100,7 +100,7 @@ impl<N: Number> Distance<N> {
                 Ordering::Greater
             });
         }
-        let rational = self.middle.clone() - self.divisor.clone().times(t);
+        let rational = self.middle.clone() - self.divisor.clone() * N::of(t);
         match &self.surd {
             None => rational.sign(),
             Some(surd) => sign_with_surd(&rational, surd.sign, &surd.radicand),
@@ -110,7 +110,7 @@ impl<N: Number> Distance<N> {
     /// Returns how `offset + factor · distance` compares with 0.
     #[inline(always)]
     pub(super) fn sign_at(&self, offset: N, factor: N) -> Result<Ordering, Unsure> {
-        let rational = offset * self.divisor.clone() + factor.clone() * self.middle.clone();
+        let rational = minor(&offset, &-factor.clone(), &self.middle, &self.divisor);
         let Some(surd) = &self.surd else {
             return rational.sign();
         };
@@ -153,7 +153,7 @@ impl<const FMA: bool> Distance<DoubleWord<FMA>> {
         let sum = self.middle + root;
         // Where the sum cancels, the product of both roots is divided instead.
         if sum.is_far_below(&self.middle) {
-            surd.product.over(self.middle - root).over(self.divisor)
+            surd.product.over(self.middle - root)
         } else {
             sum.over(self.divisor)
         }

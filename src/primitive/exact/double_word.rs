@@ -79,6 +79,11 @@ impl<const FMA: bool> DoubleWord<FMA> {
         }
     }
 
+    #[inline(always)]
+    fn is_zero(&self) -> bool {
+        (self.hi == 0.0) & (self.error == 0.0)
+    }
+
     /// Returns a lower bound on the absolute value, or a negative number.
     #[inline(always)]
     fn least(&self) -> f64 {
@@ -107,7 +112,7 @@ impl<const FMA: bool> DoubleWord<FMA> {
     /// Returns the square root of a number that is not negative.
     #[inline(always)]
     pub(super) fn square_root(self) -> Self {
-        if self.hi == 0.0 && self.error == 0.0 {
+        if self.is_zero() {
             return self;
         }
         let root = self.hi.sqrt();
@@ -182,8 +187,7 @@ impl<const FMA: bool> Mul for DoubleWord<FMA> {
         let words = fast_two_sum(product, low + (self.hi * other.lo + self.lo * other.hi));
         let error =
             self.hi.abs() * other.error + other.hi.abs() * self.error + self.error * other.error;
-        let is_zero = |x: &Self| (x.hi == 0.0) & (x.error == 0.0);
-        DoubleWord::new(words, error, is_zero(&self) | is_zero(&other))
+        DoubleWord::new(words, error, self.is_zero() | other.is_zero())
     }
 }
 
@@ -203,12 +207,31 @@ impl<const FMA: bool> Number for DoubleWord<FMA> {
         DoubleWord { hi, lo, error: 0.0 }
     }
 
+    /// Adds the high words of the products exactly, and all that is lower in `f64` (Ogita, Rump and Oishi,
+    /// "Accurate sum and dot product", SIAM J. Sci. Comput. 26(6), 2005). A lower part is at most 3 u of its
+    /// product and has an error of 7 u². The sum of 2 K − 1 such parts and carries adds less than 20 u² of the
+    /// products for K ≤ 3. Two [`ROUNDING`] are 32 u².
     #[inline(always)]
-    fn times(self, x: f64) -> Self {
-        let (product, low) = two_product::<FMA>(self.hi, x);
-        let words = fast_two_sum(product, low + self.lo * x);
-        let is_zero = (self.hi == 0.0) & (self.error == 0.0) | (x == 0.0);
-        DoubleWord::new(words, x.abs() * self.error, is_zero)
+    fn sum_of_products<const K: usize>(pairs: [(Self, Self); K]) -> Self {
+        const { assert!(K <= 3) };
+        let (mut sum, mut low, mut size, mut error) = (0.0, 0.0, 0.0, 0.0);
+        let mut is_zero = true;
+        for (a, b) in pairs {
+            let (product, rest) = two_product::<FMA>(a.hi, b.hi);
+            let (next, carry) = two_sum(sum, product);
+            sum = next;
+            low += carry + (rest + (a.hi * b.lo + a.lo * b.hi));
+            size += product.abs();
+            error += a.hi.abs() * b.error + b.hi.abs() * a.error + a.error * b.error;
+            is_zero &= a.is_zero() | b.is_zero();
+        }
+        let error = error + 2.0 * ROUNDING * size;
+        let underflow = if size < SMALL && !is_zero {
+            UNDERFLOW
+        } else {
+            0.0
+        };
+        DoubleWord::new(two_sum(sum, low), error + underflow, true)
     }
 
     #[inline(always)]
@@ -219,7 +242,7 @@ impl<const FMA: bool> Number for DoubleWord<FMA> {
             } else {
                 Ordering::Less
             })
-        } else if self.hi == 0.0 && self.error == 0.0 {
+        } else if self.is_zero() {
             Ok(Ordering::Equal)
         } else {
             Err(Unsure)

@@ -2,7 +2,7 @@
 
 use super::distance::Distance;
 use super::number::{Number, Unsure};
-use super::vector::Vector;
+use super::vector::{Vector, minor};
 use crate::geometry::{Ray, Vec3};
 use std::cmp::Ordering;
 
@@ -28,25 +28,31 @@ fn axes(direction: Vec3) -> [usize; 3] {
     }
 }
 
+/// Returns the coordinate `i` of a point in [`Seen`], where `along` is that along the axis `k` from the origin.
+#[inline(always)]
+fn across<N: Number>(point: Vec3, ray: &Ray, i: usize, k: usize, along: &N) -> N {
+    let major = ray.direction[k];
+    let rise = N::of(ray.direction[i] * major.signum());
+    let from_origin = N::difference(point[i], ray.origin[i]);
+    minor(&from_origin, along, &rise, &N::of(major.abs()))
+}
+
 impl<N: Number> Seen<N> {
     #[inline(always)]
     fn of(point: Vec3, ray: &Ray) -> Self {
         let [i, j, k] = axes(ray.direction);
         let along = N::difference(point[k], ray.origin[k]);
-        let major = ray.direction[k];
-        let along_x = along.clone().times(ray.direction[i] * major.signum());
-        let along_y = along.clone().times(ray.direction[j] * major.signum());
         Seen {
-            x: N::difference(point[i], ray.origin[i]).times(major.abs()) - along_x,
-            y: N::difference(point[j], ray.origin[j]).times(major.abs()) - along_y,
-            z: along.times(major),
+            x: across(point, ray, i, k, &along),
+            y: across(point, ray, j, k, &along),
+            z: along * N::of(ray.direction[k]),
         }
     }
 
     /// Returns twice the signed area of the triangle from the ray to two points.
     #[inline(always)]
     fn cross(&self, other: &Self) -> N {
-        self.x.clone() * other.y.clone() - self.y.clone() * other.x.clone()
+        minor(&self.x, &self.y, &other.x, &other.y)
     }
 }
 
@@ -63,7 +69,8 @@ pub(super) fn triangle<N: Number>(
     vertices: &[Vec3; 3],
     ray: &Ray,
 ) -> Result<Option<Distance<N>>, Unsure> {
-    let [a, b, c] = vertices.map(|v| Seen::<N>::of(v, ray));
+    let [a, b, c] = *vertices;
+    let (a, b, c) = (Seen::<N>::of(a, ray), Seen::of(b, ray), Seen::of(c, ray));
     let weights = [c.cross(&b), a.cross(&c), b.cross(&a)];
     let mut sides = [false; 2];
     for weight in &weights {
@@ -78,7 +85,7 @@ pub(super) fn triangle<N: Number>(
     }
     let [u, v, w] = weights;
     let determinant = u.clone() + v.clone() + w.clone();
-    let along = u * a.z + v * b.z + w * c.z;
+    let along = N::sum_of_products([(u, a.z), (v, b.z), (w, c.z)]);
     Distance::fraction(along, determinant * squared_largest(ray))
 }
 
@@ -91,7 +98,7 @@ pub(super) fn plane<N: Number>(
 ) -> Result<Option<Distance<N>>, Unsure> {
     let normal = Vector::<N>::difference(*b, *a).cross(&Vector::difference(*c, *a));
     let distance = normal.dot(&Vector::difference(*a, ray.origin));
-    Distance::fraction(distance, normal.dot_with(ray.direction))
+    Distance::fraction(distance, normal.dot(&Vector::from(ray.direction)))
 }
 
 /// Returns the height of a point above the plane of a triangle, times twice its area.
@@ -112,8 +119,7 @@ struct Edge<N> {
 impl<N: Number> Edge<N> {
     #[inline(always)]
     fn is_left_of(&self, other: &Self) -> Result<bool, Unsure> {
-        let difference =
-            self.over.clone() * other.under.clone() - other.over.clone() * self.under.clone();
+        let difference = minor(&self.over, &self.under, &other.over, &other.under);
         Ok(difference.sign()? == Ordering::Less)
     }
 
@@ -121,7 +127,7 @@ impl<N: Number> Edge<N> {
     #[inline(always)]
     fn along(&self) -> N {
         let (from, to) = (&self.from, &self.to);
-        from.z.clone() * to.y.clone() - from.y.clone() * to.z.clone()
+        minor(&from.z, &from.y, &to.z, &to.y)
     }
 }
 
@@ -195,8 +201,8 @@ pub(super) fn outline<N: Number>(
     }
     match (inside, left, right) {
         (true, Some(left), Some(right)) => {
-            let over = left.along() * right.over.clone() - right.along() * left.over.clone();
-            let under = right.over * left.under - left.over * right.under;
+            let over = minor(&left.along(), &left.over, &right.along(), &right.over);
+            let under = minor(&right.over, &right.under, &left.over, &left.under);
             Distance::fraction(over, under * scale)
         }
         _ => Ok(None),
@@ -207,20 +213,16 @@ pub(super) fn outline<N: Number>(
 /// ends. The origin must lie on the line of the segment in the first two coordinates.
 #[inline(always)]
 fn on_edge_at<N: Number>(a: &Seen<N>, b: &Seen<N>) -> Result<Option<(N, N)>, Unsure> {
-    let passes = |a: &N, b: &N| -> Result<bool, Unsure> {
-        Ok(a.sign()? != b.sign()? || a.sign()? == Ordering::Equal)
-    };
-    if !passes(&a.x, &b.x)? || !passes(&a.y, &b.y)? {
+    let [ax, bx, ay, by] = [a.x.sign()?, b.x.sign()?, a.y.sign()?, b.y.sign()?];
+    let is_beyond = |a: Ordering, b: Ordering| a == b && a != Ordering::Equal;
+    if is_beyond(ax, bx) || is_beyond(ay, by) {
         return Ok(None);
     }
     let (x, y) = (b.x.clone() - a.x.clone(), b.y.clone() - a.y.clone());
-    let along = |a: &N, b: &N, from: &Seen<N>, to: &Seen<N>| {
-        from.z.clone() * b.clone() - a.clone() * to.z.clone()
-    };
     Ok(Some(if y.sign()? != Ordering::Equal {
-        (along(&a.y, &b.y, a, b), y)
+        (minor(&a.z, &a.y, &b.z, &b.y), y)
     } else if x.sign()? != Ordering::Equal {
-        (along(&a.x, &b.x, a, b), x)
+        (minor(&a.z, &a.x, &b.z, &b.x), x)
     } else {
         (a.z.clone(), N::of(1.0))
     }))

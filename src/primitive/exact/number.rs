@@ -16,8 +16,11 @@ pub(crate) trait Number:
     /// Returns `a − b`, exactly.
     fn difference(a: f64, b: f64) -> Self;
 
-    fn times(self, x: f64) -> Self {
-        self * Self::of(x)
+    /// Returns the sum of the products of pairs.
+    #[inline(always)]
+    fn sum_of_products<const K: usize>(pairs: [(Self, Self); K]) -> Self {
+        let products = pairs.into_iter().map(|(a, b)| a * b);
+        products.fold(Self::of(0.0), |sum, product| sum + product)
     }
 
     /// Returns how the exact result compares with 0.

@@ -2,7 +2,7 @@
 
 use super::distance::{Crossings, Distance};
 use super::number::{Number, Unsure};
-use super::vector::{Vector, squared_length};
+use super::vector::{Vector, minor};
 use crate::geometry::{Ray, Vec3};
 use std::cmp::Ordering;
 
@@ -19,9 +19,10 @@ pub(super) fn sphere<N: Number>(
     ray: &Ray,
 ) -> Result<Crossings<N>, Unsure> {
     let to_center = Vector::<N>::difference(center, ray.origin);
-    let b = to_center.dot_with(ray.direction);
-    let c = to_center.dot(&to_center) - N::of(radius).times(radius);
-    Distance::roots(squared_length(ray.direction), b, c)
+    let direction = Vector::from(ray.direction);
+    let b = to_center.dot(&direction);
+    let c = to_center.dot(&to_center) - square(&N::of(radius));
+    Distance::roots(direction.dot(&direction), b, c)
 }
 
 /// The ends of a cylinder or cone and their radii.
@@ -67,22 +68,28 @@ pub(super) fn cone<N: Number>(
     let axis = Vector::<N>::difference(ends.apex, ends.base);
     let from_base = Vector::difference(ray.origin, ends.base);
     let squared_axis = axis.dot(&axis);
-    let (height, rise) = (from_base.dot(&axis), axis.dot_with(ray.direction));
-    let (across, drift) = (axis.cross(&from_base), axis.cross_with(ray.direction));
+    let direction = Vector::from(ray.direction);
+    let (height, rise) = (from_base.dot(&axis), axis.dot(&direction));
+    let (across, drift) = (axis.cross(&from_base), axis.cross(&direction));
     let (a, b) = (drift.dot(&drift), across.dot(&drift));
     let squared_distance = across.dot(&across);
     let (a, b, c) = if ends.base_radius == ends.apex_radius {
         // A cylinder: the equation is divided by w·w.
-        let radius = N::of(ends.base_radius).times(ends.base_radius);
-        (a, b, squared_distance - radius * squared_axis.clone())
+        let squared_radius = square(&N::of(ends.base_radius));
+        (
+            a,
+            b,
+            squared_distance - squared_radius * squared_axis.clone(),
+        )
     } else {
         let growth = N::difference(ends.apex_radius, ends.base_radius);
-        let radius = squared_axis.clone().times(ends.base_radius) + growth.clone() * height.clone();
+        let base_radius = N::of(ends.base_radius);
+        let radius = minor(&squared_axis, &-growth.clone(), &height, &base_radius);
         let widening = growth * rise.clone();
         (
-            a * squared_axis.clone() - square(&widening),
-            b * squared_axis.clone() - widening * radius.clone(),
-            squared_distance * squared_axis.clone() - square(&radius),
+            minor(&a, &widening, &widening, &squared_axis),
+            minor(&b, &widening, &radius, &squared_axis),
+            minor(&squared_distance, &radius, &radius, &squared_axis),
         )
     };
     let height = Height {

@@ -23,47 +23,36 @@ impl<N: Number> Vector<N> {
 
     #[inline(always)]
     pub(super) fn dot(&self, other: &Self) -> N {
-        let product = |a: &N, b: &N| a.clone() * b.clone();
-        let [x, y, z] = [
-            product(&self.x, &other.x),
-            product(&self.y, &other.y),
-            product(&self.z, &other.z),
-        ];
-        x + y + z
-    }
-
-    /// Returns the dot product with a vector of `f64`.
-    #[inline(always)]
-    pub(super) fn dot_with(&self, other: Vec3) -> N {
-        let (x, y, z) = (self.x.clone(), self.y.clone(), self.z.clone());
-        x.times(other.x) + y.times(other.y) + z.times(other.z)
+        N::sum_of_products([
+            (self.x.clone(), other.x.clone()),
+            (self.y.clone(), other.y.clone()),
+            (self.z.clone(), other.z.clone()),
+        ])
     }
 
     #[inline(always)]
     pub(super) fn cross(&self, other: &Self) -> Self {
-        let minor = |a: &N, b: &N, c: &N, d: &N| a.clone() * d.clone() - b.clone() * c.clone();
         Vector {
             x: minor(&self.y, &self.z, &other.y, &other.z),
             y: minor(&self.z, &self.x, &other.z, &other.x),
             z: minor(&self.x, &self.y, &other.x, &other.y),
         }
     }
+}
 
-    /// Returns the cross product with a vector of `f64`.
+impl<N: Number> From<Vec3> for Vector<N> {
     #[inline(always)]
-    pub(super) fn cross_with(&self, other: Vec3) -> Self {
-        let minor = |a: &N, b: &N, c: f64, d: f64| a.clone().times(d) - b.clone().times(c);
+    fn from(v: Vec3) -> Self {
         Vector {
-            x: minor(&self.y, &self.z, other.y, other.z),
-            y: minor(&self.z, &self.x, other.z, other.x),
-            z: minor(&self.x, &self.y, other.x, other.y),
+            x: N::of(v.x),
+            y: N::of(v.y),
+            z: N::of(v.z),
         }
     }
 }
 
-/// Returns the exact squared length.
+/// Returns the determinant of the rows (a, b) and (c, d).
 #[inline(always)]
-pub(super) fn squared_length<N: Number>(v: Vec3) -> N {
-    let square = |x: f64| N::of(x).times(x);
-    square(v.x) + square(v.y) + square(v.z)
+pub(super) fn minor<N: Number>(a: &N, b: &N, c: &N, d: &N) -> N {
+    N::sum_of_products([(a.clone(), d.clone()), (-b.clone(), c.clone())])
 }
