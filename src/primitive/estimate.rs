@@ -5,7 +5,7 @@
 
 use super::Precision;
 use super::exact::{Known, Stage, Surface};
-use super::numeric::Shear;
+use super::numeric::{Shear, is_workable};
 use crate::geometry::{Ray, Vec3};
 
 /// Half a unit of relative precision: the largest relative error of one operation.
@@ -197,6 +197,9 @@ pub(super) fn triangle(vertices: [Vec3; 3], shear: &Shear) -> Estimate {
 pub(super) fn sphere(center: Vec3, radius: f64, ray: &Ray) -> [Estimate; 2] {
     let direction = ray.direction;
     let a = direction.length_squared();
+    if !is_workable(a) {
+        return [Estimate::UNSURE; 2];
+    }
     let to_center = center - ray.origin;
     let f = to_center.abs().element_sum();
     let b = to_center.dot(direction);

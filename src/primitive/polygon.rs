@@ -214,6 +214,9 @@ impl Polygon {
     fn estimate(&self, ray: &Ray) -> Estimate {
         let speed = self.normal.dot(ray.direction);
         let length = ray.direction.abs().element_sum();
+        if !numeric::is_workable(length) {
+            return Estimate::UNSURE;
+        }
         let to_plane = self.anchor - ray.origin;
         let t = self.normal.dot(to_plane) / speed;
         let point = ray.origin + t * ray.direction;
