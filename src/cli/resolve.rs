@@ -1,11 +1,11 @@
 //! Resolves arguments to a scene, a tree and a writer.
 
 use super::bar;
-use crate::present::report::Writer;
+use crate::present::report::{Failure, Writer};
 use crate::scene::format::{FORMATS, FormatError};
 use crate::scene::{LoadError, NoteKind, Scene, SceneRequest, SceneSource, builtin, load};
 use crate::setup::Setup;
-use crate::structure::{Tree, build};
+use crate::structure::{BuildError, Tree, build};
 use crate::trace::{RenderSettings, thread_pool};
 use anyhow::{Result, bail};
 use std::io::{ErrorKind, Write};
@@ -50,6 +50,33 @@ pub fn tree(scene: &Scene, setup: &Setup) -> Result<Tree> {
     Ok(bar::with_bar(&stage, |progress| {
         pool.install(|| build(scene, &setup.build, progress))
     })?)
+}
+
+/// Builds the trees of setups. Prints the reasons of those that are too large to standard error; there is no
+/// tree for them, and they do not hide the others.
+///
+/// # Errors
+/// No tree could be built.
+pub fn trees_that_fit(scene: &Scene, setups: &[Setup]) -> Result<Vec<Option<Tree>>> {
+    let (mut trees, mut failures) = (Vec::new(), Vec::new());
+    for setup in setups {
+        trees.push(match tree(scene, setup) {
+            Ok(tree) => Some(tree),
+            Err(error) => match error.downcast::<BuildError>()? {
+                reason if reason.is_too_large() => {
+                    failures.push(Failure {
+                        method: setup.build.method.name,
+                        reason: reason.to_string(),
+                    });
+                    None
+                }
+                other => return Err(other.into()),
+            },
+        });
+    }
+    let built: Vec<_> = trees.iter().flatten().collect();
+    super::measure::check_any(&built, &failures)?;
+    Ok(trees)
 }
 
 /// Prints a warning to standard error if the chosen precision cannot represent the scene, in the words in

@@ -52,24 +52,27 @@ pub fn run(args: &VerifyArgs) -> Result<Outcome> {
     if let Some(count) = args.exact {
         return verify_exact::run(&scenes, args, count);
     }
-    let mut findings = Vec::new();
+    let (mut findings, mut is_complete) = (Vec::new(), true);
     for scene in &scenes {
-        findings.extend(findings_of(scene, args)?);
+        let (of_scene, all_fit) = findings_of(scene, args)?;
+        findings.extend(of_scene);
+        is_complete &= all_fit;
     }
     output::write_to(None, |out| write(&findings, out))?;
-    Ok(outcome(&findings))
+    Ok(outcome(&findings, is_complete))
 }
 
-fn outcome(findings: &[Finding]) -> Outcome {
-    if findings.iter().all(Finding::passed) {
+/// A check that left out a tree has not passed.
+fn outcome(findings: &[Finding], is_complete: bool) -> Outcome {
+    if is_complete && findings.iter().all(Finding::passed) {
         Outcome::Done
     } else {
         Outcome::CheckFailed
     }
 }
 
-/// Compares the tree of every method with testing every object.
-fn findings_of(text: &str, args: &VerifyArgs) -> Result<Vec<Finding>> {
+/// Compares the tree of every method with testing every object. Also returns whether all trees could be built.
+fn findings_of(text: &str, args: &VerifyArgs) -> Result<(Vec<Finding>, bool)> {
     let setups = args.settings.setups(text)?;
     let Setup {
         scene: request,
@@ -82,10 +85,12 @@ fn findings_of(text: &str, args: &VerifyArgs) -> Result<Vec<Finding>> {
     let precision = render.precision_for(&scene).precision;
     let mut expected: Option<(RaySample, Answers)> = None;
     let mut findings = Vec::new();
-    for setup in &setups {
+    let trees = resolve::trees_that_fit(&scene, &setups)?;
+    let all_fit = trees.iter().all(Option::is_some);
+    for (setup, tree) in setups.iter().zip(trees) {
+        let Some(tree) = tree else { continue };
         let method = setup.build.method;
         let stage = |what: &str| format!("{}, {}: {what}", scene.name(), method.name);
-        let tree = resolve::tree(&scene, setup)?;
         let (sample, answers) = match &mut expected {
             Some(expected) => expected,
             none => {
@@ -111,7 +116,7 @@ fn findings_of(text: &str, args: &VerifyArgs) -> Result<Vec<Finding>> {
             finding.files = write_faults(&scene, &setup.build, &finding.rays)?;
         }
     }
-    Ok(findings)
+    Ok((findings, all_fit))
 }
 
 /// Writes each fault to its own file.
@@ -325,13 +330,14 @@ mod tests {
         wrong_hit.rays.tree_wrong = 3;
         wrong_hit.rays.faults = vec![(RayKind::Shadow, Ray::new(Vec3::ZERO, Vec3::Y))];
 
-        assert_eq!(outcome(&[right(), right()]), Outcome::Done);
+        assert_eq!(outcome(&[right(), right()], true), Outcome::Done);
+        assert_eq!(outcome(&[right()], false), Outcome::CheckFailed);
         for (wrong, said) in [
             (wrong_tree, "teaching:1, midpoint: node 7"),
             (wrong_hit, "the shadow ray from [0, 0, 0] along [0, 1, 0]"),
         ] {
             let findings = [right(), wrong];
-            assert_eq!(outcome(&findings), Outcome::CheckFailed);
+            assert_eq!(outcome(&findings, true), Outcome::CheckFailed);
             let mut text = Vec::new();
             write(&findings, &mut text).unwrap();
             let text = String::from_utf8(text).unwrap();
@@ -353,7 +359,7 @@ mod tests {
         finding.rays.others[0].faults = 1;
         finding.rays.every_object_wrong = 1;
         assert_eq!(
-            outcome(std::slice::from_ref(&finding)),
+            outcome(std::slice::from_ref(&finding), true),
             Outcome::CheckFailed
         );
         let mut text = Vec::new();

@@ -14,6 +14,14 @@ use std::io::{self, Write};
 struct Finding {
     scene: String,
     check: ExactCheck,
+    /// Whether the trees of all methods could be built.
+    all_fit: bool,
+}
+
+impl Finding {
+    fn passed(&self) -> bool {
+        self.all_fit && self.check.passed()
+    }
 }
 
 /// Checks `count` rays per scene and precision.
@@ -23,7 +31,7 @@ pub fn run(scenes: &[String], args: &VerifyArgs, count: u32) -> Result<Outcome> 
         findings.push(finding(scene, args, count)?);
     }
     output::write_to(None, |out| write(&findings, out))?;
-    Ok(if findings.iter().all(|finding| finding.check.passed()) {
+    Ok(if findings.iter().all(Finding::passed) {
         Outcome::Done
     } else {
         Outcome::CheckFailed
@@ -36,10 +44,9 @@ fn finding(text: &str, args: &VerifyArgs, count: u32) -> Result<Finding> {
     let scene = resolve::scene(&setups[0].scene)?;
     resolve::warn_of_precision(&scene, render);
     let pool = thread_pool(render.threads)?;
-    let trees = setups
-        .iter()
-        .map(|setup| resolve::tree(&scene, setup))
-        .collect::<Result<Vec<_>>>()?;
+    let trees = resolve::trees_that_fit(&scene, &setups)?;
+    let all_fit = trees.iter().all(Option::is_some);
+    let trees: Vec<_> = trees.into_iter().flatten().collect();
     let stage = format!("{}: deciding rays exactly", scene.name());
     let check = bar::with_bar(&stage, |progress| {
         check_exactly(&scene, &trees, render, count as usize, &pool, progress)
@@ -47,6 +54,7 @@ fn finding(text: &str, args: &VerifyArgs, count: u32) -> Result<Finding> {
     Ok(Finding {
         scene: scene.name().to_owned(),
         check,
+        all_fit,
     })
 }
 
@@ -54,7 +62,7 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
     for finding in findings {
         table(finding, out)?;
     }
-    for Finding { scene, check } in findings {
+    for Finding { scene, check, .. } in findings {
         let rays = check.rays.iter().filter(|(_, count)| *count > 0);
         let sources: Vec<_> = rays
             .map(|(source, count)| format!("{count} {}", source.name()))
@@ -189,7 +197,7 @@ mod tests {
         assert_eq!(check.passed(), every_object + structure == 0);
         let scene = "teaching:1".to_owned();
         let mut text = Vec::new();
-        write(&[Finding { scene, check }], &mut text).unwrap();
+        write(&[Finding { scene, check, all_fit: true }], &mut text).unwrap();
         String::from_utf8(text).unwrap()
     }
 

@@ -26,10 +26,7 @@ pub enum MeasureError {
 impl MeasureError {
     /// Returns whether the tree of these settings is too large, so that others can be measured nevertheless.
     pub fn is_too_large(&self) -> bool {
-        matches!(
-            self,
-            MeasureError::Build(BuildError::MemoryLimit { .. } | BuildError::TooManyObjects(_))
-        )
+        matches!(self, MeasureError::Build(error) if error.is_too_large())
     }
 
     /// Returns whether the task was cancelled.

@@ -222,7 +222,7 @@ fn the_load_report_is_told_on_standard_error_and_in_the_report() {
 }
 
 /// An OBJ file with this many triangles in one place.
-fn coincident_triangles(count: usize) -> String {
+pub fn coincident_triangles(count: usize) -> String {
     "v 0 0 0\nv 2 0 1\nv 0 1 1.5\n".to_owned() + &"f 1 2 3\n".repeat(count)
 }
 
@@ -486,61 +486,6 @@ fn a_grid_shows_no_value_where_a_parameter_does_not_apply() {
         text.contains("grid: D_MAX 20 (does not apply), N_OILF 1 (does not apply)"),
         "{text}"
     );
-}
-
-#[test]
-fn verify_checks_every_kind_of_ray() {
-    let program = Program::new();
-    let text = program.done("verify teaching --rays 1000");
-    for method in Method::all().filter(|m| m.name != "none") {
-        for kind in ["primary", "shadow", "reflected", "refracted"] {
-            let row = text
-                .lines()
-                .map(|l| l.split_whitespace().collect::<Vec<_>>());
-            let expected = [
-                "teaching:1",
-                method.name,
-                "f64",
-                "valid",
-                kind,
-                "1000",
-                "0",
-                "0",
-            ];
-            assert!(
-                row.into_iter().any(|row| row == expected),
-                "{expected:?}\n{text}"
-            );
-        }
-    }
-    let text = program.done("verify teaching --rays 1000 --method midpoint --precision f32");
-    assert_eq!(text.matches("  f32  ").count(), 4, "{text}");
-    let text = program.done("verify balls:1 tetra:2 --rays 100 --method sah-cut");
-    assert!(text.contains("All 2 trees"), "{text}");
-}
-
-#[test]
-fn verify_exact_compares_every_structure_and_kernel_with_exact_arithmetic() {
-    let program = Program::new();
-    let text = program.done("verify teaching --exact 100 --method midpoint --method grid");
-    for structure in ["every object", "midpoint", "grid"] {
-        let rows = text.lines().filter(|line| line.contains(structure));
-        let rows: Vec<_> = rows
-            .filter(|line| line.starts_with(" teaching:1"))
-            .collect();
-        assert_eq!(rows.len(), 2, "{structure}: {text}");
-    }
-    for words in [
-        "scalar",
-        "counting",
-        "stream, portable",
-        "100 rays in each precision",
-        "tangent",
-        "All answers are exactly right, of testing every object and of every structure.",
-    ] {
-        assert!(text.contains(words), "{words}: {text}");
-    }
-    assert_eq!(program.files(), [""; 0]);
 }
 
 #[test]

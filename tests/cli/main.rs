@@ -7,3 +7,4 @@ mod commands;
 mod show;
 mod sweep;
 mod tune;
+mod verify;

@@ -49,3 +49,13 @@ pub enum BuildError {
     #[error("the scene has {0} objects; a tree can hold {most}", most = Node::MAX_LEAF - 1)]
     TooManyObjects(usize),
 }
+
+impl BuildError {
+    /// Returns whether the tree is too large, so that one with other settings may be built nevertheless.
+    pub fn is_too_large(&self) -> bool {
+        matches!(
+            self,
+            BuildError::MemoryLimit { .. } | BuildError::TooManyObjects(_)
+        )
+    }
+}
