@@ -2,7 +2,7 @@
 
 use super::args::CompareArgs;
 use super::outcome::Outcome;
-use super::{measure, output, resolve};
+use super::{failures, measure, output, resolve};
 use crate::measure::{Measured, unequal};
 use crate::present::report::{Failure, Report};
 use crate::scene::Scene;
@@ -52,18 +52,18 @@ fn one_alone(
     sides: [(&Scene, &Setup, std::result::Result<Measured, Failure>); 2],
     args: &CompareArgs,
 ) -> Result<Outcome> {
-    let (mut runs, mut failures) = (Vec::new(), Vec::new());
+    let (mut runs, mut failed) = (Vec::new(), Vec::new());
     for (scene, setup, result) in sides {
         match result {
             Ok(measured) => runs.push((scene, setup, measured.measurement)),
-            Err(failure) => failures.push(failure),
+            Err(failure) => failed.push(failure),
         }
     }
-    measure::check_any(&runs, &failures)?;
+    failures::check_any(&runs, &failed)?;
     for (scene, setup, measurement) in runs {
         let report = Report {
             per_kind: args.per_kind,
-            failures: failures.clone(),
+            failures: failed.clone(),
             ..Report::new(scene, &setup.scene, vec![measurement])
         };
         output::write_report(&report, &args.report)?;

@@ -2,13 +2,12 @@
 
 use super::args::MeasureArgs;
 use super::outcome::Outcome;
-use super::{bar, output, resolve};
+use super::{bar, failures, output, resolve};
 use crate::measure::{MeasureError, Measured, measure};
 use crate::present::report::{Failure, Report};
 use crate::scene::Scene;
 use crate::setup::Setup;
-use anyhow::{Result, bail};
-use std::io::Write;
+use anyhow::Result;
 
 pub fn run(args: &MeasureArgs) -> Result<Outcome> {
     output::check_place(args.report.output.as_deref())?;
@@ -29,15 +28,15 @@ pub fn run(args: &MeasureArgs) -> Result<Outcome> {
 /// # Errors
 /// No setup could be measured.
 pub fn each(scene: &Scene, setups: &[Setup]) -> Result<(Vec<Measured>, Vec<Failure>)> {
-    let (mut runs, mut failures) = (Vec::new(), Vec::new());
+    let (mut runs, mut failed) = (Vec::new(), Vec::new());
     for setup in setups {
         match run_or_failure(scene, setup)? {
             Ok(measured) => runs.push(measured),
-            Err(failure) => failures.push(failure),
+            Err(failure) => failed.push(failure),
         }
     }
-    check_any(&runs, &failures)?;
-    Ok((runs, failures))
+    failures::check_any(&runs, &failed)?;
+    Ok((runs, failed))
 }
 
 /// Measures a setup under a progress bar. A tree that is too large is a failure of this setup alone. It is
@@ -57,25 +56,6 @@ pub fn run_or_failure(
     });
     let measured: std::result::Result<_, MeasureError> = measured;
     Ok(measured?)
-}
-
-/// Prints the failures to standard error.
-///
-/// # Errors
-/// All setups failed.
-pub fn check_any<T>(runs: &[T], failures: &[Failure]) -> Result<()> {
-    let reasons: Vec<String> = failures.iter().map(ToString::to_string).collect();
-    if runs.is_empty() {
-        match failures {
-            [only] => bail!("{}", only.reason),
-            _ => bail!("{}", reasons.join("\n")),
-        }
-    }
-    for reason in reasons {
-        // Without a standard error stream there is nobody to tell.
-        let _ = writeln!(std::io::stderr(), "bspscope: {reason}");
-    }
-    Ok(())
 }
 
 /// Returns the text beside the bar of a measurement.

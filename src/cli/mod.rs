@@ -7,6 +7,7 @@ mod accuracy;
 mod args;
 mod bar;
 mod compare;
+mod failures;
 mod generate;
 mod heat;
 mod leaves;

@@ -1,6 +1,6 @@
 //! Resolves arguments to a scene, a tree and a writer.
 
-use super::bar;
+use super::{bar, failures};
 use crate::present::report::{Failure, Writer};
 use crate::scene::format::{FORMATS, FormatError};
 use crate::scene::{LoadError, NoteKind, Scene, SceneRequest, SceneSource, builtin, load};
@@ -58,13 +58,13 @@ pub fn tree(scene: &Scene, setup: &Setup) -> Result<Tree> {
 /// # Errors
 /// No tree could be built.
 pub fn trees_that_fit(scene: &Scene, setups: &[Setup]) -> Result<Vec<Option<Tree>>> {
-    let (mut trees, mut failures) = (Vec::new(), Vec::new());
+    let (mut trees, mut failed) = (Vec::new(), Vec::new());
     for setup in setups {
         trees.push(match tree(scene, setup) {
             Ok(tree) => Some(tree),
             Err(error) => match error.downcast::<BuildError>()? {
                 reason if reason.is_too_large() => {
-                    failures.push(Failure {
+                    failed.push(Failure {
                         method: setup.build.method.name,
                         reason: reason.to_string(),
                     });
@@ -75,7 +75,7 @@ pub fn trees_that_fit(scene: &Scene, setups: &[Setup]) -> Result<Vec<Option<Tree
         });
     }
     let built: Vec<_> = trees.iter().flatten().collect();
-    super::measure::check_any(&built, &failures)?;
+    failures::check_any(&built, &failed)?;
     Ok(trees)
 }
 

@@ -197,7 +197,15 @@ mod tests {
         assert_eq!(check.passed(), every_object + structure == 0);
         let scene = "teaching:1".to_owned();
         let mut text = Vec::new();
-        write(&[Finding { scene, check, all_fit: true }], &mut text).unwrap();
+        write(
+            &[Finding {
+                scene,
+                check,
+                all_fit: true,
+            }],
+            &mut text,
+        )
+        .unwrap();
         String::from_utf8(text).unwrap()
     }
 

@@ -96,7 +96,7 @@ impl Cone {
         self.side.estimates(self.ends.base, ray)
     }
 
-    pub(super) fn ends(&self) -> &ConeEnds {
+    pub(crate) fn ends(&self) -> &ConeEnds {
         &self.ends
     }
 

@@ -64,7 +64,7 @@ fn a_tree_that_is_too_large_is_no_pass_and_does_not_hide_the_others() {
     let program = Program::new();
     program.write("pile.obj", &coincident_triangles(3000));
     for rays in ["--rays 20", "--exact 20"] {
-        let command = format!("verify pile.obj {rays} --method midpoint --method object-median");
+        let command = format!("verify pile.obj {rays} --method midpoint --method sah-cut");
         let output = program.run(&format!("{command} --memory-limit 16"));
         let text = String::from_utf8(output.stdout).unwrap();
         let errors = String::from_utf8(output.stderr).unwrap();
@@ -73,6 +73,6 @@ fn a_tree_that_is_too_large_is_no_pass_and_does_not_hide_the_others() {
             errors.contains("midpoint: the tree exceeds the memory limit"),
             "{errors}"
         );
-        assert!(text.contains("object-median"), "{text}");
+        assert!(text.contains("sah-cut"), "{text}");
     }
 }

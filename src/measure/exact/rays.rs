@@ -3,8 +3,9 @@
 use super::oracle::Oracle;
 use super::random::Random;
 use crate::geometry::{Aabb, Ray, Vec3};
-use crate::measure::judge::{Frustum, Surface};
+use crate::measure::judge::Surface;
 use crate::measure::verify::RaySample;
+use crate::primitive::exact::ConeEnds;
 use crate::primitive::{Precision, Primitive, Shape};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
@@ -275,7 +276,7 @@ impl<'a> Places<'a> {
     }
 
     /// Returns a point of the circle around an end of a cone.
-    fn on_rim(&mut self, cone: &Frustum) -> Vec3 {
+    fn on_rim(&mut self, cone: &ConeEnds) -> Vec3 {
         let across = (cone.apex - cone.base).any_orthonormal_pair();
         let turn = std::f64::consts::TAU * self.random.number();
         let outward = libm::cos(turn) * across.0 + libm::sin(turn) * across.1;
@@ -341,7 +342,7 @@ impl<'a> Places<'a> {
     }
 
     /// Returns a point of the side of a cone, and the normal there.
-    fn on_side(&mut self, cone: &Frustum) -> Option<(Vec3, Vec3)> {
+    fn on_side(&mut self, cone: &ConeEnds) -> Option<(Vec3, Vec3)> {
         let axis = cone.apex - cone.base;
         let (e, f) = axis.try_normalize()?.any_orthonormal_pair();
         let turns = [0.0, 0.25, 0.5, self.random.number()];

@@ -20,6 +20,6 @@ mod verdict;
 
 pub use case::{Case, CaseError};
 pub(super) use crossing::Line;
-pub(super) use surface::{Frustum, Surface};
+pub(super) use surface::Surface;
 pub use tolerance::Tolerance;
 pub use verdict::{Answer, Standing, Tally, Verdict, examine, scale_of, settle};

@@ -2,9 +2,8 @@
 
 use super::crossing::{Crossing, Line};
 use super::span::{Span, SpanVec, rational};
-use super::surface::Frustum;
-use crate::geometry::Vec3;
-use crate::primitive::exact::Root;
+use crate::geometry::{Aabb, Vec3};
+use crate::primitive::exact::{ConeEnds, Root};
 use dashu_ratio::Relaxed as Rational;
 use std::cmp::Ordering;
 
@@ -30,7 +29,7 @@ pub fn sphere(center: Vec3, radius: f64, line: &Line<'_>, reach: &Rational) -> V
 /// point `p` relative to the base, the scaled height is `h = p·w`, from 0 to `w·w`. Its distance
 /// from the axis is `|w × p| / |w|`. The surface at that height has the radius `r₀ + (r₁ − r₀) h /
 /// w·w`. A cone whose ends are equal has no surface.
-pub fn cone(cone: &Frustum, line: &Line<'_>, reach: &Rational) -> Vec<Crossing> {
+pub fn cone(cone: &ConeEnds, line: &Line<'_>, reach: &Rational) -> Vec<Crossing> {
     let start = nearest(0.5 * cone.base + 0.5 * cone.apex, line);
     let base = SpanVec::around(cone.base, reach);
     let axis = &SpanVec::around(cone.apex, reach) - &base;
@@ -159,8 +158,8 @@ fn between_ends(
 }
 
 /// Returns an uncertain crossing that covers the whole box of the cone.
-fn anywhere(cone: &Frustum, line: &Line<'_>) -> Crossing {
-    let bounds = cone.bounds();
+fn anywhere(cone: &ConeEnds, line: &Line<'_>) -> Crossing {
+    let bounds = bounds(cone);
     let speed = line.ray.direction.length();
     let middle = nearest(bounds.center(), line);
     let reach = bounds.size().length() / speed;
@@ -170,4 +169,10 @@ fn anywhere(cone: &Frustum, line: &Line<'_>) -> Crossing {
         latest: Root::from(middle.hi + &reach),
         certain: false,
     }
+}
+
+/// Returns a box around both ends of a cone, with their radii in all directions.
+pub fn bounds(cone: &ConeEnds) -> Aabb {
+    let end = |center: Vec3, radius: f64| Aabb::new(center - radius, center + radius);
+    end(cone.base, cone.base_radius).union(&end(cone.apex, cone.apex_radius))
 }

@@ -5,6 +5,7 @@ use super::span::rational;
 use super::tolerance::Tolerance;
 use super::{flat, quadric};
 use crate::geometry::{Aabb, Vec3};
+use crate::primitive::exact::ConeEnds;
 use crate::primitive::{Primitive, UnitFrame};
 
 /// The numbers that define the surface of an object.
@@ -17,16 +18,7 @@ pub enum Surface {
     Triangle([Vec3; 3]),
     /// The vertices of the outline, which may be off a common plane by rounding.
     Polygon(Vec<Vec3>),
-    Cone(Frustum),
-}
-
-/// The ends of a cylinder or cone, and the radii there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frustum {
-    pub base: Vec3,
-    pub base_radius: f64,
-    pub apex: Vec3,
-    pub apex_radius: f64,
+    Cone(ConeEnds),
 }
 
 impl Surface {
@@ -39,12 +31,7 @@ impl Surface {
             },
             Primitive::Triangle(triangle) => Surface::Triangle(triangle.vertices),
             Primitive::Polygon(polygon) => Surface::Polygon(polygon.vertices_in_plane().to_vec()),
-            Primitive::Cone(cone) => Surface::Cone(Frustum {
-                base: cone.base(),
-                base_radius: cone.base_radius(),
-                apex: cone.apex(),
-                apex_radius: cone.apex_radius(),
-            }),
+            Primitive::Cone(cone) => Surface::Cone(*cone.ends()),
         }
     }
 
@@ -61,7 +48,7 @@ impl Surface {
             Surface::Polygon(vertices) => {
                 Surface::Polygon(vertices.iter().copied().map(point).collect())
             }
-            Surface::Cone(cone) => Surface::Cone(Frustum {
+            Surface::Cone(cone) => Surface::Cone(ConeEnds {
                 base: point(cone.base),
                 base_radius: length(cone.base_radius),
                 apex: point(cone.apex),
@@ -76,7 +63,7 @@ impl Surface {
             Surface::Sphere { center, radius } => Aabb::new(*center - *radius, *center + *radius),
             Surface::Triangle(vertices) => Aabb::around(*vertices),
             Surface::Polygon(vertices) => Aabb::around(vertices.iter().copied()),
-            Surface::Cone(cone) => cone.bounds(),
+            Surface::Cone(cone) => quadric::bounds(cone),
         }
     }
 
@@ -97,13 +84,5 @@ impl Surface {
             .into_iter()
             .filter_map(|crossing| crossing.within(line.ray))
             .collect()
-    }
-}
-
-impl Frustum {
-    /// Returns a box around both ends, with their radii in all directions.
-    pub fn bounds(&self) -> Aabb {
-        let end = |center: Vec3, radius: f64| Aabb::new(center - radius, center + radius);
-        end(self.base, self.base_radius).union(&end(self.apex, self.apex_radius))
     }
 }

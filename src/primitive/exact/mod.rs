@@ -22,7 +22,7 @@ mod root;
 mod vector;
 
 pub(super) use number::Unsure;
-pub(super) use quadric::ConeEnds;
+pub(crate) use quadric::ConeEnds;
 pub use root::Root;
 
 use super::Precision;
