@@ -294,8 +294,13 @@ fn depth(
     }
 }
 
+/// Rounds a number to four digits.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.3e}").parse().unwrap_or(number)
+}
+
 /// A number with a switch for the one that follows from the scene. While automatic, the number is that of
-/// the tree on view.
+/// the tree on view, rounded.
 fn automatic(
     ui: &mut egui::Ui,
     range: Range,
@@ -306,7 +311,7 @@ fn automatic(
     let is_automatic = value == Value::Automatic;
     let now = match value {
         Value::Number(now) => now,
-        _ => around.root_margin.unwrap_or(range.lowest),
+        _ => around.root_margin.map_or(range.lowest, rounded),
     };
     let edited = ui.add_enabled_ui(!is_automatic, |ui| number(ui, range, now, said));
     let mut auto = is_automatic;
