@@ -1,6 +1,6 @@
 //! Resolves arguments to a scene, a tree and a writer.
 
-use super::{bar, failures};
+use super::bar;
 use crate::present::report::{Failure, Writer};
 use crate::scene::format::{FORMATS, FormatError};
 use crate::scene::{LoadError, NoteKind, Scene, SceneRequest, SceneSource, builtin, load};
@@ -52,31 +52,21 @@ pub fn tree(scene: &Scene, setup: &Setup) -> Result<Tree> {
     })?)
 }
 
-/// Builds the trees of setups. Prints the reasons of those that are too large to standard error; there is no
-/// tree for them, and they do not hide the others.
-///
-/// # Errors
-/// No tree could be built.
-pub fn trees_that_fit(scene: &Scene, setups: &[Setup]) -> Result<Vec<Option<Tree>>> {
-    let (mut trees, mut failed) = (Vec::new(), Vec::new());
-    for setup in setups {
-        trees.push(match tree(scene, setup) {
-            Ok(tree) => Some(tree),
-            Err(error) => match error.downcast::<BuildError>()? {
-                reason if reason.is_too_large() => {
-                    failed.push(Failure {
-                        method: setup.build.method.name,
-                        reason: reason.to_string(),
-                    });
-                    None
-                }
-                other => return Err(other.into()),
-            },
-        });
+/// Builds the tree of a setup. One that is too large is a failure of this setup alone.
+pub fn tree_or_failure(scene: &Scene, setup: &Setup) -> Result<std::result::Result<Tree, Failure>> {
+    match tree(scene, setup) {
+        Ok(tree) => Ok(Ok(tree)),
+        Err(error) => {
+            let reason = error.downcast::<BuildError>()?;
+            if !reason.is_too_large() {
+                return Err(reason.into());
+            }
+            Ok(Err(Failure {
+                method: setup.build.method.name,
+                reason: reason.to_string(),
+            }))
+        }
     }
-    let built: Vec<_> = trees.iter().flatten().collect();
-    failures::check_any(&built, &failed)?;
-    Ok(trees)
 }
 
 /// Prints a warning to standard error if the chosen precision cannot represent the scene, in the words in

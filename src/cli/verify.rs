@@ -2,7 +2,7 @@
 
 use super::args::VerifyArgs;
 use super::outcome::Outcome;
-use super::{bar, output, resolve, verify_exact};
+use super::{bar, failures, output, resolve, verify_exact};
 use crate::measure::judge::{Answer, Case, Verdict};
 use crate::measure::{Answers, RaySample, Verification, answer, compare, sample_rays, unsplit};
 use crate::present::number::counted;
@@ -85,10 +85,15 @@ fn findings_of(text: &str, args: &VerifyArgs) -> Result<(Vec<Finding>, bool)> {
     let precision = render.precision_for(&scene).precision;
     let mut expected: Option<(RaySample, Answers)> = None;
     let mut findings = Vec::new();
-    let trees = resolve::trees_that_fit(&scene, &setups)?;
-    let all_fit = trees.iter().all(Option::is_some);
-    for (setup, tree) in setups.iter().zip(trees) {
-        let Some(tree) = tree else { continue };
+    let mut failed = Vec::new();
+    for setup in &setups {
+        let tree = match resolve::tree_or_failure(&scene, setup)? {
+            Ok(tree) => tree,
+            Err(failure) => {
+                failed.push(failure);
+                continue;
+            }
+        };
         let method = setup.build.method;
         let stage = |what: &str| format!("{}, {}: {what}", scene.name(), method.name);
         let (sample, answers) = match &mut expected {
@@ -116,7 +121,8 @@ fn findings_of(text: &str, args: &VerifyArgs) -> Result<(Vec<Finding>, bool)> {
             finding.files = write_faults(&scene, &setup.build, &finding.rays)?;
         }
     }
-    Ok((findings, all_fit))
+    failures::check_any(&findings, &failed)?;
+    Ok((findings, failed.is_empty()))
 }
 
 /// Writes each fault to its own file.

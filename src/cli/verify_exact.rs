@@ -2,7 +2,7 @@
 
 use super::args::VerifyArgs;
 use super::outcome::Outcome;
-use super::{bar, output, resolve};
+use super::{bar, failures, output, resolve};
 use crate::measure::exact::{ExactCheck, ExactFault, ExactFaults, check_exactly};
 use crate::present::number::counted;
 use crate::present::report::plain_table;
@@ -44,9 +44,14 @@ fn finding(text: &str, args: &VerifyArgs, count: u32) -> Result<Finding> {
     let scene = resolve::scene(&setups[0].scene)?;
     resolve::warn_of_precision(&scene, render);
     let pool = thread_pool(render.threads)?;
-    let trees = resolve::trees_that_fit(&scene, &setups)?;
-    let all_fit = trees.iter().all(Option::is_some);
-    let trees: Vec<_> = trees.into_iter().flatten().collect();
+    let (mut trees, mut failed) = (Vec::new(), Vec::new());
+    for setup in &setups {
+        match resolve::tree_or_failure(&scene, setup)? {
+            Ok(tree) => trees.push(tree),
+            Err(failure) => failed.push(failure),
+        }
+    }
+    failures::check_any(&trees, &failed)?;
     let stage = format!("{}: deciding rays exactly", scene.name());
     let check = bar::with_bar(&stage, |progress| {
         check_exactly(&scene, &trees, render, count as usize, &pool, progress)
@@ -54,7 +59,7 @@ fn finding(text: &str, args: &VerifyArgs, count: u32) -> Result<Finding> {
     Ok(Finding {
         scene: scene.name().to_owned(),
         check,
-        all_fit,
+        all_fit: failed.is_empty(),
     })
 }
 

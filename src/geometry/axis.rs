@@ -25,6 +25,18 @@ impl Axis {
         Self::ALL[index % 3]
     }
 
+    /// Returns the axis of the largest of three sizes; of equal ones the last.
+    #[inline(always)]
+    pub fn of_largest<T: PartialOrd>([x, y, z]: [T; 3]) -> Axis {
+        if x > y && x > z {
+            Axis::X
+        } else if y > z {
+            Axis::Y
+        } else {
+            Axis::Z
+        }
+    }
+
     /// Returns the next axis in the order x → y → z → x.
     pub const fn next(self) -> Axis {
         Self::from_index(self as usize + 1)

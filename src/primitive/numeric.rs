@@ -73,14 +73,7 @@ impl Shear {
     /// that this loses precision.
     #[inline]
     pub(super) fn of(direction: Vec3) -> Option<Shear> {
-        let size = direction.abs();
-        let axis = if size.x > size.y && size.x > size.z {
-            Axis::X
-        } else if size.y > size.z {
-            Axis::Y
-        } else {
-            Axis::Z
-        };
+        let axis = Axis::of_largest(direction.abs().to_array());
         let rotated = rotated(direction, axis);
         let shear = Shear::of_rotated(rotated);
         is_workable(rotated.z.abs()).then_some(Shear { axis, ..shear })

@@ -109,14 +109,7 @@ impl PackedRay {
     pub fn new(frame: &UnitFrame, ray: &Ray) -> Option<Self> {
         let framed = FramedRay::new(frame, ray)?;
         let direction = framed.direction;
-        let size = direction.abs();
-        let axis = if size.x > size.y && size.x > size.z {
-            Axis::X
-        } else if size.y > size.z {
-            Axis::Y
-        } else {
-            Axis::Z
-        };
+        let axis = Axis::of_largest(direction.abs().to_array());
         let rotated = rotated(direction, axis);
         Some(PackedRay {
             frame: *frame,

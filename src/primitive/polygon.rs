@@ -88,14 +88,7 @@ impl Polygon {
                     .into(),
             ),
         };
-        let steepness = normal.abs();
-        let axis = if steepness.x > steepness.y && steepness.x > steepness.z {
-            Axis::X
-        } else if steepness.y > steepness.z {
-            Axis::Y
-        } else {
-            Axis::Z
-        };
+        let axis = Axis::of_largest(normal.abs().to_array());
         let outline = vertices.iter().map(|&v| project(v, axis)).collect();
         let mut polygon = Polygon {
             vertices: vertices.into(),

@@ -336,13 +336,7 @@ fn leaving_the_task_restores_the_view_and_nothing_renders_the_picture_again() {
     press(&mut window, Modifiers::COMMAND, Key::Num2);
     window.run_steps(3);
     assert!(view(&mut window) == beside, "the same ray, the same side");
-    let rect = window.get_by_label("3D view of scene and tree").rect();
-    window.drag_at(rect.center());
-    window.run_steps(2);
-    window.hover_at(rect.center() + egui::vec2(90.0, 20.0));
-    window.run_steps(2);
-    window.drop_at(rect.center() + egui::vec2(90.0, 20.0));
-    window.run_steps(2);
+    orbit(&mut window);
     assert!(window.state().is_finished(), "orbiting renders nothing");
     assert!(view(&mut window) != beside);
     press(&mut window, Modifiers::NONE, Key::Escape);
@@ -350,6 +344,17 @@ fn leaving_the_task_restores_the_view_and_nothing_renders_the_picture_again() {
     assert!(window.query_by_label("Steps along the ray").is_none());
     assert!(view(&mut window) == before, "camera and settings as before");
     assert!(window.state().is_finished());
+}
+
+/// Drags in the 3D view.
+fn orbit(window: &mut Window<'_>) {
+    let rect = window.get_by_label("3D view of scene and tree").rect();
+    window.drag_at(rect.center());
+    window.run_steps(2);
+    window.hover_at(rect.center() + egui::vec2(90.0, 20.0));
+    window.run_steps(2);
+    window.drop_at(rect.center() + egui::vec2(90.0, 20.0));
+    window.run_steps(2);
 }
 
 /// The share of pixels that are not the same.
@@ -373,13 +378,7 @@ fn the_ray_is_framed_again_in_a_pane_of_another_size() {
     window.set_size(WIDE.into());
     assert!(difference(&view(&mut window), &wide) < 0.001);
     // Where the user moved the camera, it stays.
-    let rect = window.get_by_label("3D view of scene and tree").rect();
-    window.drag_at(rect.center());
-    window.run_steps(2);
-    window.hover_at(rect.center() + egui::vec2(90.0, 20.0));
-    window.run_steps(2);
-    window.drop_at(rect.center() + egui::vec2(90.0, 20.0));
-    window.run_steps(2);
+    orbit(&mut window);
     let moved = view(&mut window);
     assert!(difference(&moved, &wide) > 0.1);
     for size in [HIGH, WIDE] {

@@ -74,7 +74,7 @@ fn opens_a_small_scene_and_finishes() {
     }
     assert_ne!(figure(&window, "Leaves"), "–");
     assert!(figure(&window, "Build time").ends_with('s'));
-    // Speed and memory are told at the right end of the bottom strip.
+    // Speed and memory are shown at the right end of the bottom strip.
     window.hover_at(egui::pos2(1400.0, 985.0));
     window.run_steps(60);
     assert!(has(&window, "rays/s") && has(&window, "MiB"));

@@ -69,12 +69,6 @@ impl ExactCheck {
         self.rays.iter().map(|(_, count)| count).sum()
     }
 
-    /// Returns the number of wrong answers of testing every object.
-    pub fn faults_of_testing_every_object(&self) -> u64 {
-        let of_all = self.faults.iter().filter(|f| f.method.is_none());
-        of_all.map(ExactFaults::count).sum()
-    }
-
     /// Returns whether every answer is right.
     pub fn passed(&self) -> bool {
         self.faults.iter().all(|faults| faults.count() == 0)

@@ -12,3 +12,31 @@ pub struct Case {
     pub any_scene: bool,
     pub run: fn(&Trial<'_>) -> Outcome,
 }
+
+impl Case {
+    /// Returns a case that makes its own scenes.
+    pub const fn of_its_own_scenes(
+        name: &'static str,
+        rule: &'static str,
+        run: fn(&Trial<'_>) -> Outcome,
+    ) -> Self {
+        Case {
+            name,
+            rule,
+            any_scene: false,
+            run,
+        }
+    }
+
+    /// Returns a case that can run on a user's own scene.
+    pub const fn of_any_scene(
+        name: &'static str,
+        rule: &'static str,
+        run: fn(&Trial<'_>) -> Outcome,
+    ) -> Self {
+        Case {
+            any_scene: true,
+            ..Case::of_its_own_scenes(name, rule, run)
+        }
+    }
+}

@@ -11,62 +11,53 @@ use crate::scene::Scene;
 use crate::scene::format::nff;
 use crate::trace::{Hit, RayKind};
 
-const fn case(name: &'static str, rule: &'static str, run: fn(&Trial<'_>) -> Outcome) -> Case {
-    Case {
-        name,
-        rule,
-        any_scene: false,
-        run,
-    }
-}
-
 pub const CASES: &[Case] = &[
-    case(
+    Case::of_its_own_scenes(
         "slivers",
         "triangles and quadrilaterals of aspect 10 to 10^8, at them and at their edges: right hits",
         slivers,
     ),
-    case(
+    Case::of_its_own_scenes(
         "no area",
         "triangles and polygons with equal vertices or all on a line are refused with the reason; \
          a file's are skipped with a note",
         no_area,
     ),
-    case(
+    Case::of_its_own_scenes(
         "coplanar overlaps",
         "triangles and polygons over each other in one plane: right hits, the lowest number of equal \
          distances",
         coplanar,
     ),
-    case(
+    Case::of_its_own_scenes(
         "identical objects",
         "10,000 times the same sphere and triangle: right hits; where a tree would pass 256 MiB, the \
          error that says so, and right hits with D_MAX 8 or the coarsest grid",
         identical,
     ),
-    case(
+    Case::of_its_own_scenes(
         "flat scenes",
         "objects in one plane, and points on one line: right hits",
         flat,
     ),
-    case(
+    Case::of_its_own_scenes(
         "one object, none",
         "a scene of one object of each kind, and one of nothing: right hits",
         few,
     ),
-    case(
+    Case::of_its_own_scenes(
         "polygons",
         "concave outlines, vertices on a line, equal neighbors and outlines that cross themselves \
          (inside by the even-odd rule): right hits",
         polygons,
     ),
-    case(
+    Case::of_its_own_scenes(
         "cylinders and cones",
         "without length refused with the reason; thin, flat, and with a tip: right hits, also at the \
          tip",
         cones,
     ),
-    case(
+    Case::of_its_own_scenes(
         "nested and touching spheres",
         "one in the other a thousandfold, and touching in points: right hits; memory as for identical \
          objects",

@@ -10,64 +10,55 @@ use crate::scene::Scene;
 use crate::structure::{NodeKind, Tree};
 use crate::trace::RayKind;
 
-const fn case(name: &'static str, rule: &'static str, run: fn(&Trial<'_>) -> Outcome) -> Case {
-    Case {
-        name,
-        rule,
-        any_scene: true,
-        run,
-    }
-}
-
 pub const CASES: &[Case] = &[
-    case(
+    Case::of_any_scene(
         "axis-parallel",
         "along each axis through vertices and edges, the other components 0 and -0: right hits",
         axis_parallel,
     ),
-    case(
+    Case::of_any_scene(
         "denormal components",
         "components of 5e-324 and 1e-300 beside others of 1: right hits",
         denormal,
     ),
-    case(
+    Case::of_any_scene(
         "short and long directions",
         "directions of length 1e-300, 1e-150 and 1e150: right hits",
         lengths,
     ),
-    case(
+    Case::of_any_scene(
         "inside split planes",
         "within planes of the tree, in every direction there: right hits",
         inside_planes,
     ),
-    case(
+    Case::of_any_scene(
         "from split planes",
         "starting on planes of the tree: right hits",
         from_planes,
     ),
-    case(
+    Case::of_any_scene(
         "from faces",
         "starting on vertices, edges and surfaces: right hits; what is met at the start may count \
          or not",
         from_faces,
     ),
-    case(
+    Case::of_any_scene(
         "from inside objects",
         "starting in the middle of objects: right hits",
         from_inside,
     ),
-    case(
+    Case::of_any_scene(
         "at vertices and edges",
         "aimed at vertices and points of edges from outside: right hits; both objects at an edge \
          may be hit",
         at_features,
     ),
-    case(
+    Case::of_any_scene(
         "tangent",
         "touching spheres, cylinders and cones: right hits; the touched one may be hit or not",
         tangent,
     ),
-    case(
+    Case::of_any_scene(
         "from far away",
         "from 10^8 radii of the scene: right hits within the rounding of so long a way",
         from_afar,

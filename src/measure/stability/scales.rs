@@ -8,41 +8,32 @@ use crate::primitive::{Cone, Precision, Primitive};
 use crate::scene::Scene;
 use crate::trace::{PrecisionChoice, RenderSettings};
 
-const fn case(name: &'static str, rule: &'static str, run: fn(&Trial<'_>) -> Outcome) -> Case {
-    Case {
-        name,
-        rule,
-        any_scene: false,
-        run,
-    }
-}
-
 pub const CASES: &[Case] = &[
-    case(
+    Case::of_its_own_scenes(
         "small over large",
         "objects of one size on the ground of another, all pairs of 10^-15, 10^-12 to 10^15: right \
          hits of rays between them, and from far away",
         small_over_large,
     ),
-    case(
+    Case::of_its_own_scenes(
         "small inside large",
         "objects of one size inside a sphere and a cylinder of another, all pairs of 10^-15, 10^-12 \
          to 10^15: right hits of rays between them, and from far away",
         small_inside_large,
     ),
-    case(
+    Case::of_its_own_scenes(
         "edge-on slivers",
         "triangles and quadrilaterals of aspect 1 to 10^12, seen in their plane and at angles of \
          10^-17 to 0.1: right hits",
         edge_on_slivers,
     ),
-    case(
+    Case::of_its_own_scenes(
         "duplicates far from the origin",
         "every object of a mesh three times, 10^7 from the origin: right hits, the lowest number of \
          equal distances",
         far_duplicates,
     ),
-    case(
+    Case::of_its_own_scenes(
         "earth-sized ground",
         "objects of size 1 on a sphere of the earth's radius: right hits and shadows; if f32 is \
          chosen, a warning that it cannot represent them",

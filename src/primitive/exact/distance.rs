@@ -124,19 +124,13 @@ impl<N: Number> Distance<N> {
     }
 }
 
-/// A number that can be rounded to the nearest.
+/// A number that can be rounded.
 pub(super) trait Round {
-    /// Returns the nearest `f64`.
+    /// Returns the nearest number of a precision.
     ///
     /// # Errors
-    /// The precision does not suffice.
-    fn to_f64(&self) -> Result<f64, Unsure>;
-
-    /// Returns the nearest `f32`.
-    ///
-    /// # Errors
-    /// As above.
-    fn to_f32(&self) -> Result<f64, Unsure>;
+    /// The arithmetic does not determine it.
+    fn nearest(&self, precision: Precision) -> Result<f64, Unsure>;
 }
 
 impl<const FMA: bool> Distance<DoubleWord<FMA>> {
@@ -162,30 +156,22 @@ impl<const FMA: bool> Distance<DoubleWord<FMA>> {
 
 impl<const FMA: bool> Round for Distance<DoubleWord<FMA>> {
     #[inline(always)]
-    fn to_f64(&self) -> Result<f64, Unsure> {
+    fn nearest(&self, precision: Precision) -> Result<f64, Unsure> {
         let [lo, hi] = self.value().around();
+        let (lo, hi) = match precision {
+            Precision::F32 => {
+                let [lo, hi] = [lo.next_down(), hi.next_up()].map(|t| f64::from(t as f32));
+                (lo, hi)
+            }
+            Precision::F64 => (lo, hi),
+        };
         if lo == hi { Ok(lo) } else { Err(Unsure) }
-    }
-
-    #[inline(always)]
-    fn to_f32(&self) -> Result<f64, Unsure> {
-        let [lo, hi] = self.value().around();
-        let (lo, hi) = (lo.next_down() as f32, hi.next_up() as f32);
-        if lo == hi {
-            Ok(f64::from(lo))
-        } else {
-            Err(Unsure)
-        }
     }
 }
 
 impl Round for Distance<Dyadic> {
-    fn to_f64(&self) -> Result<f64, Unsure> {
-        Ok(self.root().nearest(Precision::F64))
-    }
-
-    fn to_f32(&self) -> Result<f64, Unsure> {
-        Ok(self.root().nearest(Precision::F32))
+    fn nearest(&self, precision: Precision) -> Result<f64, Unsure> {
+        Ok(self.root().nearest(precision))
     }
 }
 

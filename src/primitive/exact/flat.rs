@@ -3,7 +3,7 @@
 use super::distance::Distance;
 use super::number::{Number, Unsure};
 use super::vector::{Vector, minor};
-use crate::geometry::{Ray, Vec3};
+use crate::geometry::{Axis, Ray, Vec3};
 use std::cmp::Ordering;
 
 /// A point in coordinates in which the ray is the third axis. Where `m` is the largest component of the
@@ -18,14 +18,8 @@ struct Seen<N> {
 /// Returns the three axes in cyclic order with that of the direction's largest component last.
 #[inline(always)]
 fn axes(direction: Vec3) -> [usize; 3] {
-    let size = direction.abs();
-    if size.x > size.y && size.x > size.z {
-        [1, 2, 0]
-    } else if size.y > size.z {
-        [2, 0, 1]
-    } else {
-        [0, 1, 2]
-    }
+    let k = Axis::of_largest(direction.abs().to_array()).index();
+    [(k + 1) % 3, (k + 2) % 3, k]
 }
 
 /// Returns the coordinate `i` of a point in [`Seen`], where `along` is that along the axis `k` from the origin.
@@ -89,6 +83,12 @@ pub(super) fn triangle<N: Number>(
     Distance::fraction(along, determinant * squared_largest(ray))
 }
 
+/// Returns the normal of a triangle, of twice the length of its area.
+#[inline(always)]
+fn normal<N: Number>([a, b, c]: [&Vec3; 3]) -> Vector<N> {
+    Vector::difference(*b, *a).cross(&Vector::difference(*c, *a))
+}
+
 /// Returns where a line that certainly crosses a triangle does so: where it crosses the plane. This needs
 /// fewer operations than [`triangle`].
 #[inline(always)]
@@ -96,15 +96,14 @@ pub(super) fn plane<N: Number>(
     [a, b, c]: &[Vec3; 3],
     ray: &Ray,
 ) -> Result<Option<Distance<N>>, Unsure> {
-    let normal = Vector::<N>::difference(*b, *a).cross(&Vector::difference(*c, *a));
+    let normal = normal::<N>([a, b, c]);
     let distance = normal.dot(&Vector::difference(*a, ray.origin));
     Distance::fraction(distance, normal.dot(&Vector::from(ray.direction)))
 }
 
 /// Returns the height of a point above the plane of a triangle, times twice its area.
 pub(super) fn height<N: Number>([a, b, c]: &[Vec3; 3], point: Vec3) -> N {
-    let normal = Vector::<N>::difference(*b, *a).cross(&Vector::difference(*c, *a));
-    normal.dot(&Vector::difference(point, *a))
+    normal::<N>([a, b, c]).dot(&Vector::difference(point, *a))
 }
 
 /// An edge that crosses the first axis at `over / under`.

@@ -187,11 +187,7 @@ impl Surface<'_> {
     where
         Distance<N>: Round,
     {
-        let round = |t: Distance<N>| match precision {
-            Some(Precision::F32) => t.to_f32(),
-            Some(Precision::F64) => t.to_f64(),
-            None => Ok(0.0),
-        };
+        let round = |t: Distance<N>| precision.map_or(Ok(0.0), |p| t.nearest(p));
         self.first::<N>(known, ray)?.map(round).transpose()
     }
 
