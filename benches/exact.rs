@@ -14,7 +14,9 @@ use bspscope::primitive::{Precision, Primitive, Shape, Stage};
 use bspscope::progress::Progress;
 use bspscope::scene::{Scene, SceneRequest, load};
 use bspscope::structure::{BuildSettings, Method, Tree, build};
-use bspscope::trace::{Children, Probe, RayKind, RenderSettings, Scratch, any_hit, closest_hit};
+use bspscope::trace::{
+    BoxTest, Children, Probe, RayKind, RenderSettings, Scratch, any_hit, closest_hit,
+};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -38,6 +40,8 @@ struct Recorder<'a> {
 impl Probe for Recorder<'_> {
     fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Children) {}
 
+    fn boxes(&mut self, _: u32, _: [f64; 2], _: &[BoxTest]) {}
+    fn culled(&mut self, _: u32, _: f64, _: f64) {}
     fn leaf(&mut self, _: u32, _: &[u32], _: [f64; 2]) {}
 
     fn test(&mut self, object: u32, hit: impl FnOnce() -> Option<f64>) {

@@ -11,7 +11,7 @@ use bspscope::measure::{DELTA, measure, parameter};
 use bspscope::progress::Progress;
 use bspscope::scene::{SceneRequest, load};
 use bspscope::structure::split::{Cell, Decision, MethodInfo, SplitRule, Structure};
-use bspscope::structure::{BuildSettings, Method, validate};
+use bspscope::structure::{BuildSettings, Builder, Method, validate};
 use bspscope::trace::RenderSettings;
 
 /// The description of the method.
@@ -24,7 +24,7 @@ static METHOD: MethodInfo = MethodInfo {
     paper_spheres_exactly: true,
     structure: Structure::Bintree,
     constants: &[],
-    rule: |_| Box::new(LongestSide),
+    builder: Builder::Cells(|_| Box::new(LongestSide)),
 };
 
 struct LongestSide;

@@ -52,7 +52,7 @@ impl TreeFacts {
         };
         for cell in tree.cells() {
             match tree.kind(cell.node) {
-                NodeKind::Inner { .. } => facts.inner_nodes += 1,
+                NodeKind::Inner => facts.inner_nodes += 1,
                 NodeKind::Leaf { count, .. } => {
                     facts.leaves += 1;
                     if count == 0 {

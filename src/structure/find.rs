@@ -124,7 +124,7 @@ impl Query {
             Query::Stop(reasons) => nodes
                 .filter(|&node| match tree.kind(node) {
                     NodeKind::Leaf { stop, .. } => reasons.contains(&stop),
-                    NodeKind::Inner { .. } => false,
+                    NodeKind::Inner => false,
                 })
                 .collect(),
             Query::Number(field, order, number) => {

@@ -53,9 +53,8 @@ impl TreeIndex {
             facts.depth = cell.depth;
             facts.area = cell.bounds.surface_area();
             facts.volume = cell.bounds.volume();
-            if let NodeKind::Inner { below, above, .. } = tree.kind(cell.node) {
-                nodes[below as usize].parent = cell.node;
-                nodes[above as usize].parent = cell.node;
+            for child in tree.child_nodes(cell.node) {
+                nodes[child as usize].parent = cell.node;
             }
         }
         let (starts, leaves) = leaves_by_object(tree, objects);
@@ -113,7 +112,7 @@ impl Tree {
     pub fn references_below(&self, node: u32, end: u32) -> Range<usize> {
         let first = (node..end).find_map(|n| match self.kind(n) {
             NodeKind::Leaf { first, .. } => Some(first as usize),
-            NodeKind::Inner { .. } => None,
+            NodeKind::Inner => None,
         });
         // The last node of a subtree is a leaf.
         match (first, self.kind(end - 1)) {
@@ -156,14 +155,13 @@ fn sum_up(tree: &Tree, nodes: &mut [NodeFacts]) {
                 facts.expected_visits = 1.0;
                 facts.tests = f64::from(count);
             }
-            NodeKind::Inner { below, above, .. } => {
-                let of = |child: u32| &rest[child as usize - node - 1];
-                let (below, above) = (of(below), of(above));
-                facts.end = above.end;
-                facts.leaves = below.leaves + above.leaves;
-                facts.references = below.references + above.references;
+            NodeKind::Inner => {
                 facts.expected_visits = 1.0;
-                for child in [below, above] {
+                for child in tree.child_nodes(node as u32) {
+                    let child = &rest[child as usize - node - 1];
+                    facts.end = child.end;
+                    facts.leaves += child.leaves;
+                    facts.references += child.references;
                     let share = child.area / facts.area;
                     facts.expected_visits += share * child.expected_visits;
                     facts.tests += share * child.tests;
@@ -190,8 +188,10 @@ fn count_objects(nodes: &mut [NodeFacts], tree: &Tree, starts: &[u32], leaves: &
     for node in (0..nodes.len()).rev() {
         nodes[node].objects = match tree.kind(node as u32) {
             NodeKind::Leaf { count, .. } => count,
-            NodeKind::Inner { below, above, .. } => {
-                nodes[below as usize].objects + nodes[above as usize].objects - duplicates[node]
+            NodeKind::Inner => {
+                let children = tree.child_nodes(node as u32);
+                let sum: u32 = children.map(|child| nodes[child as usize].objects).sum();
+                sum - duplicates[node]
             }
         };
     }
@@ -266,10 +266,7 @@ pub(super) mod tests {
         let path = index.path_to(last);
         assert_eq!((path[0], path[path.len() - 1]), (0, last));
         for pair in path.windows(2) {
-            assert!(
-                matches!(tree.kind(pair[0]), NodeKind::Inner { below, above, .. }
-                if below == pair[1] || above == pair[1])
-            );
+            assert!(tree.child_nodes(pair[0]).any(|child| child == pair[1]));
         }
     }
 }

@@ -12,13 +12,15 @@ pub enum Structure {
     /// The leaves are the voxels of a uniform grid. `D_MAX` and `N_OILF` do not apply. Rays step
     /// from voxel to voxel; the planes only define where the voxels are.
     Grid,
+    /// A bounding volume hierarchy: every node has a box around its objects, and boxes may overlap.
+    Bvh,
 }
 
 impl Structure {
     /// Returns whether a cell at this depth may become a leaf because of `N_OILF` or `D_MAX`.
     pub(super) fn ends_at(self, depth: u32) -> bool {
         match self {
-            Structure::Bintree => true,
+            Structure::Bintree | Structure::Bvh => true,
             Structure::Octree => depth.is_multiple_of(3),
             Structure::Grid => false,
         }
@@ -28,7 +30,7 @@ impl Structure {
     pub(super) fn levels(self) -> u32 {
         match self {
             Structure::Octree => 3,
-            Structure::Bintree | Structure::Grid => 1,
+            Structure::Bintree | Structure::Grid | Structure::Bvh => 1,
         }
     }
 
@@ -43,6 +45,7 @@ impl Structure {
         match self {
             Structure::Bintree | Structure::Octree => "lower D_MAX, raise N_OILF",
             Structure::Grid => "lower the density of voxels",
+            Structure::Bvh => "choose a method with fewer references",
         }
     }
 }

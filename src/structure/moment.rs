@@ -36,10 +36,12 @@ impl Tree {
             loop {
                 let cell = stack.pop()?;
                 let decided = self.is_decided(cell.node, cell.depth, moment);
-                match self.children(&cell) {
-                    Some([below, above]) if decided => stack.extend([above, below]),
-                    _ => return Some((cell, decided)),
+                if !decided || matches!(self.kind(cell.node), NodeKind::Leaf { .. }) {
+                    return Some((cell, decided));
                 }
+                let from = stack.len();
+                stack.extend(self.children(&cell));
+                stack[from..].reverse();
             }
         })
     }
@@ -80,9 +82,7 @@ mod tests {
             assert_eq!(open(next)[0], next);
             let mut expected = open(next);
             expected.remove(0);
-            if let NodeKind::Inner { below, above, .. } = tree.kind(next) {
-                expected.splice(0..0, [below, above]);
-            }
+            expected.splice(0..0, tree.child_nodes(next));
             assert_eq!(open(next + 1), expected);
         }
         assert!(open(nodes).is_empty());

@@ -2,7 +2,7 @@
 
 use crate::geometry::Axis;
 
-/// A node in 8 bytes. Read it through [`Node::kind`].
+/// A node in 8 bytes that divides its cell by a plane. Read it through [`Node::kind`].
 ///
 /// | | inner node | leaf |
 /// |---|---|---|
@@ -16,18 +16,11 @@ pub struct Node {
     payload: u32,
 }
 
-/// An unpacked node.
+/// What a node is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NodeKind {
-    Inner {
-        axis: Axis,
-        /// In local coordinates, −1 to 1.
-        plane: f32,
-        /// Index of the child below the plane.
-        below: u32,
-        /// Index of the child above the plane.
-        above: u32,
-    },
+    /// It has children ([`super::Tree::child_nodes`]).
+    Inner,
     Leaf {
         /// Index of the first reference.
         first: u32,
@@ -59,10 +52,14 @@ pub enum StopReason {
     NotSplit,
     /// It is a voxel of a grid and contains an object.
     Voxel,
+    /// The centers of its objects coincide.
+    CentersCoincide,
+    /// Its nodes were replaced by a leaf, which is cheaper.
+    Collapsed,
 }
 
 impl StopReason {
-    pub const ALL: [StopReason; 9] = [
+    pub const ALL: [StopReason; 11] = [
         StopReason::Empty,
         StopReason::CutOut,
         StopReason::FewObjects,
@@ -72,6 +69,8 @@ impl StopReason {
         StopReason::TooThin,
         StopReason::NotSplit,
         StopReason::Voxel,
+        StopReason::CentersCoincide,
+        StopReason::Collapsed,
     ];
 
     /// Returns a short phrase for users.
@@ -86,6 +85,8 @@ impl StopReason {
             StopReason::TooThin => "too thin to split",
             StopReason::NotSplit => "the method does not split",
             StopReason::Voxel => "a voxel of the grid",
+            StopReason::CentersCoincide => "the centers of its objects coincide",
+            StopReason::Collapsed => "a leaf is cheaper than its nodes (SAH)",
         }
     }
 }
@@ -152,8 +153,8 @@ impl Node {
         (self.payload as usize, (self.word >> 6) as usize)
     }
 
-    /// Unpacks the node; `index` is its own index.
-    pub fn kind(self, index: u32) -> NodeKind {
+    /// Unpacks the node.
+    pub fn kind(self) -> NodeKind {
         if self.is_leaf() {
             NodeKind::Leaf {
                 first: self.payload,
@@ -161,13 +162,7 @@ impl Node {
                 stop: StopReason::ALL[(self.word >> 2 & 15) as usize],
             }
         } else {
-            let (axis, plane, above) = self.as_inner();
-            NodeKind::Inner {
-                axis: Axis::from_index(axis),
-                plane,
-                below: index + 1,
-                above,
-            }
+            NodeKind::Inner
         }
     }
 }
@@ -181,13 +176,8 @@ mod tests {
         assert_eq!(size_of::<Node>(), 8);
         for axis in Axis::ALL {
             let node = Node::inner(axis, -0.3, (1 << 30) - 1);
-            let expected = NodeKind::Inner {
-                axis,
-                plane: -0.3,
-                below: 8,
-                above: (1 << 30) - 1,
-            };
-            assert_eq!(node.kind(7), expected);
+            assert_eq!(node.kind(), NodeKind::Inner);
+            assert_eq!(node.as_inner(), (axis.index(), -0.3, (1 << 30) - 1));
         }
         for stop in StopReason::ALL {
             let node = Node::leaf(u32::MAX, (1 << 26) - 1, stop);
@@ -196,7 +186,7 @@ mod tests {
                 count: (1 << 26) - 1,
                 stop,
             };
-            assert_eq!(node.kind(0), expected);
+            assert_eq!(node.kind(), expected);
         }
     }
 }

@@ -1,13 +1,14 @@
 //! Build methods by name, from the registry.
 
+use super::bvh::BVH_BUILDERS;
 use super::settings::{BuildSettings, Method, SettingsError};
 use super::split::SPLIT_RULES;
 use serde::{Deserialize, Deserializer};
 
 impl Method {
-    /// Returns all methods in the order of the registry.
+    /// Returns all methods in the order of their registries.
     pub fn all() -> impl Iterator<Item = Method> {
-        SPLIT_RULES.iter().map(Method::new)
+        SPLIT_RULES.iter().chain(BVH_BUILDERS).map(Method::new)
     }
 
     /// Returns the method with this name.

@@ -1,5 +1,6 @@
 //! Build settings: method, limits, overlap rule and constants.
 
+use super::bvh::builder::BvhBuilder;
 use super::method::{Constant, Structure};
 use super::split::rule::SplitRule;
 use crate::geometry::Axis;
@@ -7,7 +8,8 @@ use crate::scene::Scene;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 
-/// A build method: one of [`SPLIT_RULES`](super::split::SPLIT_RULES).
+/// A build method: one of [`SPLIT_RULES`](super::split::SPLIT_RULES) or
+/// [`BVH_BUILDERS`](super::bvh::BVH_BUILDERS).
 #[derive(Clone, Copy)]
 pub struct Method(&'static MethodInfo);
 
@@ -68,8 +70,16 @@ pub struct MethodInfo {
     pub structure: Structure,
     /// The settings of this method.
     pub constants: &'static [Constant],
-    /// Creates the rule for valid settings.
-    pub rule: fn(&BuildSettings) -> Box<dyn SplitRule>,
+    pub builder: Builder,
+}
+
+/// How a method builds its structure, for valid settings.
+#[derive(Clone, Copy)]
+pub enum Builder {
+    /// A rule splits cells by planes.
+    Cells(fn(&BuildSettings) -> Box<dyn SplitRule>),
+    /// A builder makes a bounding volume hierarchy.
+    Boxes(fn(&BuildSettings) -> Box<dyn BvhBuilder>),
 }
 
 impl MethodInfo {

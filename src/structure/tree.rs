@@ -1,11 +1,13 @@
 //! The finished tree: nodes, references, cells.
 
+use super::box_node::BoxNode;
 use super::frame::Frame;
-use super::node::{Node, NodeKind, StopReason};
+use super::node::{NodeKind, StopReason};
+use super::nodes::Nodes;
 use super::settings::BuildSettings;
 use super::simd_tree::SimdTree;
 use super::voxels::Voxels;
-use crate::geometry::{Aabb, Axis};
+use crate::geometry::{Aabb, Axis, Vec3};
 use std::sync::OnceLock;
 
 /// A finished, immutable tree. Node 0 is the root, at depth 0.
@@ -14,7 +16,7 @@ use std::sync::OnceLock;
 /// the subtree of a node is one contiguous range of the array.
 #[derive(Debug)]
 pub struct Tree {
-    pub(super) nodes: Vec<Node>,
+    pub(super) nodes: Nodes,
     pub(super) references: Vec<u32>,
     pub(super) voxels: Option<Voxels>,
     pub(super) frame: Frame,
@@ -36,14 +38,19 @@ pub struct CellOfNode {
 }
 
 impl Tree {
-    /// Returns all nodes, 8 bytes each; there is at least one.
-    pub fn nodes(&self) -> &[Node] {
+    /// Returns all nodes.
+    pub fn nodes(&self) -> &Nodes {
         &self.nodes
     }
 
-    /// Unpacks a node.
+    /// Returns what a node is.
     pub fn kind(&self, node: u32) -> NodeKind {
-        self.nodes[node as usize].kind(node)
+        self.nodes.kind(node)
+    }
+
+    /// Returns the children of an inner node in array order, the child below a plane first; none for a leaf.
+    pub fn child_nodes(&self, node: u32) -> impl Iterator<Item = u32> + '_ {
+        self.nodes.children(node)
     }
 
     /// Returns the objects that a leaf refers to, in ascending order; empty for inner nodes.
@@ -52,7 +59,7 @@ impl Tree {
             NodeKind::Leaf { first, count, .. } => {
                 &self.references[first as usize..(first + count) as usize]
             }
-            NodeKind::Inner { .. } => &[],
+            NodeKind::Inner => &[],
         }
     }
 
@@ -99,17 +106,20 @@ impl Tree {
 
     /// Returns the bytes of nodes, references and voxels.
     pub fn bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice())
+        self.nodes.bytes()
             + size_of_val(self.references.as_slice())
             + self.voxels.as_ref().map_or(0, Voxels::bytes)
     }
 
-    /// Returns the root with its cell.
+    /// Returns the root with its cell. The cell of a node with a box is the box.
     pub fn root(&self) -> CellOfNode {
         CellOfNode {
             node: 0,
             depth: 0,
-            bounds: self.root_cell(),
+            bounds: match &self.nodes {
+                Nodes::Planes(_) => self.root_cell(),
+                Nodes::Boxes(nodes) => self.box_of(&nodes[0]),
+            },
         }
     }
 
@@ -118,10 +128,9 @@ impl Tree {
         let mut stack = vec![self.root()];
         std::iter::from_fn(move || {
             let cell = stack.pop()?;
-            if let Some([below, above]) = self.children(&cell) {
-                stack.push(above);
-                stack.push(below);
-            }
+            let from = stack.len();
+            stack.extend(self.children(&cell));
+            stack[from..].reverse();
             Some(cell)
         })
     }
@@ -133,59 +142,63 @@ impl Tree {
     pub fn cell_of(&self, node: u32) -> CellOfNode {
         let mut cell = self.root();
         while cell.node != node {
-            let [below, above] = self.children(&cell).expect("the node is in the tree");
             // Subtrees are contiguous ranges of the array.
-            cell = if node < above.node { below } else { above };
+            let children = self.children(&cell).take_while(|child| child.node <= node);
+            cell = children.last().expect("the node is in the tree");
         }
         cell
     }
 
-    /// Returns the cells of the two children of an inner node, below and above its plane; `None`
-    /// for a leaf.
-    pub fn children(&self, cell: &CellOfNode) -> Option<[CellOfNode; 2]> {
-        let NodeKind::Inner {
-            axis,
-            plane,
-            below,
-            above,
-        } = self.kind(cell.node)
-        else {
-            return None;
-        };
-        let (lower, upper) = cell
-            .bounds
-            .split(axis, self.frame.to_world(axis, f64::from(plane)));
-        Some(
-            [(below, lower), (above, upper)].map(|(node, bounds)| CellOfNode {
+    /// Returns the cells of the children of an inner node in array order, that below a plane first; none for a
+    /// leaf.
+    pub fn children(&self, cell: &CellOfNode) -> impl Iterator<Item = CellOfNode> + '_ {
+        let halves = self
+            .plane(cell.node)
+            .map(|(axis, plane)| cell.bounds.split(axis, plane));
+        let depth = cell.depth;
+        self.child_nodes(cell.node)
+            .enumerate()
+            .map(move |(i, node)| CellOfNode {
                 node,
-                depth: cell.depth + u32::from(!self.is_second_plane(node)),
-                bounds,
-            }),
-        )
+                depth: depth + u32::from(!self.is_second_plane(node)),
+                bounds: match (&self.nodes, halves) {
+                    (Nodes::Boxes(nodes), _) => self.box_of(&nodes[node as usize]),
+                    (_, Some((lower, upper))) => [lower, upper][i],
+                    (_, None) => unreachable!("an inner node without a box has a plane"),
+                },
+            })
+    }
+
+    /// Returns the box of a node in world coordinates.
+    fn box_of(&self, node: &BoxNode) -> Aabb {
+        let corner = |local: [f32; 3]| {
+            let at = |k: usize| {
+                self.frame
+                    .to_world(Axis::from_index(k), f64::from(local[k]))
+            };
+            Vec3::new(at(0), at(1), at(2))
+        };
+        Aabb::new(corner(node.lo), corner(node.hi))
     }
 
     /// Returns whether a node is the second plane of a cut, below which is the slab that was cut
     /// out. It does not count as a level of its own.
     fn is_second_plane(&self, node: u32) -> bool {
-        let cut_out = |below| {
-            matches!(
-                self.kind(below),
-                NodeKind::Leaf {
-                    stop: StopReason::CutOut,
-                    ..
-                }
-            )
+        let Nodes::Planes(nodes) = &self.nodes else {
+            return false;
         };
-        matches!(self.kind(node), NodeKind::Inner { below, .. } if cut_out(below))
+        let below = nodes.get(node as usize + 1).map(|below| below.kind());
+        let cut_out = StopReason::CutOut;
+        !nodes[node as usize].is_leaf()
+            && matches!(below, Some(NodeKind::Leaf { stop, .. }) if stop == cut_out)
     }
 
-    /// Returns the axis and the world coordinate of the plane of an inner node; `None` for a leaf.
+    /// Returns the axis and the world coordinate of the plane of an inner node; `None` for a leaf and for a
+    /// node with a box.
     pub fn plane(&self, node: u32) -> Option<(Axis, f64)> {
-        match self.kind(node) {
-            NodeKind::Inner { axis, plane, .. } => {
-                Some((axis, self.frame.to_world(axis, f64::from(plane))))
-            }
-            NodeKind::Leaf { .. } => None,
-        }
+        let node = self.nodes.planes().get(node as usize)?;
+        let (axis, plane, _) = (!node.is_leaf()).then(|| node.as_inner())?;
+        let axis = Axis::from_index(axis);
+        Some((axis, self.frame.to_world(axis, f64::from(plane))))
     }
 }

@@ -1,6 +1,7 @@
 //! Validation of a finished tree, independent of the build driver.
 
 use super::node::NodeKind;
+use super::nodes::Nodes;
 use super::tree::Tree;
 use crate::geometry::Aabb;
 use crate::primitive::Shape;
@@ -27,14 +28,85 @@ pub enum Invalid {
     Count { leaves: usize, inner: usize },
     #[error("object {object} overlaps leaf {node}, which does not refer to it")]
     Missing { node: u32, object: u32 },
+    #[error("the box of node {0} extends beyond that of its parent")]
+    Outside(u32),
+    #[error("the boxes of the leaves that refer to object {0} do not cover it")]
+    Uncovered(u32),
 }
 
-/// Checks structure, depth, volumes and counts. For every leaf and a sample of the objects, also
-/// checks that the leaf refers to every object that overlaps the interior of its cell.
+/// Checks structure, depth, volumes and counts. For every leaf of cells and a sample of the objects, also
+/// checks that the leaf refers to every object that overlaps the interior of its cell. Of a bounding volume
+/// hierarchy, checks that boxes contain those below them, and that the boxes of leaves cover every object.
 ///
 /// # Errors
 /// The first violation found.
 pub fn validate(scene: &Scene, tree: &Tree) -> Result<(), Invalid> {
+    match tree.nodes() {
+        Nodes::Planes(_) => validate_cells(scene, tree),
+        Nodes::Boxes(_) => validate_boxes(scene, tree),
+    }
+}
+
+/// Checks that a leaf has references to objects that exist, in ascending order.
+fn check_leaf(scene: &Scene, tree: &Tree, node: u32) -> Result<(), Invalid> {
+    if let NodeKind::Leaf { first, count, .. } = tree.kind(node)
+        && (first as usize + count as usize) > tree.references().len()
+    {
+        return Err(Invalid::Reference(node));
+    }
+    let objects = tree.leaf_objects(node);
+    let ascending = objects.windows(2).all(|pair| pair[0] < pair[1]);
+    let exist = objects
+        .iter()
+        .all(|&object| (object as usize) < scene.objects().len());
+    if ascending && exist {
+        Ok(())
+    } else {
+        Err(Invalid::Reference(node))
+    }
+}
+
+fn validate_boxes(scene: &Scene, tree: &Tree) -> Result<(), Invalid> {
+    let nodes = tree.nodes().len();
+    let mut covered = vec![Aabb::EMPTY; scene.objects().len()];
+    let contains = |outer: &Aabb, inner: &Aabb| {
+        outer.lo.cmple(inner.lo).all() && inner.hi.cmple(outer.hi).all()
+    };
+    let mut reached = 0;
+    for cell in tree.cells() {
+        reached += 1;
+        let node = cell.node;
+        if cell.depth > tree.depth_reached() {
+            let depth = cell.depth;
+            return Err(Invalid::Depth { node, depth });
+        }
+        let mut before = node;
+        for child in tree.children(&cell) {
+            if child.node <= before || child.node as usize >= nodes {
+                return Err(Invalid::Child(node));
+            }
+            before = child.node;
+            if !contains(&cell.bounds, &child.bounds) {
+                return Err(Invalid::Outside(child.node));
+            }
+        }
+        check_leaf(scene, tree, node)?;
+        for &object in tree.leaf_objects(node) {
+            let covered = &mut covered[object as usize];
+            *covered = covered.union(&cell.bounds);
+        }
+    }
+    if reached != nodes {
+        return Err(Invalid::Reach { reached, nodes });
+    }
+    let mut objects = scene.objects().iter().zip(&covered).zip(0..);
+    match objects.find(|((object, covered), _)| !contains(covered, &object.bounds())) {
+        Some((_, object)) => Err(Invalid::Uncovered(object)),
+        None => Ok(()),
+    }
+}
+
+fn validate_cells(scene: &Scene, tree: &Tree) -> Result<(), Invalid> {
     let nodes = tree.nodes().len();
     let (mut reached, mut leaves, mut inner, mut volume) = (0, 0, 0, 0.0);
     // Overlap tests are conservative within rounding. An object that overlaps a cell only by a
@@ -47,20 +119,24 @@ pub fn validate(scene: &Scene, tree: &Tree) -> Result<(), Invalid> {
         reached += 1;
         let node = cell.node;
         match tree.kind(node) {
-            NodeKind::Inner {
-                axis, below, above, ..
-            } => {
+            NodeKind::Inner => {
                 inner += 1;
-                if below <= node || above <= below || above as usize >= nodes {
-                    return Err(Invalid::Child(node));
+                let mut before = node;
+                for child in tree.child_nodes(node) {
+                    if child <= before || child as usize >= nodes {
+                        return Err(Invalid::Child(node));
+                    }
+                    before = child;
                 }
-                let k = axis.index();
-                let plane = tree.plane(node).map(|(_, plane)| plane);
-                if !plane.is_some_and(|p| cell.bounds.lo[k] < p && p < cell.bounds.hi[k]) {
+                let is_divided = tree.plane(node).is_some_and(|(axis, plane)| {
+                    let k = axis.index();
+                    cell.bounds.lo[k] < plane && plane < cell.bounds.hi[k]
+                });
+                if !is_divided {
                     return Err(Invalid::Plane(node));
                 }
             }
-            NodeKind::Leaf { first, count, .. } => {
+            NodeKind::Leaf { .. } => {
                 leaves += 1;
                 volume += cell.bounds.volume();
                 if cell.depth > tree.depth_limit() && tree.voxels().is_none() {
@@ -69,17 +145,8 @@ pub fn validate(scene: &Scene, tree: &Tree) -> Result<(), Invalid> {
                         depth: cell.depth,
                     });
                 }
-                if (first as usize + count as usize) > tree.references().len() {
-                    return Err(Invalid::Reference(node));
-                }
+                check_leaf(scene, tree, node)?;
                 let objects = tree.leaf_objects(node);
-                let ascending = objects.windows(2).all(|pair| pair[0] < pair[1]);
-                let exist = objects
-                    .iter()
-                    .all(|&object| (object as usize) < scene.objects().len());
-                if !ascending || !exist {
-                    return Err(Invalid::Reference(node));
-                }
                 let margin = cell.bounds.size() * 1e-6 + uncertain;
                 let inside = Aabb::new(cell.bounds.lo + margin, cell.bounds.hi - margin);
                 if inside.is_empty() {

@@ -1,6 +1,6 @@
 //! The voxels of a uniform grid by position, so that rays can step from one to the next.
 
-use super::node::{Node, NodeKind};
+use super::node::Node;
 
 /// All voxels of a grid with their leaves, and the planes between them.
 #[derive(Debug)]
@@ -42,21 +42,16 @@ impl Voxels {
         };
         let mut stack = vec![(0_u32, counts.map(|count| [0, count]))];
         while let Some((node, ranges)) = stack.pop() {
-            match nodes[node as usize].kind(node) {
-                NodeKind::Inner {
-                    axis,
-                    plane,
-                    below,
-                    above,
-                } => {
-                    let k = axis.index();
-                    let (mut lower, mut upper) = (ranges, ranges);
-                    let at = 1 + voxels.planes[k].partition_point(|&p| p < plane);
-                    (lower[k][1], upper[k][0]) = (at, at);
-                    stack.extend([(below, lower), (above, upper)]);
-                }
-                NodeKind::Leaf { .. } => voxels.fill(ranges, nodes[node as usize], node),
+            let at = nodes[node as usize];
+            if at.is_leaf() {
+                voxels.fill(ranges, at, node);
+                continue;
             }
+            let (k, plane, above) = at.as_inner();
+            let (mut lower, mut upper) = (ranges, ranges);
+            let middle = 1 + voxels.planes[k].partition_point(|&p| p < plane);
+            (lower[k][1], upper[k][0]) = (middle, middle);
+            stack.extend([(node + 1, lower), (above, upper)]);
         }
         voxels
     }

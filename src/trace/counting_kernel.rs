@@ -4,7 +4,8 @@ use super::query::{AnyHit, ClosestHit, Query, run};
 use super::scalar_kernel::RAYS_PER_CANCEL_CHECK;
 use super::space::{Space, SpaceRay, World, with_shapes};
 use super::{
-    Batch, Hit, LeafVisitor, PixelTallies, Probe, RayCounts, RayMaxima, RayTracer, Scratch, Tally,
+    Batch, BoxTest, Children, Hit, LeafVisitor, PixelTallies, Probe, RayCounts, RayMaxima,
+    RayTracer, Scratch, Tally,
 };
 use crate::geometry::Ray;
 use crate::primitive::Shapes;
@@ -13,19 +14,56 @@ use crate::structure::Tree;
 use cpu_time::ThreadTime;
 use std::time::Duration;
 
-/// Ends the traversal of a ray after a known number of leaves, without tests.
-struct Replay {
-    leaves: u32,
+/// Counts, and keeps the limits after all leaves.
+struct Counter<'a> {
+    counts: RayCounts,
+    limits: &'a mut Vec<f64>,
 }
 
-impl LeafVisitor for Replay {
+impl Probe for Counter<'_> {
+    #[inline(always)]
+    fn inner(&mut self, node: u32, within: [f64; 2], t: f64, t_far: f64, children: Children) {
+        self.counts.inner(node, within, t, t_far, children);
+    }
+
+    #[inline(always)]
+    fn boxes(&mut self, node: u32, within: [f64; 2], tests: &[BoxTest]) {
+        self.counts.boxes(node, within, tests);
+    }
+
+    #[inline(always)]
+    fn culled(&mut self, node: u32, t_enter: f64, limit: f64) {
+        self.counts.culled(node, t_enter, limit);
+    }
+
+    #[inline(always)]
+    fn limit(&mut self, limit: f64) {
+        self.limits.push(limit);
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, node: u32, objects: &[u32], within: [f64; 2]) {
+        self.counts.leaf(node, objects, within);
+    }
+
+    #[inline(always)]
+    fn test(&mut self, object: u32, hit: impl FnOnce() -> Option<f64>) {
+        self.counts.test(object, hit);
+    }
+}
+
+/// Repeats the traversal of a ray without tests. After each leaf, the limit is what it was; the last one ends
+/// the traversal.
+struct Replay<'a> {
+    limits: std::slice::Iter<'a, f64>,
+}
+
+impl LeafVisitor for Replay<'_> {
     #[inline(always)]
     fn visit<P: Probe>(&mut self, _: &[u32], _: &mut P) -> f64 {
-        self.leaves -= 1;
-        if self.leaves == 0 {
-            f64::NEG_INFINITY
-        } else {
-            f64::INFINITY
+        match self.limits.next() {
+            Some(&limit) if !self.limits.as_slice().is_empty() => limit,
+            _ => f64::NEG_INFINITY,
         }
     }
 }
@@ -38,6 +76,8 @@ pub struct CountingKernel<'a> {
     progress: &'a Progress,
     scratch: Scratch,
     counts: Vec<RayCounts>,
+    /// The limit after each leaf of each ray.
+    limits: Vec<f64>,
     /// Counts by [`RayKind`](super::RayKind).
     pub tallies: [Tally; 4],
     /// Maxima over single rays by [`RayKind`](super::RayKind).
@@ -57,6 +97,7 @@ impl<'a> CountingKernel<'a> {
             progress,
             scratch: Scratch::default(),
             counts: Vec::new(),
+            limits: Vec::new(),
             tallies: Default::default(),
             maxima: Default::default(),
             traversal: Duration::ZERO,
@@ -67,17 +108,21 @@ impl<'a> CountingKernel<'a> {
     fn run_all<Q: Query>(&mut self, batch: Batch<'_>, answers: &mut Vec<Q::Answer>) {
         answers.clear();
         self.counts.clear();
+        self.limits.clear();
         with_shapes!(self.shapes, space, objects => {
             for rays in batch.rays.chunks(RAYS_PER_CANCEL_CHECK) {
                 if self.progress.is_cancelled() {
                     break;
                 }
                 for ray in rays {
-                    let mut counts = RayCounts::default();
+                    let mut counter = Counter {
+                        counts: RayCounts::default(),
+                        limits: &mut self.limits,
+                    };
                     let scratch = &mut self.scratch;
                     let objects = (space, objects);
-                    answers.push(run::<Q, _, _, _>(self.tree, objects, ray, scratch, &mut counts));
-                    self.counts.push(counts);
+                    answers.push(run::<Q, _, _, _>(self.tree, objects, ray, scratch, &mut counter));
+                    self.counts.push(counter.counts);
                 }
             }
         });
@@ -101,15 +146,17 @@ impl<'a> CountingKernel<'a> {
     }
 
     fn replay_in<S: Space>(&mut self, space: &S, rays: &[Ray]) {
+        let mut limits = self.limits.as_slice();
         let start = ThreadTime::now();
         for (ray, counts) in rays.iter().zip(&self.counts) {
-            // A ray that misses the root cell visits no leaf; neither does its repetition.
-            let leaves = counts.leaves.max(1);
-            let mut replay = Replay { leaves };
+            // A ray that misses the root visits no leaf; neither does its repetition.
+            let (own, rest) = limits.split_at(counts.leaves as usize);
+            limits = rest;
+            let mut replay = Replay { limits: own.iter() };
             if let Some(ray) = space.transform(ray) {
                 ray.traverse(self.tree, &mut self.scratch, &mut replay, &mut ());
             }
-            std::hint::black_box(&replay.leaves);
+            std::hint::black_box(&replay.limits);
         }
         self.traversal += start.elapsed();
     }

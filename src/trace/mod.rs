@@ -26,6 +26,7 @@ mod stack;
 mod timed_kernel;
 mod traversal_ray;
 mod traverse;
+mod traverse_boxes;
 mod traverse_grid;
 mod view;
 mod visits;
@@ -39,11 +40,11 @@ pub use pending::PendingNode;
 pub use picture::{Picture, TILE, Tile, srgb8, tiles};
 pub use precision::{ChosenPrecision, NotInF32, fits_f32, objects_fit_f32};
 pub use precision_choice::PrecisionChoice;
-pub use probe::{Children, PixelTallies, Probe, RayCounts, RayMaxima, Tally};
+pub use probe::{BoxTest, Children, Fate, PixelTallies, Probe, RayCounts, RayMaxima, Tally};
 pub use query::{any_hit, closest_hit, closest_hit_brute_force};
 pub use record::{
-    InnerStep, LeafOutcome, LeafStep, PixelRecord, RayPath, RecordedRay, Step, TestStep,
-    record_pixel, record_pixel_within, record_ray,
+    BoxesStep, CulledStep, InnerStep, LeafOutcome, LeafStep, PixelRecord, RayPath, RecordedRay,
+    Step, TestStep, record_pixel, record_pixel_within, record_ray,
 };
 pub use render::{
     CountedRender, CountedTile, TimedRender, pixel_times, preview, render_counted, render_timed,

@@ -2,7 +2,7 @@
 
 use super::{Children, RayPath, Step};
 
-/// A far child that is pending on the stack.
+/// A node that is pending on the stack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PendingNode {
     /// Index of the node.
@@ -18,17 +18,30 @@ impl RayPath {
     pub fn pending(&self, step: usize) -> Vec<PendingNode> {
         let mut stack = Vec::new();
         for (i, taken) in self.steps.iter().enumerate().take(step + 1) {
+            // Whether traversal resumes with the last pending node.
+            let mut resumes = true;
             match taken {
-                Step::Inner(inner) if inner.children == Children::Both => stack.push(PendingNode {
-                    node: inner.far,
-                    t_enter: inner.t_far,
-                    t_exit: inner.t_exit,
-                }),
-                // After a leaf, traversal resumes with the last pending node.
-                Step::Leaf(_) if i < step => {
-                    stack.pop();
+                Step::Inner(inner) => {
+                    resumes = false;
+                    if inner.children == Children::Both {
+                        stack.push(PendingNode {
+                            node: inner.far,
+                            t_enter: inner.t_far,
+                            t_exit: inner.t_exit,
+                        });
+                    }
                 }
-                _ => {}
+                Step::Boxes(boxes) => {
+                    stack.extend(boxes.entered().into_iter().rev().map(|test| PendingNode {
+                        node: test.node,
+                        t_enter: test.within[0],
+                        t_exit: test.within[1],
+                    }));
+                }
+                Step::Leaf(_) | Step::Culled(_) => {}
+            }
+            if resumes && i < step {
+                stack.pop();
             }
         }
         stack

@@ -16,12 +16,62 @@ pub enum Children {
     Both,
 }
 
+/// What became of a child whose box was tested.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fate {
+    /// The ray misses its box.
+    Missed,
+    /// Its box begins beyond the closest hit so far.
+    BeyondHit,
+    /// It is visited, or becomes pending.
+    Entered,
+}
+
+impl Fate {
+    /// Returns a word or two.
+    pub const fn text(self) -> &'static str {
+        match self {
+            Fate::Missed => "missed",
+            Fate::BeyondHit => "beyond the hit",
+            Fate::Entered => "entered",
+        }
+    }
+}
+
+/// The test of one child's box.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BoxTest {
+    /// Index of the child.
+    pub node: u32,
+    /// The interval of the ray within the box; NaN if it misses the box.
+    pub within: [f64; 2],
+    pub fate: Fate,
+}
+
+impl BoxTest {
+    /// A test that did not take place.
+    pub(super) const NONE: BoxTest = BoxTest {
+        node: 0,
+        within: [f64::NAN; 2],
+        fate: Fate::Missed,
+    };
+}
+
 /// Observes every step of a traversal.
 pub trait Probe {
     /// Called when an inner node is traversed. `within` is the ray's interval within its cell, `t` where the
     /// ray crosses the plane (infinite or NaN if parallel), and `t_far` where the far child begins if both
     /// children are visited.
     fn inner(&mut self, node: u32, within: [f64; 2], t: f64, t_far: f64, children: Children);
+    /// Called when an inner node of a hierarchy is visited, after the boxes of all its children were tested.
+    fn boxes(&mut self, node: u32, within: [f64; 2], tests: &[BoxTest]);
+    /// Called when a pending node is skipped because it begins at `t_enter`, beyond `limit`.
+    fn culled(&mut self, node: u32, t_enter: f64, limit: f64);
+    /// Called after the objects of a leaf are tested. Nothing beyond `limit` matters from then on. The distance
+    /// is along the ray in the coordinates in which it is traced.
+    #[inline(always)]
+    fn limit(&mut self, _limit: f64) {}
     /// Called when a leaf is visited. `within` is the ray's interval within its cell.
     fn leaf(&mut self, node: u32, objects: &[u32], within: [f64; 2]);
     /// Called when an object is tested. `hit` returns the distance of a hit before the closest one so far.
@@ -32,6 +82,10 @@ pub trait Probe {
 impl Probe for () {
     #[inline(always)]
     fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Children) {}
+    #[inline(always)]
+    fn boxes(&mut self, _: u32, _: [f64; 2], _: &[BoxTest]) {}
+    #[inline(always)]
+    fn culled(&mut self, _: u32, _: f64, _: f64) {}
     #[inline(always)]
     fn leaf(&mut self, _: u32, _: &[u32], _: [f64; 2]) {}
     #[inline(always)]
@@ -49,12 +103,27 @@ pub struct RayCounts {
     pub empty_leaves: u32,
     /// Intersection tests.
     pub tests: u32,
+    /// Tests of children's boxes; 0 for trees with planes.
+    pub box_tests: u32,
+    /// Pending nodes that were skipped because they begin beyond the closest hit.
+    pub culled: u32,
 }
 
 impl Probe for RayCounts {
     #[inline(always)]
     fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Children) {
         self.inner_nodes += 1;
+    }
+
+    #[inline(always)]
+    fn boxes(&mut self, _: u32, _: [f64; 2], tests: &[BoxTest]) {
+        self.inner_nodes += 1;
+        self.box_tests += tests.len() as u32;
+    }
+
+    #[inline(always)]
+    fn culled(&mut self, _: u32, _: f64, _: f64) {
+        self.culled += 1;
     }
 
     #[inline(always)]
@@ -127,6 +196,10 @@ pub struct Tally<N = u64> {
     pub leaves: N,
     /// Empty leaves visited.
     pub empty_leaves: N,
+    /// Tests of children's boxes; 0 for trees with planes.
+    pub box_tests: N,
+    /// Pending nodes that were skipped because they begin beyond the closest hit.
+    pub culled: N,
 }
 
 /// The counts of one pixel, by [`super::RayKind`].
@@ -141,6 +214,8 @@ impl<N: From<u32> + AddAssign> Tally<N> {
         self.inner_nodes += counts.inner_nodes.into();
         self.leaves += counts.leaves.into();
         self.empty_leaves += counts.empty_leaves.into();
+        self.box_tests += counts.box_tests.into();
+        self.culled += counts.culled.into();
     }
 }
 
@@ -152,6 +227,8 @@ impl<N: AddAssign, M: Into<N>> AddAssign<Tally<M>> for Tally<N> {
         self.inner_nodes += other.inner_nodes.into();
         self.leaves += other.leaves.into();
         self.empty_leaves += other.empty_leaves.into();
+        self.box_tests += other.box_tests.into();
+        self.culled += other.culled.into();
     }
 }
 

@@ -3,8 +3,8 @@
 use super::query::{any_hit, closest_hit};
 use super::whitted::spawn;
 use super::{
-    Children, Hit, PixelTallies, Probe, RayCounts, RayKind, RenderError, RenderSettings, Scratch,
-    Shading,
+    BoxTest, Children, Fate, Hit, PixelTallies, Probe, RayCounts, RayKind, RenderError,
+    RenderSettings, Scratch, Shading,
 };
 use crate::geometry::{Aabb, Axis, Ray, Vec3};
 use crate::primitive::Shapes;
@@ -51,6 +51,9 @@ pub enum LeafOutcome {
     NothingYet,
     /// The closest hit so far lies beyond this leaf: the next leaf may hold a closer one.
     HitBeyond,
+    /// The closest hit so far lies in this leaf or before it, but a pending node begins before the hit, as
+    /// boxes overlap.
+    OverlapAhead,
     /// The closest hit lies before the next leaf: ends.
     HitNearer,
     /// Something blocks the light: ends.
@@ -65,6 +68,7 @@ impl LeafOutcome {
         match self {
             LeafOutcome::NothingYet => "no hit yet: on to the next leaf",
             LeafOutcome::HitBeyond => "the hit lies beyond this leaf: on to the next",
+            LeafOutcome::OverlapAhead => "a pending node begins before the hit: on to it",
             LeafOutcome::HitNearer => "the hit lies before any other leaf: done",
             LeafOutcome::Blocked => "the light is blocked: done",
             LeafOutcome::NoLeafLeft => "no leaf is left on the ray: done",
@@ -92,11 +96,48 @@ pub struct LeafStep {
     pub outcome: LeafOutcome,
 }
 
+/// An inner node of a hierarchy whose children's boxes were tested.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BoxesStep {
+    /// Index of the node.
+    pub node: u32,
+    pub depth: u32,
+    /// The interval of the ray within the node's box, widened for rounding.
+    pub t_enter: f64,
+    pub t_exit: f64,
+    /// In the order of the children.
+    pub tests: Vec<BoxTest>,
+}
+
+impl BoxesStep {
+    /// Returns the children that are visited or become pending, in the order of visits.
+    pub fn entered(&self) -> Vec<&BoxTest> {
+        let entered = self.tests.iter().filter(|test| test.fate == Fate::Entered);
+        let mut entered: Vec<_> = entered.collect();
+        entered.sort_by(|a, b| a.within[0].total_cmp(&b.within[0]));
+        entered
+    }
+}
+
+/// A pending node that was skipped.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CulledStep {
+    /// Index of the node.
+    pub node: u32,
+    pub depth: u32,
+    /// Where its box begins, widened for rounding.
+    pub t_enter: f64,
+    /// The distance beyond which nothing matters.
+    pub limit: f64,
+}
+
 /// One step of a traversal.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "step", rename_all = "lowercase")]
 pub enum Step {
     Inner(InnerStep),
+    Boxes(BoxesStep),
+    Culled(CulledStep),
     Leaf(LeafStep),
 }
 
@@ -105,7 +146,20 @@ impl Step {
     pub fn node(&self) -> u32 {
         match self {
             Step::Inner(step) => step.node,
+            Step::Boxes(step) => step.node,
+            Step::Culled(step) => step.node,
             Step::Leaf(step) => step.node,
+        }
+    }
+
+    /// Returns the interval of the ray within the node's cell, widened for rounding; of a node that was
+    /// skipped, only where it begins.
+    pub fn interval(&self) -> [f64; 2] {
+        match self {
+            Step::Inner(step) => [step.t_enter, step.t_exit],
+            Step::Boxes(step) => [step.t_enter, step.t_exit],
+            Step::Culled(step) => [step.t_enter, step.t_enter],
+            Step::Leaf(step) => [step.t_enter, step.t_exit],
         }
     }
 }
@@ -126,7 +180,7 @@ impl RayPath {
     pub fn leaves(&self) -> impl Iterator<Item = &LeafStep> {
         self.steps.iter().filter_map(|step| match step {
             Step::Leaf(leaf) => Some(leaf),
-            Step::Inner(_) => None,
+            _ => None,
         })
     }
 
@@ -136,6 +190,11 @@ impl RayPath {
         for step in &self.steps {
             match step {
                 Step::Inner(_) => counts.inner_nodes += 1,
+                Step::Boxes(step) => {
+                    counts.inner_nodes += 1;
+                    counts.box_tests += step.tests.len() as u32;
+                }
+                Step::Culled(_) => counts.culled += 1,
                 Step::Leaf(leaf) => {
                     counts.leaves += 1;
                     counts.empty_leaves += u32::from(leaf.objects == 0);
@@ -319,7 +378,7 @@ impl Recorder<'_> {
     fn last_hit(&self) -> Hit {
         let last = self.steps.iter().rev().find_map(|step| match step {
             Step::Leaf(leaf) => leaf.tests.last().copied(),
-            Step::Inner(_) => None,
+            _ => None,
         });
         match last {
             Some(TestStep {
@@ -340,17 +399,15 @@ impl Probe for Recorder<'_> {
         t_far: f64,
         children: Children,
     ) {
-        let cell = self.tree.cell_of(node);
-        let NodeKind::Inner {
-            axis, below, above, ..
-        } = self.tree.kind(node)
+        let mut two = self.tree.child_nodes(node);
+        let (Some((axis, plane)), Some(below), Some(above)) =
+            (self.tree.plane(node), two.next(), two.next())
         else {
             return;
         };
-        let plane = self.tree.plane(node).map_or(f64::NAN, |(_, plane)| plane);
         self.steps.push(Step::Inner(InnerStep {
             node,
-            depth: cell.depth,
+            depth: self.tree.cell_of(node).depth,
             axis,
             plane,
             t_enter,
@@ -361,6 +418,25 @@ impl Probe for Recorder<'_> {
             // Corrected by `complete`, when the next step is known.
             near: below,
             far: above,
+        }));
+    }
+
+    fn boxes(&mut self, node: u32, [t_enter, t_exit]: [f64; 2], tests: &[BoxTest]) {
+        self.steps.push(Step::Boxes(BoxesStep {
+            node,
+            depth: self.tree.cell_of(node).depth,
+            t_enter,
+            t_exit,
+            tests: tests.to_vec(),
+        }));
+    }
+
+    fn culled(&mut self, node: u32, t_enter: f64, limit: f64) {
+        self.steps.push(Step::Culled(CulledStep {
+            node,
+            depth: self.tree.cell_of(node).depth,
+            t_enter,
+            limit,
         }));
     }
 
@@ -395,8 +471,10 @@ fn complete(steps: &mut [Step], kind: RayKind) {
     let mut nearest = f64::INFINITY;
     for i in 0..steps.len() {
         let next = steps.get(i + 1).map(Step::node);
-        let more_leaves = next.is_some();
+        let is_visited = |step: &Step| !matches!(step, Step::Culled(_));
+        let more_leaves = steps[i + 1..].iter().any(is_visited);
         match &mut steps[i] {
+            Step::Boxes(_) | Step::Culled(_) => {}
             Step::Inner(step) => {
                 let entered_above = next == Some(step.far);
                 // `near` is the child below and `far` the one above so far. The next step shows which one
@@ -415,6 +493,7 @@ fn complete(steps: &mut [Step], kind: RayKind) {
                     (false, true) if kind == RayKind::Shadow => LeafOutcome::Blocked,
                     (false, true) => LeafOutcome::HitNearer,
                     (false, false) => LeafOutcome::NoLeafLeft,
+                    (true, true) if nearest <= leaf.t_exit => LeafOutcome::OverlapAhead,
                     (true, true) => LeafOutcome::HitBeyond,
                     (true, false) => LeafOutcome::NothingYet,
                 };

@@ -1,13 +1,15 @@
 //! The coordinates that rays are traced in: those of the world in `f64`, or those of the unit frame in
 //! `f32`.
 
+use super::probe::BoxTest;
 use super::traversal_ray::{TraversalRay, TraversalRayF32, TraversalRayF64};
 use super::traverse::traverse;
+use super::traverse_boxes::traverse_boxes;
 use super::traverse_grid::traverse_grid;
 use super::{Children, LeafVisitor, Probe, Scratch};
 use crate::geometry::Ray;
 use crate::primitive::{PackedRay, UnitFrame};
-use crate::structure::Tree;
+use crate::structure::{MAX_WIDTH, Nodes, Tree};
 
 /// Coordinates that rays are traced in.
 pub(super) trait Space {
@@ -25,7 +27,7 @@ pub(super) trait SpaceRay {
     /// Converts a distance along this ray to one along the ray in the world.
     fn to_world(&self, t: f64) -> f64;
 
-    /// Calls [`traverse`] or [`traverse_grid`] with this ray. Distances of the visitor are along this ray,
+    /// Calls [`traverse`], [`traverse_boxes`] or [`traverse_grid`] with this ray. Distances of the visitor are along this ray,
     /// those of the probe are along the ray in the world.
     fn traverse<V: LeafVisitor, P: Probe>(
         &self,
@@ -46,9 +48,14 @@ fn traverse_structure<R: TraversalRay, V: LeafVisitor, P: Probe>(
     visitor: &mut V,
     probe: &mut P,
 ) {
-    match tree.voxels() {
-        None => traverse(tree, interval, ray, scratch, visitor, probe),
-        Some(voxels) => traverse_grid(tree, voxels, interval, ray, visitor, probe),
+    match (tree.nodes(), tree.voxels()) {
+        (Nodes::Boxes(nodes), _) => {
+            traverse_boxes(tree, nodes, interval, ray, scratch, visitor, probe);
+        }
+        (Nodes::Planes(nodes), None) => {
+            traverse(tree, nodes, interval, ray, scratch, visitor, probe);
+        }
+        (_, Some(voxels)) => traverse_grid(tree, voxels, interval, ray, visitor, probe),
     }
 }
 
@@ -159,6 +166,31 @@ impl<P: Probe> Probe for WorldProbe<'_, P> {
         let [t_enter, t_exit, t, t_far] = [t_enter, t_exit, t, t_far].map(|t| self.ray.to_world(t));
         self.probe
             .inner(node, [t_enter, t_exit], t, t_far, children);
+    }
+
+    #[inline(always)]
+    fn boxes(&mut self, node: u32, within: [f64; 2], tests: &[BoxTest]) {
+        let to_world = |within: [f64; 2]| within.map(|t| self.ray.to_world(t));
+        let mut in_world = [BoxTest::NONE; MAX_WIDTH];
+        for (to, from) in in_world.iter_mut().zip(tests) {
+            *to = BoxTest {
+                within: to_world(from.within),
+                ..*from
+            };
+        }
+        self.probe
+            .boxes(node, to_world(within), &in_world[..tests.len()]);
+    }
+
+    #[inline(always)]
+    fn culled(&mut self, node: u32, t_enter: f64, limit: f64) {
+        let [t_enter, limit] = [t_enter, limit].map(|t| self.ray.to_world(t));
+        self.probe.culled(node, t_enter, limit);
+    }
+
+    #[inline(always)]
+    fn limit(&mut self, limit: f64) {
+        self.probe.limit(limit);
     }
 
     #[inline(always)]

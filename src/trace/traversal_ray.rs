@@ -30,8 +30,23 @@ pub(crate) trait TraversalRay {
     /// where a ray that is parallel to a plane visits both sides of it.
     const PENDING_IN_ORDER: bool;
 
+    /// Returns an interval, widened for rounding.
+    fn widened(interval: [f64; 2]) -> (Self::T, Self::T);
+
+    /// Clips an interval to a box in the coordinates of the root cell; `None` if the ray misses it. A ray
+    /// within rounding of the box does not.
+    fn clip(
+        &self,
+        interval: (Self::T, Self::T),
+        lo: &[f32; 3],
+        hi: &[f32; 3],
+    ) -> Option<(Self::T, Self::T)>;
+
     /// Clips an interval to the root cell; `None` if the ray misses the cell.
-    fn clip_to_root(&self, interval: [f64; 2]) -> Option<(Self::T, Self::T)>;
+    #[inline(always)]
+    fn clip_to_root(&self, interval: [f64; 2]) -> Option<(Self::T, Self::T)> {
+        self.clip(Self::widened(interval), &[-1.0; 3], &[1.0; 3])
+    }
 
     /// Returns where the ray crosses a plane.
     fn crossing(&self, axis: usize, plane: f32) -> PlaneCrossing<Self::T>;
@@ -100,17 +115,26 @@ impl TraversalRay for TraversalRayF64 {
     const PENDING_IN_ORDER: bool = true;
 
     #[inline(always)]
-    fn clip_to_root(&self, [t_min, t_max]: [f64; 2]) -> Option<(f64, f64)> {
+    fn widened([t_min, t_max]: [f64; 2]) -> (f64, f64) {
         // The ends may be those of hits, and known no better.
-        let (mut t_enter, mut t_exit) = (-beyond_hit(-t_min), beyond_hit(t_max));
+        (-beyond_hit(-t_min), beyond_hit(t_max))
+    }
+
+    #[inline(always)]
+    fn clip(
+        &self,
+        (mut t_enter, mut t_exit): (f64, f64),
+        lo: &[f32; 3],
+        hi: &[f32; 3],
+    ) -> Option<(f64, f64)> {
         for k in 0..3 {
-            const SIDE: f64 = 1.0 + ROUNDING;
             let (origin, inverse) = (self.origin[k], self.inverse[k]);
+            let (lo, hi) = (f64::from(lo[k]) - ROUNDING, f64::from(hi[k]) + ROUNDING);
             if inverse.is_finite() {
-                let (a, b) = ((-SIDE - origin) * inverse, (SIDE - origin) * inverse);
+                let (a, b) = ((lo - origin) * inverse, (hi - origin) * inverse);
                 t_enter = t_enter.max(earlier(a.min(b)));
                 t_exit = t_exit.min(later(a.max(b)));
-            } else if origin.abs() > SIDE {
+            } else if origin < lo || origin > hi {
                 return None;
             }
         }
@@ -193,12 +217,22 @@ impl TraversalRay for TraversalRayF32 {
     const PENDING_IN_ORDER: bool = false;
 
     #[inline(always)]
-    fn clip_to_root(&self, [t_min, t_max]: [f64; 2]) -> Option<(f32, f32)> {
-        let (mut t_enter, mut t_exit) = (t_min as f32, t_max as f32);
+    fn widened([t_min, t_max]: [f64; 2]) -> (f32, f32) {
+        (t_min as f32, t_max as f32)
+    }
+
+    #[inline(always)]
+    fn clip(
+        &self,
+        (mut t_enter, mut t_exit): (f32, f32),
+        lo: &[f32; 3],
+        hi: &[f32; 3],
+    ) -> Option<(f32, f32)> {
         for k in 0..3 {
             let (origin, inverse) = (self.origin[k], self.inverse[k]);
-            let side = 1.0 + self.half_thickness[k];
-            let (a, b) = ((-side - origin) * inverse, (side - origin) * inverse);
+            let thickness = self.half_thickness[k];
+            let (lo, hi) = (lo[k] - thickness, hi[k] + thickness);
+            let (a, b) = ((lo - origin) * inverse, (hi - origin) * inverse);
             t_enter = t_enter.max(a.min(b));
             t_exit = t_exit.min(a.max(b));
         }

@@ -1,4 +1,4 @@
-//! The traversal of trees, for all purposes: closest hit, any hit, timing without tests, recording.
+//! The traversal of trees with planes, for all purposes: closest hit, any hit, timing without tests, recording.
 //!
 //! The order of visits is that of K. Sung and P. Shirley (Graphics Gems III, 1992): front to back
 //! with a stack.
@@ -24,7 +24,7 @@
 use super::stack::{Real, Scratch, StackEntry};
 use super::traversal_ray::TraversalRay;
 use super::{Children, Probe};
-use crate::structure::Tree;
+use crate::structure::{Node, Tree};
 
 /// Visits the leaves of a traversal.
 pub trait LeafVisitor {
@@ -32,11 +32,12 @@ pub trait LeafVisitor {
     fn visit<P: Probe>(&mut self, objects: &[u32], probe: &mut P) -> f64;
 }
 
-/// Visits the leaves of a tree along `ray` within `interval`, front to back. A ray that misses the root
+/// Visits the leaves of a tree with these nodes along `ray` within `interval`, front to back. A ray that misses the root
 /// cell visits none.
 #[inline]
 pub(crate) fn traverse<R: TraversalRay, V: LeafVisitor, P: Probe>(
     tree: &Tree,
+    nodes: &[Node],
     interval: [f64; 2],
     ray: &R,
     scratch: &mut Scratch,
@@ -46,7 +47,6 @@ pub(crate) fn traverse<R: TraversalRay, V: LeafVisitor, P: Probe>(
     let Some((mut t_enter, mut t_exit)) = ray.clip_to_root(interval) else {
         return;
     };
-    let nodes = tree.nodes();
     let references = tree.references();
     let stack = R::T::stack(scratch);
     stack.clear();
@@ -89,7 +89,9 @@ pub(crate) fn traverse<R: TraversalRay, V: LeafVisitor, P: Probe>(
         let (first, count) = node.as_leaf();
         let objects = &references[first..first + count];
         probe.leaf(at, objects, [t_enter.to_f64(), t_exit.to_f64()]);
-        let limit = R::T::from_f64(visitor.visit(objects, probe));
+        let limit = visitor.visit(objects, probe);
+        probe.limit(limit);
+        let limit = R::T::from_f64(limit);
         loop {
             match stack.pop() {
                 Some(next) if R::reaches(next.t_enter, limit) => {

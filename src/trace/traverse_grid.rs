@@ -166,7 +166,9 @@ pub(super) fn traverse_grid<R: TraversalRay, V: LeafVisitor, P: Probe>(
                     let (first, count) = voxel.leaf.as_leaf();
                     let objects = &references[first..first + count];
                     probe.leaf(voxel.node, objects, within);
-                    limit = R::T::from_f64(visitor.visit(objects, probe));
+                    let at_most = visitor.visit(objects, probe);
+                    probe.limit(at_most);
+                    limit = R::T::from_f64(at_most);
                 }
             }
         }

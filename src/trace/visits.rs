@@ -3,7 +3,7 @@
 use super::query::{any_hit, closest_hit};
 use super::render::over_tiles;
 use super::{
-    Batch, Children, Hit, Probe, RayTracer, RenderError, RenderSettings, Scratch, Shading,
+    Batch, BoxTest, Children, Hit, Probe, RayTracer, RenderError, RenderSettings, Scratch, Shading,
     trace_samples,
 };
 use crate::geometry::Ray;
@@ -86,6 +86,14 @@ impl Probe for Visitor<'_> {
     fn inner(&mut self, node: u32, _: [f64; 2], _: f64, _: f64, _: Children) {
         self.visit(node);
     }
+
+    #[inline(always)]
+    fn boxes(&mut self, node: u32, _: [f64; 2], _: &[BoxTest]) {
+        self.visit(node);
+    }
+
+    #[inline(always)]
+    fn culled(&mut self, _: u32, _: f64, _: f64) {}
 
     #[inline(always)]
     fn leaf(&mut self, node: u32, _: &[u32], _: [f64; 2]) {

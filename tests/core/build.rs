@@ -21,7 +21,7 @@ fn stops(tree: &Tree) -> Vec<StopReason> {
     tree.cells()
         .filter_map(|cell| match tree.kind(cell.node) {
             NodeKind::Leaf { stop, .. } => Some(stop),
-            NodeKind::Inner { .. } => None,
+            NodeKind::Inner => None,
         })
         .collect()
 }

@@ -48,7 +48,7 @@ fn leaves_pass_their_filter_and_none_is_missing() {
     let cells = all(&tree).cells;
     let leaves = tree.cells().filter_map(|cell| match tree.kind(cell.node) {
         NodeKind::Leaf { count, .. } => Some((cell, count)),
-        NodeKind::Inner { .. } => None,
+        NodeKind::Inner => None,
     });
     let mut expected: Vec<_> = leaves.collect();
     expected.sort_by_key(|(cell, _)| cell.node);

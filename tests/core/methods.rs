@@ -10,7 +10,7 @@ use bspscope::scene::Scene;
 use bspscope::structure::{
     BuildSettings, CellOfNode, Constants, MaxDepth, NodeKind, StopReason, Tree,
 };
-use bspscope::trace::{Children, Probe, RenderSettings, Scratch, closest_hit};
+use bspscope::trace::{BoxTest, Children, Probe, RenderSettings, Scratch, closest_hit};
 
 fn settings(method: &str, constants: &[(&str, f64)]) -> BuildSettings {
     BuildSettings {
@@ -41,7 +41,7 @@ fn planes(tree: &Tree) -> Vec<(CellOfNode, usize, f64)> {
 fn leaves(tree: &Tree) -> impl Iterator<Item = (CellOfNode, StopReason, u32)> + '_ {
     tree.cells().filter_map(|cell| match tree.kind(cell.node) {
         NodeKind::Leaf { stop, count, .. } => Some((cell, stop, count)),
-        NodeKind::Inner { .. } => None,
+        NodeKind::Inner => None,
     })
 }
 
@@ -118,7 +118,7 @@ fn failed_above(tree: &Tree, ratio: f64, traversal: f64, bonus: f64) -> Vec<u32>
         let mut stack = vec![node];
         while let Some(node) = stack.pop() {
             match tree.kind(node) {
-                NodeKind::Inner { below, above, .. } => stack.extend([below, above]),
+                NodeKind::Inner => stack.extend(tree.child_nodes(node)),
                 NodeKind::Leaf { .. } => objects.extend(tree.leaf_objects(node)),
             }
         }
@@ -129,8 +129,9 @@ fn failed_above(tree: &Tree, ratio: f64, traversal: f64, bonus: f64) -> Vec<u32>
     let mut found = Vec::new();
     let mut stack = vec![(tree.root(), 0)];
     while let Some((cell, failed)) = stack.pop() {
-        match tree.children(&cell) {
-            Some(parts) => {
+        match tree.children(&cell).collect::<Vec<_>>()[..] {
+            [below, above] => {
+                let parts = [below, above];
                 let [a, b] = parts.map(|part| held(part.node));
                 let mut cost = traversal
                     + (a * parts[0].bounds.surface_area() + b * parts[1].bounds.surface_area())
@@ -141,7 +142,7 @@ fn failed_above(tree: &Tree, ratio: f64, traversal: f64, bonus: f64) -> Vec<u32>
                 let failed = failed + u32::from(cost >= ratio * held(cell.node));
                 stack.extend(parts.map(|part| (part, failed)));
             }
-            None => {
+            _ => {
                 if let NodeKind::Leaf {
                     stop: StopReason::LeafIsCheaper,
                     ..
@@ -281,6 +282,10 @@ impl Probe for Visited {
     fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Children) {
         panic!("a grid has no inner nodes to traverse");
     }
+    fn boxes(&mut self, _: u32, _: [f64; 2], _: &[BoxTest]) {
+        panic!("a grid has no boxes");
+    }
+    fn culled(&mut self, _: u32, _: f64, _: f64) {}
     fn leaf(&mut self, node: u32, _: &[u32], within: [f64; 2]) {
         self.0.push((node, within));
     }

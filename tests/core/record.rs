@@ -4,7 +4,6 @@
 use crate::support::scenes::{render_sized, scene_file, tree_by};
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
-use bspscope::structure::NodeKind;
 use bspscope::trace::{
     Children, LeafOutcome, PendingNode, PixelTallies, RayKind, RenderSettings, Step, record_pixel,
     record_pixel_within, render_counted, render_timed, thread_pool,
@@ -90,7 +89,8 @@ fn a_walk_is_a_path_through_the_tree() {
                     continue;
                 };
                 ways[inner.children as usize] += 1;
-                let NodeKind::Inner { below, above, .. } = tree.kind(inner.node) else {
+                let children: Vec<u32> = tree.child_nodes(inner.node).collect();
+                let [below, above] = children[..] else {
                     panic!("a leaf was recorded as an inner node");
                 };
                 let along = ray.path.ray.direction[inner.axis.index()];
@@ -113,10 +113,7 @@ fn a_walk_is_a_path_through_the_tree() {
                 if !matches!(steps[i - 1], Step::Leaf(_)) {
                     continue;
                 }
-                let (t_enter, t_exit) = match &steps[i] {
-                    Step::Inner(inner) => (inner.t_enter, inner.t_exit),
-                    Step::Leaf(leaf) => (leaf.t_enter, leaf.t_exit),
-                };
+                let [t_enter, t_exit] = steps[i].interval();
                 let expected = PendingNode {
                     node: steps[i].node(),
                     t_enter,

@@ -35,7 +35,7 @@ fn visits_sum_to_the_counts_of_the_counting_kernel() {
             let [mut inner, mut leaves, mut empty] = [0; 3];
             for (node, &n) in visits.by_node.iter().enumerate() {
                 match tree.kind(node as u32) {
-                    NodeKind::Inner { .. } => inner += n,
+                    NodeKind::Inner => inner += n,
                     NodeKind::Leaf { count, .. } => {
                         leaves += n;
                         empty += if count == 0 { n } else { 0 };

@@ -49,9 +49,13 @@ fn every_step_of_the_build_shows_the_node_that_is_decided() {
     for node in 0..6 {
         let nodes = grouped(tree.nodes().len());
         let says = match tree.kind(node) {
-            NodeKind::Inner { below, above, .. } => {
+            NodeKind::Inner => {
                 let (axis, plane) = tree.plane(node).unwrap();
-                let [below, above] = [below, above].map(|child| index.of(child).objects);
+                let children = tree.child_nodes(node);
+                let held: Vec<u32> = children.map(|child| index.of(child).objects).collect();
+                let [below, above] = held[..] else {
+                    panic!("an inner node of planes has two children");
+                };
                 format!(
                     "node {node} of {nodes} is split at {axis} = {plane:.5}: {below} objects \
                      below, {above} above"
@@ -97,7 +101,7 @@ fn the_outline_has_no_nodes_of_later_steps() {
     for node in 0..6 {
         wait(&mut window, "the node", |w| row(w, node));
         assert!(has(&window, "not decided yet"));
-        if let NodeKind::Inner { below, .. } = tree.kind(node) {
+        if let Some(below) = tree.child_nodes(node).next() {
             assert!(!row(&window, below));
             inner += 1;
         }

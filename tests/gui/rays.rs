@@ -134,7 +134,8 @@ fn a_shadow_ray_shows_its_own_steps() {
     // Its list has its nodes.
     for (i, step) in path.steps.iter().enumerate().take(5) {
         let what = match step {
-            Step::Inner(_) => "inner node",
+            Step::Inner(_) | Step::Boxes(_) => "inner node",
+            Step::Culled(_) => "culled node",
             Step::Leaf(_) => "leaf",
         };
         let text = format!("Step {}: {what} {}, depth", i + 1, grouped(step.node()));

@@ -60,7 +60,8 @@ impl Document {
     pub fn set_leaves_only(&mut self, only: bool) {
         self.walking.leaves_only = only;
         let picked = self.current.as_ref().and_then(|c| c.picked.as_ref());
-        if only && matches!(picked.and_then(Picked::current), Some(Step::Inner(_))) {
+        let current = picked.and_then(Picked::current);
+        if only && current.is_some_and(|step| !matches!(step, Step::Leaf(_))) {
             let to = self.step_to(Go::Next).or(self.step_to(Go::Last));
             if let (Some(step), Some(current)) = (to, &mut self.current) {
                 current.go_to_step(step);

@@ -2,7 +2,10 @@
 
 use crate::primitive::Primitive;
 use crate::scene::Scene;
-use crate::trace::{Children, InnerStep, LeafStep, RayKind, RayPath, Step, TestStep};
+use crate::trace::{
+    BoxTest, BoxesStep, Children, CulledStep, Fate, InnerStep, LeafStep, RayKind, RayPath, Step,
+    TestStep,
+};
 
 use super::symbol::grouped;
 
@@ -96,6 +99,61 @@ pub fn why(step: &InnerStep) -> String {
     }
 }
 
+/// The kind of node that a step visits.
+pub fn kind(step: &Step) -> &'static str {
+    match step {
+        Step::Inner(_) | Step::Boxes(_) => "inner node",
+        Step::Culled(_) => "culled node",
+        Step::Leaf(_) => "leaf",
+    }
+}
+
+/// How many children of a hierarchy's node are visited or become pending.
+pub fn entered(step: &BoxesStep) -> String {
+    let entered = step.entered();
+    let all = count(step.tests.len() as u32, "box test", "box tests");
+    match entered.first() {
+        None => format!("{all}, no child entered"),
+        Some(first) => format!(
+            "{all}, {} entered, node {} first",
+            entered.len(),
+            grouped(first.node as usize)
+        ),
+    }
+}
+
+/// The test of a child's box.
+pub fn box_test(step: &BoxesStep, test: &BoxTest) -> String {
+    let node = grouped(test.node as usize);
+    let [enter, exit] = test.within;
+    match test.fate {
+        Fate::Missed => format!("Node {node}: {}", test.fate.text()),
+        Fate::BeyondHit => format!(
+            "Node {node}: {}, {}",
+            interval(enter, exit),
+            test.fate.text()
+        ),
+        Fate::Entered => {
+            let order = step.entered();
+            let place = order.iter().position(|other| other.node == test.node);
+            let when = match place {
+                Some(0) => "visited first".to_owned(),
+                place => format!("pending, number {}", place.map_or(0, |place| place + 1)),
+            };
+            format!("Node {node}: {}, {when}", interval(enter, exit))
+        }
+    }
+}
+
+/// Why a pending node is skipped.
+pub fn why_culled(step: &CulledStep) -> String {
+    format!(
+        "its box begins at {} units, beyond the closest hit at {}",
+        short(step.t_enter),
+        short(step.limit)
+    )
+}
+
 /// What happened in a leaf.
 pub fn in_leaf(scene: &Scene, leaf: &LeafStep) -> String {
     if leaf.objects == 0 {
@@ -151,6 +209,18 @@ pub fn step(scene: &Scene, number: usize, step: &Step) -> String {
             inner.depth,
             why(inner)
         ),
+        Step::Boxes(boxes) => format!(
+            "Step {number}: inner node {}, depth {}: {}.",
+            grouped(boxes.node as usize),
+            boxes.depth,
+            entered(boxes)
+        ),
+        Step::Culled(culled) => format!(
+            "Step {number}: node {}, depth {}, is culled: {}.",
+            grouped(culled.node as usize),
+            culled.depth,
+            why_culled(culled)
+        ),
         Step::Leaf(leaf) => format!(
             "Step {number}: leaf {}, depth {}, from {} to {} units: {}.",
             grouped(leaf.node as usize),
@@ -163,8 +233,8 @@ pub fn step(scene: &Scene, number: usize, step: &Step) -> String {
 }
 
 /// A step in a sentence that fits into a line, without the reasons.
-pub fn short_step(scene: &Scene, number: usize, step: &Step) -> String {
-    match step {
+pub fn short_step(scene: &Scene, number: usize, taken: &Step) -> String {
+    match taken {
         Step::Inner(inner) => {
             let (near, far) = (grouped(inner.near as usize), grouped(inner.far as usize));
             let next = match inner.children {
@@ -180,6 +250,7 @@ pub fn short_step(scene: &Scene, number: usize, step: &Step) -> String {
                 inner.depth
             )
         }
+        Step::Boxes(_) | Step::Culled(_) => step(scene, number, taken),
         Step::Leaf(leaf) => {
             let hit = leaf.tests.iter().rev().find_map(|test| {
                 let t = test.hit?;

@@ -1,6 +1,6 @@
 //! Which nodes the outline shows: those whose parents are all unfolded.
 
-use crate::structure::{Moment, NodeKind, Tree, TreeIndex};
+use crate::structure::{Moment, Tree, TreeIndex};
 use std::collections::HashSet;
 
 /// The unfolded nodes and the rows that follow from them.
@@ -80,11 +80,10 @@ impl Rows {
         let mut stack = vec![0];
         while let Some(node) = stack.pop() {
             self.rows.push(node);
-            if let NodeKind::Inner { below, above, .. } = tree.kind(node)
-                && self.unfolded.contains(&node)
-                && self.is_decided(tree, index, node)
-            {
-                stack.extend([above, below]);
+            if self.unfolded.contains(&node) && self.is_decided(tree, index, node) {
+                let from = stack.len();
+                stack.extend(tree.child_nodes(node));
+                stack[from..].reverse();
             }
         }
     }

@@ -8,7 +8,6 @@
 
 mod check;
 mod kernel;
-mod meeting;
 #[cfg(test)]
 mod mutants;
 mod oracle;

@@ -1,8 +1,7 @@
 //! The right answers about rays, by rational arithmetic.
 
-use super::meeting::{Meeting, enlarged};
 use crate::geometry::{Aabb, Ray};
-use crate::measure::judge::{Line, Surface, Tolerance};
+use crate::measure::judge::{Line, Meeting, Surface, Tolerance, enlarged};
 use crate::primitive::exact::Root;
 use crate::primitive::{PackedRay, Precision, Shapes, UnitFrame};
 use crate::progress::{Cancelled, Progress};

@@ -12,6 +12,7 @@ mod case;
 mod chord;
 mod crossing;
 mod flat;
+mod meeting;
 mod quadric;
 mod span;
 mod surface;
@@ -20,6 +21,7 @@ mod verdict;
 
 pub use case::{Case, CaseError};
 pub(super) use crossing::Line;
+pub(super) use meeting::{Meeting, enlarged};
 pub(super) use surface::Surface;
 pub use tolerance::Tolerance;
 pub use verdict::{Answer, Standing, Tally, Verdict, examine, scale_of, settle};

@@ -1,6 +1,7 @@
 //! Verdicts on answers about rays.
 
 use super::crossing::{Crossing, Line};
+use super::meeting::{Meeting, enlarged};
 use super::surface::Surface;
 use super::tolerance::Tolerance;
 use crate::geometry::{Aabb, Ray};
@@ -17,6 +18,24 @@ pub enum Answer {
     Nearest(Hit),
     /// Whether an object blocks the ray before its end.
     Blocked(bool),
+}
+
+impl Answer {
+    /// Returns the answer to the same question where this is the closest hit.
+    pub fn of_kind(self, hit: Hit) -> Answer {
+        match self {
+            Answer::Nearest(_) => Answer::Nearest(hit),
+            Answer::Blocked(_) => Answer::Blocked(hit.is_hit()),
+        }
+    }
+
+    /// Returns whether there is a hit.
+    pub fn is_hit(self) -> bool {
+        match self {
+            Answer::Nearest(hit) => hit.is_hit(),
+            Answer::Blocked(blocked) => blocked,
+        }
+    }
 }
 
 /// Why two answers differ.
@@ -75,11 +94,14 @@ impl Evidence {
             return Evidence(Vec::new());
         }
         let line = Line::new(ray, tolerance);
-        let near = scene
-            .objects()
-            .iter()
-            .enumerate()
-            .filter(|(_, object)| may_meet(ray, &object.bounds(), tolerance));
+        let meeting = Meeting::of(ray);
+        let may_meet = |bounds: Aabb| {
+            let far = bounds.magnitude() + ray.origin.abs().max_element();
+            let bounds = bounds.enlarged(tolerance.length + tolerance.relative * far);
+            meeting.may_meet(&enlarged(&bounds))
+        };
+        let objects = scene.objects().iter().enumerate();
+        let near = objects.filter(|(_, object)| may_meet(object.bounds()));
         let all = near.flat_map(|(number, object)| {
             Surface::of(object)
                 .crossings(&line, tolerance)
@@ -129,30 +151,6 @@ impl Evidence {
             }),
         }
     }
-}
-
-/// Returns whether a ray may come near a box. `true` is conservative; `false` is certain.
-fn may_meet(ray: &Ray, bounds: &Aabb, tolerance: &Tolerance) -> bool {
-    const ROUNDING: f64 = 64.0 * f64::EPSILON;
-    let far = bounds.magnitude() + ray.origin.abs().max_element();
-    let bounds = bounds.enlarged(tolerance.length + (tolerance.relative + ROUNDING) * far);
-    // Scaled so that neither the direction nor its inverse overflows.
-    let direction = ray.direction / ray.direction.abs().max_element();
-    let (mut enter, mut exit) = (f64::NEG_INFINITY, f64::INFINITY);
-    for k in 0..3 {
-        let (a, b) = (
-            (bounds.lo[k] - ray.origin[k]) / direction[k],
-            (bounds.hi[k] - ray.origin[k]) / direction[k],
-        );
-        // NaN if the ray runs along a side of the box. Then this side excludes nothing.
-        if a.is_nan() || b.is_nan() {
-            continue;
-        }
-        let (near, far) = (a.min(b), a.max(b));
-        enter = enter.max(near - ROUNDING * near.abs());
-        exit = exit.min(far + ROUNDING * far.abs());
-    }
-    enter <= exit && exit >= 0.0
 }
 
 /// Returns the largest absolute coordinate of a scene and of a ray's origin, a length.

@@ -8,8 +8,8 @@ use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::structure::{BuildSettings, Tree, build};
 use crate::trace::{
-    Batch, Children, Hit, Probe, RayKind, RayTracer, RenderError, RenderSettings, Scratch, Shading,
-    any_hit, closest_hit, render_timed, thread_pool, tiles, trace_samples,
+    Batch, BoxTest, Children, Hit, Probe, RayKind, RayTracer, RenderError, RenderSettings, Scratch,
+    Shading, any_hit, closest_hit, render_timed, thread_pool, tiles, trace_samples,
 };
 
 const KINDS: usize = PrimitiveKind::ALL.len();
@@ -135,6 +135,12 @@ impl Probe for Watcher {
     fn inner(&mut self, _: u32, _: [f64; 2], _: f64, _: f64, _: Children) {
         self.nodes += 1;
     }
+
+    fn boxes(&mut self, _: u32, _: [f64; 2], _: &[BoxTest]) {
+        self.nodes += 1;
+    }
+
+    fn culled(&mut self, _: u32, _: f64, _: f64) {}
 
     fn leaf(&mut self, _: u32, _: &[u32], _: [f64; 2]) {
         self.nodes += 1;

@@ -1,9 +1,9 @@
 //! Stability: robustness at extreme inputs. Every case of [`CASES`] must yield correct hits, or a
 //! clear error, with every method and precision. A case is one entry of a theme's file.
 //!
-//! Correct means three things. The tree is valid. Its answers equal those of testing every object,
-//! except for exact ties. A sample of the answers agrees with exact arithmetic within rounding
-//! ([`super::judge::Tolerance`]).
+//! Correct means three things. The tree is valid. The answers of all kernels equal those of testing every
+//! object, bit for bit. A sample of the answers equals those of exact arithmetic, bit for bit
+//! ([`super::exact::Oracle`]).
 
 mod case;
 mod geometry;

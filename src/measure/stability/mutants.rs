@@ -40,8 +40,12 @@ impl<B: Break> TraversalRay for Broken<B> {
     type T = f64;
     const PENDING_IN_ORDER: bool = TraversalRayF64::PENDING_IN_ORDER;
 
-    fn clip_to_root(&self, interval: [f64; 2]) -> Option<(f64, f64)> {
-        self.0.clip_to_root(interval)
+    fn widened(interval: [f64; 2]) -> (f64, f64) {
+        TraversalRayF64::widened(interval)
+    }
+
+    fn clip(&self, interval: (f64, f64), lo: &[f32; 3], hi: &[f32; 3]) -> Option<(f64, f64)> {
+        self.0.clip(interval, lo, hi)
     }
 
     fn crossing(&self, axis: usize, plane: f32) -> PlaneCrossing<f64> {
@@ -158,7 +162,16 @@ fn ask<B: Break>(
             };
             let line = Broken::<B>(TraversalRayF64::new(tree, ray), PhantomData);
             let interval = [ray.t_min, ray.t_max];
-            traverse(tree, interval, &line, &mut scratch, &mut nearest, &mut ());
+            let nodes = tree.nodes().planes();
+            traverse(
+                tree,
+                nodes,
+                interval,
+                &line,
+                &mut scratch,
+                &mut nearest,
+                &mut (),
+            );
             let hit = Some(nearest.best).filter(Hit::is_hit);
             match kind {
                 RayKind::Shadow => Answer::Blocked(hit.is_some()),

@@ -7,7 +7,7 @@ use crate::geometry::{Ray, Vec3};
 use crate::measure::judge::Answer;
 use crate::primitive::{Primitive, Shape};
 use crate::scene::Scene;
-use crate::structure::{NodeKind, Tree};
+use crate::structure::Tree;
 use crate::trace::RayKind;
 
 pub const CASES: &[Case] = &[
@@ -138,9 +138,7 @@ fn lengths(trial: &Trial<'_>) -> Outcome {
 fn on_planes(tree: &Tree, count: usize) -> Vec<(usize, Vec3)> {
     let mut points = Vec::new();
     for cell in tree.cells() {
-        if let (NodeKind::Inner { .. }, Some((axis, plane))) =
-            (tree.kind(cell.node), tree.plane(cell.node))
-        {
+        if let Some((axis, plane)) = tree.plane(cell.node) {
             let [x, y, z, ..] = spread(points.len());
             let mut point = cell.bounds.lo + cell.bounds.size() * Vec3::new(x, y, z);
             point[axis.index()] = plane;

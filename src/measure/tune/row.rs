@@ -87,7 +87,9 @@ impl Row {
         let tree = &self.measurement.tree;
         match self.setup.build.method.structure {
             Structure::Grid => tree.leaves,
-            Structure::Bintree | Structure::Octree => tree.inner_nodes + tree.leaves,
+            Structure::Bintree | Structure::Octree | Structure::Bvh => {
+                tree.inner_nodes + tree.leaves
+            }
         }
     }
 

@@ -26,7 +26,7 @@ impl Leaf {
                 volume: cell.bounds.volume(),
                 visits: visits.map(|visits| visits.by_node[cell.node as usize]),
             }),
-            NodeKind::Inner { .. } => None,
+            NodeKind::Inner => None,
         }
     }
 }

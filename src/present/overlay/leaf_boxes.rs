@@ -190,7 +190,7 @@ fn below(tree: &Tree, cell: &CellOfNode, visits: Option<&Visits>) -> Leaf {
     while let Some(node) = nodes.pop() {
         match tree.kind(node) {
             NodeKind::Leaf { count, .. } => objects += count,
-            NodeKind::Inner { below, above, .. } => nodes.extend([below, above]),
+            NodeKind::Inner => nodes.extend(tree.child_nodes(node)),
         }
     }
     Leaf {

@@ -84,10 +84,12 @@ pub fn cells_along(tree: &Tree, ray: &Ray, depth: u32) -> Vec<CellOfNode> {
         let Some(enter) = entry(&cell.bounds, ray) else {
             continue;
         };
-        match tree.children(&cell) {
-            Some(children) if cell.depth < depth => stack.extend(children),
-            _ if enter > ray.t_min => found.push((enter, cell)),
-            _ => {}
+        let from = stack.len();
+        if cell.depth < depth {
+            stack.extend(tree.children(&cell));
+        }
+        if stack.len() == from && enter > ray.t_min {
+            found.push((enter, cell));
         }
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));

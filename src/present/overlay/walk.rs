@@ -23,7 +23,7 @@ pub fn visited_lines(path: &RayPath, step: usize, center: Vec3) -> Vec<Line> {
     let n = path.leaves().count();
     let leaves = path.steps.iter().enumerate().filter_map(|(i, s)| match s {
         Step::Leaf(leaf) => Some((i, leaf)),
-        Step::Inner(_) => None,
+        _ => None,
     });
     let mut lines = Vec::new();
     for (order, (i, leaf)) in leaves.enumerate() {
@@ -46,10 +46,7 @@ pub fn step_lines(tree: &Tree, path: &RayPath, step: usize, center: Vec3) -> Vec
         let bounds = tree.cell_of(waiting.node).bounds;
         lines.extend(box_lines(&bounds, center, rgba(WAITING, DASHED), 1.0));
     }
-    let (t_enter, t_exit) = match current {
-        Step::Inner(inner) => (inner.t_enter, inner.t_exit),
-        Step::Leaf(leaf) => (leaf.t_enter, leaf.t_exit),
-    };
+    let [t_enter, t_exit] = current.interval();
     if t_enter.is_finite() && t_exit.is_finite() {
         let [from, to] = [t_enter, t_exit].map(|t| path.ray.at(t));
         lines.push(Line::new(from, to, center, rgba(INTERVAL, SOLID), 8.0));

@@ -1,4 +1,5 @@
-//! The one build driver: termination, distribution of objects, threads, memory, cancellation.
+//! The one driver of all rules that split cells: termination, distribution of objects, threads, memory,
+//! cancellation.
 //!
 //! Large cells are split into tasks. Each task builds a subtree in its own arrays, which are joined
 //! in depth-first order. The tree is the same for any number of threads.
@@ -9,78 +10,69 @@ use super::limits::Limits;
 use super::overlap::{HalfCell, Overlap, Side};
 use super::part::Part;
 use crate::geometry::{Aabb, Axis};
-use crate::primitive::{Primitive, Shape};
+use crate::primitive::Primitive;
 use crate::progress::Progress;
-use crate::scene::Scene;
 use crate::structure::frame::{Frame, ObjectPlanes};
 use crate::structure::method::Structure;
 use crate::structure::node::{Node, StopReason};
 use crate::structure::settings::BuildSettings;
 use crate::structure::split::rule::{Cell, Decision, SplitRule};
-use crate::structure::tree::Tree;
-use crate::structure::voxels::Voxels;
 use rayon::prelude::*;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Builds the tree of a scene on the threads of the current `rayon` pool, or of the global pool.
-/// The same scene and settings always give the same tree.
-///
-/// The tree of a scene without objects is one empty leaf.
-///
-/// # Errors
-/// A setting is out of range, the tree would exceed the memory limit, or cancellation.
-pub fn build(
-    scene: &Scene,
-    settings: &BuildSettings,
-    progress: &Progress,
-) -> Result<Tree, BuildError> {
-    settings.check()?;
-    let objects = scene.objects();
-    if objects.len() >= Node::MAX_LEAF {
-        return Err(BuildError::TooManyObjects(objects.len()));
-    }
-    // Enters the pool once instead of once per cell.
-    rayon::scope(|_| in_pool(scene, settings, progress))
+/// The objects of a scene, and the root cell around them.
+pub struct Scope<'a> {
+    pub objects: &'a [Primitive],
+    /// The bounds of all objects.
+    pub bounds: &'a [Aabb],
+    pub frame: &'a Frame,
+    pub settings: &'a BuildSettings,
+    pub depth_limit: u32,
+    pub progress: &'a Progress,
 }
 
-fn in_pool(
-    scene: &Scene,
-    settings: &BuildSettings,
-    progress: &Progress,
-) -> Result<Tree, BuildError> {
-    let objects = scene.objects();
-    let frame = Frame::around(&scene.bounds(), settings.root_margin.resolve(scene));
-    let depth_limit = settings.d_max.resolve(objects.len());
-    let rule = (settings.method.rule)(settings);
+/// What a rule made of the root cell.
+pub struct Divided {
+    pub nodes: Vec<Node>,
+    pub references: Vec<u32>,
+    pub depth_reached: u32,
+}
+
+/// Divides the root cell by the planes of a rule.
+///
+/// # Errors
+/// The tree would exceed the memory limit, or cancellation.
+pub fn divide(scope: &Scope<'_>, rule: &dyn SplitRule) -> Result<Divided, BuildError> {
+    let &Scope {
+        objects,
+        bounds,
+        frame,
+        settings,
+        depth_limit,
+        progress,
+    } = scope;
     let limits = Limits::new(
         settings.memory_limit,
         objects.len(),
         settings.method.structure,
     );
     limits.reserve_pending(0, objects.len())?;
-    let (mut bounds, mut planes) = (Vec::new(), Vec::new());
-    objects
+    let mut planes = Vec::new();
+    bounds
         .par_iter()
         .with_min_len(CHUNK)
-        .map(|object| {
-            if progress.is_cancelled() {
-                return (Aabb::EMPTY, ObjectPlanes::default());
-            }
-            let bounds = object.bounds();
-            (bounds, frame.planes_around(&bounds))
-        })
-        .unzip_into_vecs(&mut bounds, &mut planes);
+        .map(|bounds| frame.planes_around(bounds))
+        .collect_into_vec(&mut planes);
     progress.check()?;
     let driver = Driver {
-        overlap: Overlap::new(settings, objects, &bounds, &planes, frame.slack()),
-        frame: &frame,
-        rule: rule.as_ref(),
+        overlap: Overlap::new(settings, objects, bounds, &planes, frame.slack()),
+        frame,
+        rule,
         settings,
         depth_limit,
         progress,
         objects,
-        bounds: &bounds,
+        bounds,
         planes: &planes,
         limits,
         done: AtomicU64::new(0),
@@ -104,16 +96,10 @@ fn in_pool(
     } = part;
     nodes.shrink_to_fit();
     references.shrink_to_fit();
-    let voxels = (settings.method.structure == Structure::Grid).then(|| Voxels::of(&nodes));
-    Ok(Tree {
+    Ok(Divided {
         nodes,
-        voxels,
         references,
-        frame,
-        settings: settings.clone(),
-        depth_limit,
         depth_reached,
-        simd_tree: OnceLock::new(),
     })
 }
 

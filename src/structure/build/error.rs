@@ -46,6 +46,16 @@ pub enum BuildError {
         /// The structure that the method builds.
         structure: Structure,
     },
+    #[error(
+        "the hierarchy may need {} MiB, more than the memory limit of {} MiB; choose a method with fewer \
+         references or raise the limit",
+        .needed.div_ceil(1 << 20), .limit >> 20
+    )]
+    HierarchyTooLarge {
+        /// Bytes.
+        needed: u64,
+        limit: u64,
+    },
     #[error("the scene has {0} objects; a tree can hold {most}", most = Node::MAX_LEAF - 1)]
     TooManyObjects(usize),
 }
@@ -55,7 +65,9 @@ impl BuildError {
     pub fn is_too_large(&self) -> bool {
         matches!(
             self,
-            BuildError::MemoryLimit { .. } | BuildError::TooManyObjects(_)
+            BuildError::MemoryLimit { .. }
+                | BuildError::HierarchyTooLarge { .. }
+                | BuildError::TooManyObjects(_)
         )
     }
 }

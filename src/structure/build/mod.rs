@@ -1,4 +1,4 @@
-//! Building a tree: the driver and what it keeps of cells, limits and arrays.
+//! Dividing cells by planes: the driver and what it keeps of cells, limits and arrays.
 
 mod cell_objects;
 mod driver;
@@ -7,5 +7,5 @@ mod limits;
 mod overlap;
 mod part;
 
-pub use driver::build;
+pub use driver::{Scope, divide};
 pub use error::{BuildError, Inseparable};

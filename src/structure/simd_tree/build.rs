@@ -74,14 +74,16 @@ impl<B: BlockData> BlockTree<B> {
             true => node.as_leaf().1.div_ceil(BLOCK),
             false => 0,
         };
+        let nodes = tree.nodes().planes();
         let mut builder = Builder {
             tree,
+            nodes,
             objects,
             frame,
             held: Vec::new(),
             built: BlockTree {
-                nodes: Pages::with_capacity(tree.nodes().len() + 1),
-                blocks: Pages::with_capacity(tree.nodes().iter().map(blocks).sum()),
+                nodes: Pages::with_capacity(nodes.len() + 1),
+                blocks: Pages::with_capacity(nodes.iter().map(blocks).sum()),
                 max_pending: 0,
                 half_thickness,
                 corners,
@@ -96,6 +98,7 @@ impl<B: BlockData> BlockTree<B> {
 
 struct Builder<'a, B> {
     tree: &'a Tree,
+    nodes: &'a [node::Node],
     objects: &'a [Primitive],
     frame: &'a UnitFrame,
     /// Objects of the current leaf.
@@ -107,7 +110,7 @@ impl<B: BlockData> Builder<'_, B> {
     /// Builds the node `from` of the tree, whose cell is `cell`, at index `to`. `depth` is the number of
     /// inner nodes above it.
     fn node(&mut self, from: usize, to: usize, cell: [[f32; 2]; 3], depth: usize) {
-        let node = self.tree.nodes()[from];
+        let node = self.nodes[from];
         if node.is_leaf() {
             self.built.nodes[to] = self.leaf(from, cell);
             self.built.max_pending = self.built.max_pending.max(depth);
@@ -151,7 +154,7 @@ impl<B: BlockData> Builder<'_, B> {
     }
 
     fn leaf(&mut self, from: usize, cell: [[f32; 2]; 3]) -> Node {
-        let (first, count) = self.tree.nodes()[from].as_leaf();
+        let (first, count) = self.nodes[from].as_leaf();
         let references = &self.tree.references()[first..first + count];
         let mut held = std::mem::take(&mut self.held);
         held.clear();

@@ -4,7 +4,7 @@ use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::{Axis, Vec3};
 use crate::structure::method::{Constant, Structure};
 use crate::structure::node::StopReason;
-use crate::structure::settings::{BuildSettings, MethodInfo};
+use crate::structure::settings::{BuildSettings, Builder, MethodInfo};
 use std::sync::OnceLock;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
@@ -32,7 +32,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
         source: "I. Wald, T. Ize, A. Kensler, A. Knoll and S. G. Parker, Ray tracing animated scenes \
                  using coherent grid traversal, 2006",
     }],
-    rule: |settings| Box::new(UniformGrid::new(settings)),
+    builder: Builder::Cells(|settings| Box::new(UniformGrid::new(settings))),
 };
 
 /// Maximum number of voxels along an axis.

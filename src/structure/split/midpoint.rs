@@ -3,7 +3,7 @@
 use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::Axis;
 use crate::structure::method::Structure;
-use crate::structure::settings::MethodInfo;
+use crate::structure::settings::{Builder, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "midpoint",
@@ -15,7 +15,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper_spheres_exactly: true,
     structure: Structure::Bintree,
     constants: &[],
-    rule: |settings| Box::new(Midpoint(settings.first_axis)),
+    builder: Builder::Cells(|settings| Box::new(Midpoint(settings.first_axis))),
 };
 
 /// Splits in the middle, with the axes in cyclic order from this one.

@@ -3,7 +3,7 @@
 use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::{Axis, Vec3};
 use crate::structure::method::Structure;
-use crate::structure::settings::MethodInfo;
+use crate::structure::settings::{Builder, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "midpoint-longest",
@@ -15,7 +15,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper_spheres_exactly: true,
     structure: Structure::Bintree,
     constants: &[],
-    rule: |_| Box::new(MidpointLongest),
+    builder: Builder::Cells(|_| Box::new(MidpointLongest)),
 };
 
 struct MidpointLongest;

@@ -4,7 +4,7 @@
 use super::rule::{Cell, Decision, SplitRule};
 use crate::structure::method::Structure;
 use crate::structure::node::StopReason;
-use crate::structure::settings::MethodInfo;
+use crate::structure::settings::{Builder, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "none",
@@ -15,7 +15,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper_spheres_exactly: false,
     structure: Structure::Bintree,
     constants: &[],
-    rule: |_| Box::new(Never),
+    builder: Builder::Cells(|_| Box::new(Never)),
 };
 
 struct Never;

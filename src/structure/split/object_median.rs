@@ -4,7 +4,7 @@ use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::Axis;
 use crate::structure::method::{Constant, Structure};
 use crate::structure::node::StopReason;
-use crate::structure::settings::{BuildSettings, MethodInfo};
+use crate::structure::settings::{BuildSettings, Builder, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "object-median",
@@ -26,7 +26,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
         about: "1 splits the longest axis of a cell, 0 uses the axes in cyclic order, as method 1 does.",
         source: "ours: with 0, the position of the plane is the only difference from midpoint",
     }],
-    rule: |settings| Box::new(ObjectMedian::new(settings)),
+    builder: Builder::Cells(|settings| Box::new(ObjectMedian::new(settings))),
 };
 
 struct ObjectMedian {

@@ -6,7 +6,7 @@
 
 use super::midpoint::Midpoint;
 use crate::structure::method::Structure;
-use crate::structure::settings::MethodInfo;
+use crate::structure::settings::{Builder, MethodInfo};
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "octree",
@@ -20,5 +20,5 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper_spheres_exactly: true,
     structure: Structure::Octree,
     constants: &[],
-    rule: |settings| Box::new(Midpoint(settings.first_axis)),
+    builder: Builder::Cells(|settings| Box::new(Midpoint(settings.first_axis))),
 };

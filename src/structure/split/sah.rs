@@ -17,7 +17,7 @@ use super::rule::{Cell, Decision, SplitRule};
 use crate::geometry::Axis;
 use crate::structure::method::{Constant, Structure};
 use crate::structure::node::StopReason;
-use crate::structure::settings::{BuildSettings, MethodInfo};
+use crate::structure::settings::{BuildSettings, Builder, MethodInfo};
 use bins::Bins;
 use cost::{Areas, Best, Costs};
 use every_plane::Search;
@@ -79,7 +79,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
         },
         CLIP,
     ],
-    rule: |settings| Box::new(Sah::new(settings)),
+    builder: Builder::Cells(|settings| Box::new(Sah::new(settings))),
 };
 
 /// Whether objects are clipped to the cell before they are counted.

@@ -12,7 +12,7 @@ use crate::geometry::{Aabb, Axis};
 use crate::primitive::Shape;
 use crate::structure::method::{Constant, Structure};
 use crate::structure::node::StopReason;
-use crate::structure::settings::{BuildSettings, MethodInfo};
+use crate::structure::settings::{BuildSettings, Builder, MethodInfo};
 use std::cmp::Ordering;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
@@ -90,7 +90,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
         },
         CLIP,
     ],
-    rule: |settings| Box::new(SahAuto::new(settings)),
+    builder: Builder::Cells(|settings| Box::new(SahAuto::new(settings))),
 };
 
 struct SahAuto {

@@ -10,7 +10,7 @@ use super::sweep::{Areas, CandidatePlane, Sweep, compare_costs};
 use crate::geometry::Axis;
 use crate::structure::method::{Constant, Structure};
 use crate::structure::node::StopReason;
-use crate::structure::settings::{BuildSettings, MethodInfo};
+use crate::structure::settings::{BuildSettings, Builder, MethodInfo};
 use std::cmp::Ordering;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
@@ -79,7 +79,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             source: "rule Q of the search: in tetra, cost stops splitting before depth does",
         },
     ],
-    rule: |settings| Box::new(SahCut::new(settings)),
+    builder: Builder::Cells(|settings| Box::new(SahCut::new(settings))),
 };
 
 struct SahCut {

@@ -9,7 +9,7 @@ use super::sweep::{Areas, compare_costs};
 use crate::geometry::Axis;
 use crate::structure::method::{Constant, Structure};
 use crate::structure::node::StopReason;
-use crate::structure::settings::{BuildSettings, MethodInfo};
+use crate::structure::settings::{BuildSettings, Builder, MethodInfo};
 use std::cmp::Ordering;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
@@ -55,7 +55,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
             source: "ours, as in sah-cut; with 0 only D_MAX and N_OILF stop splitting, as in Octree-R",
         },
     ],
-    rule: |settings| Box::new(SahSampled::new(settings)),
+    builder: Builder::Cells(|settings| Box::new(SahSampled::new(settings))),
 };
 
 struct SahSampled {

@@ -188,20 +188,29 @@ fn sentence(doc: &Document, ctx: &egui::Context) -> String {
         Moment::Node(next) => {
             let [at, of] = [next, nodes].map(|n| grouped(n as usize));
             let what = match (tree.kind(next), tree.plane(next)) {
-                (NodeKind::Inner { below, above, .. }, Some((axis, plane))) => {
-                    let parts = doc.inspect.index(current, ctx).map(|index| {
-                        [below, above].map(|child| grouped(index.of(child).objects as usize))
+                (NodeKind::Inner, plane) => {
+                    let index = doc.inspect.index(current, ctx);
+                    let parts: Option<Vec<String>> = index.map(|index| {
+                        let children = tree.child_nodes(next);
+                        children
+                            .map(|child| grouped(index.of(child).objects as usize))
+                            .collect()
                     });
-                    let parts = parts.map_or(String::new(), |[below, above]| {
-                        format!(": {below} objects below, {above} above")
-                    });
-                    format!("is split at {axis} = {plane:.5}{parts}")
+                    match (plane, parts.as_deref()) {
+                        (Some((axis, plane)), Some([below, above])) => format!(
+                            "is split at {axis} = {plane:.5}: {below} objects below, {above} above"
+                        ),
+                        (Some((axis, plane)), _) => format!("is split at {axis} = {plane:.5}"),
+                        (None, Some(parts)) => {
+                            format!("is divided into boxes of {} objects", parts.join(" + "))
+                        }
+                        (None, None) => "is divided".to_owned(),
+                    }
                 }
                 (NodeKind::Leaf { count, stop, .. }, _) => {
                     let count = grouped(count as usize);
                     format!("becomes a leaf of {count} objects: {}", stop.text())
                 }
-                _ => String::new(),
             };
             format!("node {at} of {of} {what}")
         }

@@ -277,19 +277,21 @@ impl Icicle {
         let mut stack = vec![(self.top, area.left(), area.right())];
         while let Some((node, left, right)) = stack.pop() {
             spans.push((node, left, right));
-            if let NodeKind::Inner { below, above, .. } = tree.kind(node) {
-                let share = |child: u32| match self.width {
-                    Width::Leaves => f64::from(index.of(child).leaves),
-                    Width::Area => index.of(child).area,
-                };
-                let (a, b) = (share(below), share(above));
-                let middle = left + (right - left) * (a / (a + b)) as f32;
-                for (child, from, to) in [(above, middle, right), (below, left, middle)] {
-                    if to - from >= NARROWEST {
-                        stack.push((child, from, to));
-                    }
+            let share = |child: u32| match self.width {
+                Width::Leaves => f64::from(index.of(child).leaves),
+                Width::Area => index.of(child).area,
+            };
+            let all: f64 = tree.child_nodes(node).map(share).sum();
+            let (first, mut sum) = (stack.len(), 0.0);
+            for child in tree.child_nodes(node) {
+                let from = left + (right - left) * (sum / all) as f32;
+                sum += share(child);
+                let to = left + (right - left) * (sum / all) as f32;
+                if to - from >= NARROWEST {
+                    stack.push((child, from, to));
                 }
             }
+            stack[first..].reverse();
         }
         // Rows that nothing is drawn in take no room.
         let depths = spans.iter().map(|&(node, ..)| index.of(node).depth - top);

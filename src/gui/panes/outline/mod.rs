@@ -208,8 +208,7 @@ fn walk(step: Move, selected: &mut Option<u32>, rows: &mut Rows, tree: &Tree, in
         *selected = Some(0);
         return;
     };
-    let inner =
-        matches!(tree.kind(node), NodeKind::Inner { .. }) && rows.is_decided(tree, index, node);
+    let inner = matches!(tree.kind(node), NodeKind::Inner) && rows.is_decided(tree, index, node);
     let row = rows.row_of(node).unwrap_or(0);
     match step {
         Move::RowUp => *selected = rows.nodes().get(row.saturating_sub(1)).copied(),
@@ -357,7 +356,7 @@ impl Table<'_> {
         let decided = self.rows.is_decided(self.tree, self.index, node);
         let (about, objects) = match self.tree.kind(node) {
             _ if !decided => ("not decided yet".to_owned(), facts.objects),
-            NodeKind::Inner { .. } => {
+            NodeKind::Inner => {
                 let plane = self.tree.plane(node);
                 let text = plane.map(|(axis, at)| format!("{axis} = {at:.6}"));
                 (text.unwrap_or_default(), facts.objects)
@@ -402,7 +401,7 @@ impl Table<'_> {
         let levels = self.tree.depth_reached().max(1);
         ui.add_space(depth as f32 * (64.0 / levels as f32).min(8.0));
         let size = egui::vec2(14.0, ui.available_height());
-        let inner = matches!(self.tree.kind(node), NodeKind::Inner { .. });
+        let inner = matches!(self.tree.kind(node), NodeKind::Inner);
         if !inner || !self.rows.is_decided(self.tree, self.index, node) {
             ui.allocate_space(size);
             return;

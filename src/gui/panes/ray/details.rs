@@ -44,6 +44,16 @@ fn step(ui: &mut Ui, scene: &Scene, picked: &Picked) {
             ui.strong(format!("Step {number}: inner node {index}"));
             wrapped(ui, format!("Because {}.", step_text::why(inner)));
         }
+        Step::Boxes(step) => {
+            ui.strong(format!("Step {number}: inner node {index}"));
+            for test in &step.tests {
+                ui.label(step_text::box_test(step, test));
+            }
+        }
+        Step::Culled(step) => {
+            ui.strong(format!("Step {number}: node {index} is culled"));
+            wrapped(ui, format!("Because {}.", step_text::why_culled(step)));
+        }
         Step::Leaf(leaf) => {
             let kind = if leaf.objects == 0 { "empty" } else { "full" };
             ui.strong(format!("Step {number}: {kind} leaf {index}"));

@@ -129,6 +129,20 @@ fn row(scene: &Scene, i: usize, step: &Step) -> Row {
                 step_text::way(inner.children)
             ),
         ],
+        Step::Boxes(step) => vec![
+            number,
+            "     inner".to_owned(),
+            grouped(step.node as usize),
+            step_text::interval(step.t_enter, step.t_exit),
+            step_text::entered(step),
+        ],
+        Step::Culled(step) => vec![
+            number,
+            "     culled".to_owned(),
+            grouped(step.node as usize),
+            step_text::short(step.t_enter),
+            format!("beyond the hit at {}", step_text::short(step.limit)),
+        ],
         Step::Leaf(leaf) => {
             let hit = leaf.tests.iter().rev().find_map(|test| test.hit);
             let tests = step_text::count(leaf.tests.len() as u32, "test", "tests");
@@ -156,7 +170,12 @@ fn icon(painter: &Painter, number: Rect, step: &Step, (order, n): (usize, usize)
     let middle = pos2(number.right() + 9.0, number.center().y);
     let square = Rect::from_center_size(middle, vec2(9.0, 9.0));
     match step {
-        Step::Inner(_) => {
+        Step::Culled(_) => {
+            let stroke = Stroke::new(1.5, text);
+            painter.line_segment([square.left_top(), square.right_bottom()], stroke);
+            painter.line_segment([square.right_top(), square.left_bottom()], stroke);
+        }
+        Step::Inner(_) | Step::Boxes(_) => {
             let stroke = Stroke::new(1.5, text);
             let fork = middle - vec2(0.0, 1.0);
             painter.line_segment([square.center_top(), fork], stroke);

@@ -67,7 +67,7 @@ impl Layout {
         let mut leaves = layout.leaves.iter().map(|(_, x)| x.clone());
         for (step, what) in path.steps.iter().enumerate() {
             match what {
-                Step::Inner(_) => inner.push(step),
+                Step::Inner(_) | Step::Boxes(_) | Step::Culled(_) => inner.push(step),
                 Step::Leaf(_) => {
                     let x = leaves.next().expect("every leaf has a place");
                     layout.blocks.extend(side_by_side(&inner, x.clone()));
@@ -139,16 +139,15 @@ pub fn show(ui: &mut Ui, path: Option<&RayPath>, step: usize, leaves_only: bool)
     };
     let hovered = response.hover_pos().and_then(target);
     if let Some(hovered) = hovered {
-        let what = match &path.steps[hovered] {
-            Step::Inner(inner) => (
-                format!("inner node {}", inner.node),
-                inner.t_enter,
-                inner.t_exit,
-            ),
-            Step::Leaf(leaf) => (format!("leaf {}", leaf.node), leaf.t_enter, leaf.t_exit),
-        };
-        let interval = step_text::interval(what.1, what.2);
-        let text = format!("Step {}: {}, t from {interval} units", hovered + 1, what.0);
+        let at = &path.steps[hovered];
+        let [enter, exit] = at.interval();
+        let interval = step_text::interval(enter, exit);
+        let text = format!(
+            "Step {}: {} {}, t from {interval} units",
+            hovered + 1,
+            step_text::kind(at),
+            at.node()
+        );
         response.on_hover_text_at_pointer(text);
     }
     pointer.and_then(target).filter(|&to| to != step)
@@ -188,8 +187,8 @@ fn paint(ui: &Ui, rect: Rect, path: &RayPath, layout: &Layout, step: usize, leav
                     painter.rect_filled(block_rect, 1.0, color);
                 }
             }
-            Step::Inner(_) if leaves_only => {}
-            Step::Inner(_) => {
+            _ if leaves_only => {}
+            _ => {
                 painter.rect_filled(block_rect, 1.0, t.border);
             }
         }

@@ -32,11 +32,8 @@ const FIRST_TRIED: f64 = 0.3;
 /// part up to the point closest to the tree's center.
 pub fn shown_part(path: &RayPath, root: &Aabb) -> [Vec3; 2] {
     let ray = &path.ray;
-    let begin = match path.steps.first() {
-        Some(Step::Inner(inner)) => inner.t_enter.max(0.0),
-        Some(Step::Leaf(leaf)) => leaf.t_enter.max(0.0),
-        None => 0.0,
-    };
+    let first = path.steps.first().map(Step::interval);
+    let begin = first.map_or(0.0, |[enter, _]| enter.max(0.0));
     let end = if path.steps.is_empty() {
         let squared = ray.direction.length_squared();
         (root.center() - ray.origin).dot(ray.direction) / squared

@@ -5,7 +5,8 @@ use crate::geometry::Vec3;
 use crate::present::report::table::plain_table;
 use crate::scene::Scene;
 use crate::trace::{
-    Children, InnerStep, LeafStep, PixelRecord, RayKind, RecordedRay, Step, Tally, srgb8,
+    BoxesStep, Children, Fate, InnerStep, LeafStep, PixelRecord, RayKind, RecordedRay, Step, Tally,
+    srgb8,
 };
 use std::io::{Result, Write};
 
@@ -135,6 +136,15 @@ fn write_ray(scene: &Scene, number: usize, ray: &RecordedRay, out: &mut dyn Writ
     for step in &path.steps {
         match step {
             Step::Inner(step) => writeln!(out, "{indent}  {}", inner(step))?,
+            Step::Boxes(step) => write_boxes(&indent, step, out)?,
+            Step::Culled(step) => writeln!(
+                out,
+                "{indent}  node {}, depth {}: begins at t {}, beyond the hit at t {}: skipped",
+                step.node,
+                step.depth,
+                number_of(step.t_enter),
+                number_of(step.limit)
+            )?,
             Step::Leaf(step) => write_leaf(scene, &indent, path.kind, step, out)?,
         }
     }
@@ -160,6 +170,33 @@ fn inner(step: &InnerStep) -> String {
         number_of(step.t_enter),
         number_of(step.t_exit),
     )
+}
+
+fn write_boxes(indent: &str, step: &BoxesStep, out: &mut dyn Write) -> Result<()> {
+    writeln!(
+        out,
+        "{indent}  node {}, depth {}: t {} to {}; {} box tests",
+        step.node,
+        step.depth,
+        number_of(step.t_enter),
+        number_of(step.t_exit),
+        step.tests.len()
+    )?;
+    let order: Vec<u32> = step.entered().iter().map(|test| test.node).collect();
+    for test in &step.tests {
+        let [enter, exit] = test.within.map(number_of);
+        let found = match test.fate {
+            Fate::Missed => test.fate.text().to_owned(),
+            Fate::BeyondHit => format!("t {enter} to {exit}, {}", test.fate.text()),
+            Fate::Entered => {
+                let place = order.iter().position(|&node| node == test.node);
+                let place = place.map_or(0, |place| place + 1);
+                format!("t {enter} to {exit}, number {place} in order")
+            }
+        };
+        writeln!(out, "{indent}      child {}: {found}", test.node)?;
+    }
+    Ok(())
 }
 
 fn write_leaf(

@@ -1,0 +1,73 @@
+//! What a builder of bounding volume hierarchies gets, and what it makes.
+
+use super::binary::Binary;
+use crate::geometry::{Aabb, Vec3};
+use crate::primitive::Primitive;
+use crate::progress::{Cancelled, Progress};
+use crate::structure::settings::BuildSettings;
+
+/// Builds a binary hierarchy. The result must not depend on the number of threads.
+pub trait BvhBuilder: Send + Sync {
+    /// Returns the hierarchy of at least one object.
+    ///
+    /// # Errors
+    /// Cancellation.
+    fn build(&self, input: &Input<'_>) -> Result<Binary, Cancelled>;
+
+    /// Returns how many references per object the leaves hold at most.
+    fn max_references_per_object(&self) -> f64 {
+        1.0
+    }
+}
+
+/// The objects of a scene.
+pub struct Input<'a> {
+    pub objects: &'a [Primitive],
+    /// The bounds of all objects.
+    pub bounds: &'a [Aabb],
+    /// Maximum depth of a leaf of the binary hierarchy.
+    pub depth_limit: u32,
+    pub progress: &'a Progress,
+}
+
+impl Input<'_> {
+    /// Returns the number of objects as node and object indices count them.
+    pub fn count(&self) -> u32 {
+        self.bounds.len() as u32
+    }
+
+    /// Returns the center of an object's bounds.
+    pub fn center(&self, object: u32) -> Vec3 {
+        center(&self.bounds[object as usize])
+    }
+}
+
+/// Returns the center of a box, which does not overflow.
+pub fn center(bounds: &Aabb) -> Vec3 {
+    bounds.lo * 0.5 + bounds.hi * 0.5
+}
+
+/// Costs of the surface-area heuristic (SAH), as all builders count them.
+#[derive(Clone, Copy, Debug)]
+pub struct Costs {
+    /// Cost of an inner node.
+    pub traversal: f64,
+    /// Cost of an intersection test.
+    pub test: f64,
+    /// A leaf with more objects is always split.
+    pub max_leaf: usize,
+    /// A node with at most this many objects is a leaf, `N_OILF`.
+    pub min_leaf: usize,
+}
+
+impl Costs {
+    /// Reads the constants `cost-traversal`, `cost-test` and `max-leaf` of a method.
+    pub fn of(settings: &BuildSettings) -> Costs {
+        Costs {
+            traversal: settings.constant("cost-traversal"),
+            test: settings.constant("cost-test"),
+            max_leaf: settings.constant("max-leaf") as usize,
+            min_leaf: settings.n_oilf as usize,
+        }
+    }
+}

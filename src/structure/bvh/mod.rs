@@ -1,0 +1,21 @@
+//! Bounding volume hierarchies. A builder is one file here and one line in [`BVH_BUILDERS`].
+//!
+//! A builder makes a binary hierarchy in world coordinates ([`binary`]). It is then laid out with the width
+//! that the settings ask for ([`layout`]), in boxes of `f32` that are wider than rounding.
+
+mod binary;
+mod binned;
+pub(super) mod builder;
+mod constants;
+mod layout;
+mod sweep;
+mod top_down;
+
+pub use binary::{Binary, BinaryNode, Content};
+pub use builder::{BvhBuilder, Input};
+pub(super) use layout::{Laid, lay_out};
+
+use super::settings::MethodInfo;
+
+/// All builders.
+pub static BVH_BUILDERS: &[MethodInfo] = &[sweep::METHOD, binned::METHOD];

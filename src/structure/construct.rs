@@ -1,0 +1,124 @@
+//! Building the tree of a scene with any method.
+
+use super::build::{BuildError, Scope, divide};
+use super::bvh::{Binary, BvhBuilder, Input, Laid, lay_out};
+use super::frame::Frame;
+use super::method::Structure;
+use super::node::{Node, StopReason};
+use super::nodes::Nodes;
+use super::settings::{BuildSettings, Builder};
+use super::tree::Tree;
+use super::voxels::Voxels;
+use crate::geometry::Aabb;
+use crate::primitive::Shape;
+use crate::progress::Progress;
+use crate::scene::Scene;
+use rayon::prelude::*;
+use std::sync::OnceLock;
+
+/// Builds the tree of a scene on the threads of the current `rayon` pool, or of the global pool.
+/// The same scene and settings always give the same tree.
+///
+/// The tree of a scene without objects is one empty leaf.
+///
+/// # Errors
+/// A setting is out of range, the tree would exceed the memory limit, or cancellation.
+pub fn build(
+    scene: &Scene,
+    settings: &BuildSettings,
+    progress: &Progress,
+) -> Result<Tree, BuildError> {
+    settings.check()?;
+    let objects = scene.objects();
+    if objects.len() >= Node::MAX_LEAF {
+        return Err(BuildError::TooManyObjects(objects.len()));
+    }
+    // Enters the pool once instead of once per cell.
+    rayon::scope(|_| in_pool(scene, settings, progress))
+}
+
+fn in_pool(
+    scene: &Scene,
+    settings: &BuildSettings,
+    progress: &Progress,
+) -> Result<Tree, BuildError> {
+    /// Objects between two checks for cancellation.
+    const CHUNK: usize = 1 << 14;
+    let objects = scene.objects();
+    let frame = Frame::around(&scene.bounds(), settings.root_margin.resolve(scene));
+    let depth_limit = settings.d_max.resolve(objects.len());
+    let mut bounds = Vec::new();
+    objects
+        .par_iter()
+        .with_min_len(CHUNK)
+        .map(|object| match progress.is_cancelled() {
+            true => Aabb::EMPTY,
+            false => object.bounds(),
+        })
+        .collect_into_vec(&mut bounds);
+    progress.check()?;
+    let scope = Scope {
+        objects,
+        bounds: &bounds,
+        frame: &frame,
+        settings,
+        depth_limit,
+        progress,
+    };
+    let (nodes, references, depth_reached) = match settings.method.builder {
+        Builder::Cells(rule) => {
+            let divided = divide(&scope, rule(settings).as_ref())?;
+            let (nodes, references) = (divided.nodes, divided.references);
+            (Nodes::Planes(nodes), references, divided.depth_reached)
+        }
+        Builder::Boxes(builder) => {
+            let laid = enclose(&scope, builder(settings).as_ref())?;
+            (
+                Nodes::Boxes(laid.nodes),
+                laid.references,
+                laid.depth_reached,
+            )
+        }
+    };
+    let voxels = (settings.method.structure == Structure::Grid).then(|| Voxels::of(nodes.planes()));
+    Ok(Tree {
+        nodes,
+        voxels,
+        references,
+        frame,
+        settings: settings.clone(),
+        depth_limit,
+        depth_reached,
+        simd_tree: OnceLock::new(),
+    })
+}
+
+/// Builds a bounding volume hierarchy.
+fn enclose(scope: &Scope<'_>, builder: &dyn BvhBuilder) -> Result<Laid, BuildError> {
+    /// Bytes that a build takes per reference: lists of the builder, two nodes of the binary hierarchy, two
+    /// as laid out.
+    const PER_REFERENCE: f64 = 320.0;
+    let settings = scope.settings;
+    let references = scope.bounds.len() as f64 * builder.max_references_per_object();
+    let needed = (references * PER_REFERENCE) as u64;
+    if needed > settings.memory_limit {
+        return Err(BuildError::HierarchyTooLarge {
+            needed,
+            limit: settings.memory_limit,
+        });
+    }
+    let binary = if scope.objects.is_empty() {
+        let mut empty = Binary::default();
+        empty.leaf(scope.frame.cell(), [], StopReason::Empty);
+        empty
+    } else {
+        builder.build(&Input {
+            objects: scope.objects,
+            bounds: scope.bounds,
+            depth_limit: scope.depth_limit,
+            progress: scope.progress,
+        })?
+    };
+    let width = settings.constant("width") as usize;
+    Ok(lay_out(&binary, width, scope.frame, scope.progress)?)
+}
