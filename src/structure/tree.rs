@@ -170,7 +170,7 @@ impl Tree {
     }
 
     /// Returns the box of a node in world coordinates.
-    fn box_of(&self, node: &BoxNode) -> Aabb {
+    pub(super) fn box_of(&self, node: &BoxNode) -> Aabb {
         let corner = |local: [f32; 3]| {
             let at = |k: usize| {
                 self.frame

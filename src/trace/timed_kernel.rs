@@ -5,8 +5,8 @@ use crate::geometry::Ray;
 use crate::primitive::Shapes;
 use crate::progress::Progress;
 use crate::scene::Scene;
+use crate::structure::Tree;
 use crate::structure::simd_tree::SimdTree;
-use crate::structure::{Nodes, Tree};
 
 /// Batches with fewer rays go to the scalar kernel. It is as fast for them, as most lanes would idle
 /// (`cargo bench --bench peers`).
@@ -32,14 +32,10 @@ impl<'a> TimedKernel<'a> {
         shapes: &'a Shapes,
         progress: &'a Progress,
     ) -> Self {
-        let has_planes = matches!(tree.nodes(), Nodes::Planes(_));
-        let simd = choice
-            .simd()
-            .filter(|_| has_planes)
-            .map(|(mode, instructions)| {
-                let simd_tree = SimdTree::of(scene, tree);
-                SimdKernel::new(tree, simd_tree, shapes, instructions, mode)
-            });
+        let simd = choice.simd().map(|(mode, instructions)| {
+            let simd_tree = SimdTree::of(scene, tree);
+            SimdKernel::new(tree, simd_tree, shapes, instructions, mode)
+        });
         TimedKernel {
             scalar: ScalarKernel::new(tree, shapes, progress),
             simd,

@@ -4,7 +4,7 @@ use crate::geometry::Ray;
 use crate::primitive::Precision;
 use crate::progress::Progress;
 use crate::scene::Scene;
-use crate::structure::{Nodes, SimdTree, Tree};
+use crate::structure::{SimdTree, Tree};
 use crate::trace::{
     Batch, CountingKernel, Hit, InstructionSet, RayKind, RayTracer, ScalarKernel, SimdKernel,
     SimdMode,
@@ -52,11 +52,7 @@ impl ExactKernel {
         progress: &Progress,
     ) -> (Vec<Hit>, Vec<bool>) {
         let shapes = scene.shapes(precision);
-        let has_planes = matches!(tree.nodes(), Nodes::Planes(_));
         match self {
-            ExactKernel::Simd(..) if !has_planes => {
-                ask(&mut ScalarKernel::new(tree, shapes, progress), rays)
-            }
             ExactKernel::Scalar => ask(&mut ScalarKernel::new(tree, shapes, progress), rays),
             ExactKernel::Counting => ask(&mut CountingKernel::new(tree, shapes, progress, 1), rays),
             ExactKernel::Simd(mode, set) => {

@@ -2,7 +2,7 @@
 
 use super::block::{BLOCK, BlockData};
 use super::layout::{
-    ABOVE_EMPTY, AnyBlockTree, BELOW_EMPTY, BlockTree, CHILD_SHIFT, Node, SimdTree,
+    ABOVE_EMPTY, AnyBlockTree, BELOW_EMPTY, BlockTree, CHILD_SHIFT, Node, SimdNodes, SimdTree,
 };
 use super::pages::Pages;
 use crate::geometry::{Axis, Vec3};
@@ -10,6 +10,7 @@ use crate::primitive::{Primitive, PrimitiveKind, Shape, UnitFrame};
 use crate::scene::Scene;
 use crate::structure::frame::is_inside;
 use crate::structure::node;
+use crate::structure::nodes::Nodes;
 use crate::structure::settings::OverlapRule;
 use crate::structure::tree::Tree;
 
@@ -48,72 +49,101 @@ impl SimdTree {
 const HALF_THICKNESS: f32 = 40.0 * f32::EPSILON;
 
 impl<B: BlockData> BlockTree<B> {
+    /// Builds the tree of one with planes or with boxes.
+    ///
     /// # Panics
-    /// If the tree has more than [`MAX_NODES`] nodes.
+    /// If the tree has more than [`MAX_NODES`] nodes with planes.
     pub(super) fn new(tree: &Tree, objects: &[Primitive], frame: &UnitFrame) -> Self {
-        assert!(tree.nodes().len() < MAX_NODES, "a tree of 2 GiB of nodes");
-        let bounds = objects
-            .iter()
-            .map(Shape::bounds)
-            .fold(crate::geometry::Aabb::EMPTY, |all, b| all.union(&b));
-        let (_, half) = tree.frame().center_and_half();
-        // A plane may be half a unit in the last place away from the end of an object that it separates
-        // from its neighbor.
-        let half_thickness =
-            HALF_THICKNESS + 0.5 * f32::EPSILON * (half.max_element() * frame.scale()) as f32;
-        let corner = |v: Vec3, away: f32| (frame.point(v).as_vec3() + away).to_array();
-        let corners = if bounds.is_empty() {
-            [[1.0; 3], [-1.0; 3]]
-        } else {
-            [
-                corner(bounds.lo, -half_thickness),
-                corner(bounds.hi, half_thickness),
-            ]
-        };
+        match tree.nodes() {
+            Nodes::Planes(nodes) => BlockTree::of_planes(tree, nodes, objects, frame),
+            Nodes::Boxes(nodes) => BlockTree::of_boxes(tree, nodes, objects, frame),
+        }
+    }
+
+    fn of_planes(
+        tree: &Tree,
+        nodes: &[node::Node],
+        objects: &[Primitive],
+        frame: &UnitFrame,
+    ) -> Self {
+        assert!(nodes.len() < MAX_NODES, "a tree of 2 GiB of nodes");
+        let (half_thickness, corners) = corners_of(tree, objects, frame);
         let blocks = |node: &node::Node| match node.is_leaf() {
             true => node.as_leaf().1.div_ceil(BLOCK),
             false => 0,
         };
-        let nodes = tree.nodes().planes();
         let mut builder = Builder {
             tree,
-            nodes,
+            from: nodes,
             objects,
             frame,
             held: Vec::new(),
-            built: BlockTree {
-                nodes: Pages::with_capacity(nodes.len() + 1),
-                blocks: Pages::with_capacity(nodes.iter().map(blocks).sum()),
-                max_pending: 0,
-                half_thickness,
-                corners,
-            },
+            nodes: Pages::with_capacity(nodes.len() + 1),
+            blocks: Pages::with_capacity(nodes.iter().map(blocks).sum()),
+            max_pending: 0,
         };
         // The root has no sibling; its place stays empty.
         builder.reserve_siblings();
         builder.node(0, 0, [[-1.0, 1.0]; 3], 0);
-        builder.built
+        BlockTree {
+            nodes: SimdNodes::Planes(builder.nodes),
+            blocks: builder.blocks,
+            max_pending: builder.max_pending,
+            half_thickness,
+            corners,
+        }
     }
+}
+
+/// Returns half the thickness of planes and faces, and the corners of the scene's box enlarged by it, in the
+/// unit frame.
+pub(super) fn corners_of(
+    tree: &Tree,
+    objects: &[Primitive],
+    frame: &UnitFrame,
+) -> (f32, [[f32; 3]; 2]) {
+    let bounds = objects
+        .iter()
+        .map(Shape::bounds)
+        .fold(crate::geometry::Aabb::EMPTY, |all, b| all.union(&b));
+    let (_, half) = tree.frame().center_and_half();
+    // A plane may be half a unit in the last place away from the end of an object that it separates
+    // from its neighbor.
+    let half_thickness =
+        HALF_THICKNESS + 0.5 * f32::EPSILON * (half.max_element() * frame.scale()) as f32;
+    let corner = |v: Vec3, away: f32| (frame.point(v).as_vec3() + away).to_array();
+    let corners = if bounds.is_empty() {
+        [[1.0; 3], [-1.0; 3]]
+    } else {
+        [
+            corner(bounds.lo, -half_thickness),
+            corner(bounds.hi, half_thickness),
+        ]
+    };
+    (half_thickness, corners)
 }
 
 struct Builder<'a, B> {
     tree: &'a Tree,
-    nodes: &'a [node::Node],
+    from: &'a [node::Node],
     objects: &'a [Primitive],
     frame: &'a UnitFrame,
     /// Objects of the current leaf.
     held: Vec<u32>,
-    built: BlockTree<B>,
+    nodes: Pages<Node>,
+    blocks: Pages<B>,
+    /// Maximum number of pending nodes on a ray's stack.
+    max_pending: usize,
 }
 
 impl<B: BlockData> Builder<'_, B> {
     /// Builds the node `from` of the tree, whose cell is `cell`, at index `to`. `depth` is the number of
     /// inner nodes above it.
     fn node(&mut self, from: usize, to: usize, cell: [[f32; 2]; 3], depth: usize) {
-        let node = self.nodes[from];
+        let node = self.from[from];
         if node.is_leaf() {
-            self.built.nodes[to] = self.leaf(from, cell);
-            self.built.max_pending = self.built.max_pending.max(depth);
+            self.nodes[to] = self.leaf(from, cell);
+            self.max_pending = self.max_pending.max(depth);
             return;
         }
         let (axis, plane, above) = node.as_inner();
@@ -125,11 +155,11 @@ impl<B: BlockData> Builder<'_, B> {
         self.node(above as usize, first + 1, upper, depth + 1);
         let mut word = (first as u32) << CHILD_SHIFT | axis as u32;
         for (child, flag) in [(first, BELOW_EMPTY), (first + 1, ABOVE_EMPTY)] {
-            if self.built.nodes[child].is_empty_leaf() {
+            if self.nodes[child].is_empty_leaf() {
                 word |= flag;
             }
         }
-        self.built.nodes[to] = Node {
+        self.nodes[to] = Node {
             payload: self.plane(axis, plane).to_bits(),
             word,
         };
@@ -137,7 +167,7 @@ impl<B: BlockData> Builder<'_, B> {
 
     /// Appends two adjacent nodes and returns the index of the first.
     fn reserve_siblings(&mut self) -> usize {
-        let nodes = &mut self.built.nodes;
+        let nodes = &mut self.nodes;
         nodes.push(Node::default());
         nodes.push(Node::default());
         nodes.len() - 2
@@ -154,21 +184,21 @@ impl<B: BlockData> Builder<'_, B> {
     }
 
     fn leaf(&mut self, from: usize, cell: [[f32; 2]; 3]) -> Node {
-        let (first, count) = self.nodes[from].as_leaf();
+        let (first, count) = self.from[from].as_leaf();
         let references = &self.tree.references()[first..first + count];
         let mut held = std::mem::take(&mut self.held);
         held.clear();
         held.extend(references.iter().filter(|&&o| self.is_held(o, &cell)));
-        let first = self.built.blocks.len();
+        let first = self.blocks.len();
         for objects in held.chunks(BLOCK) {
             let mut block = B::default();
             for (place, &object) in objects.iter().enumerate() {
                 block.set(place, object, &self.objects[object as usize], self.frame);
             }
-            self.built.blocks.push(block);
+            self.blocks.push(block);
         }
         self.held = held;
-        Node::leaf(first, self.built.blocks.len() - first)
+        Node::leaf(first, self.blocks.len() - first)
     }
 
     /// Returns whether a leaf must hold an object that it has a reference to.

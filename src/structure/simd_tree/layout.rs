@@ -5,6 +5,7 @@ use super::boxes::Boxes;
 use super::pages::Pages;
 use super::spheres::Spheres;
 use super::triangles::Triangles;
+use super::wide::WideNode;
 use crate::primitive::UnitFrame;
 
 /// A node in 8 bytes.
@@ -41,9 +42,26 @@ impl Node {
     }
 }
 
+/// The nodes of a tree.
+pub(crate) enum SimdNodes {
+    Planes(Pages<Node>),
+    Boxes(Pages<WideNode>),
+}
+
+impl SimdNodes {
+    /// Returns the nodes with planes; empty for boxes.
+    #[inline(always)]
+    pub(crate) fn planes(&self) -> &[Node] {
+        match self {
+            SimdNodes::Planes(nodes) => nodes,
+            SimdNodes::Boxes(_) => &[],
+        }
+    }
+}
+
 /// A tree prepared for SIMD traversal, with blocks of one kind.
 pub(crate) struct BlockTree<B> {
-    pub(crate) nodes: Pages<Node>,
+    pub(crate) nodes: SimdNodes,
     pub(crate) blocks: Pages<B>,
     /// Maximum number of pending nodes on a ray's stack.
     pub(crate) max_pending: usize,
@@ -56,7 +74,11 @@ pub(crate) struct BlockTree<B> {
 impl<B> BlockTree<B> {
     /// Returns the memory that nodes and blocks take.
     pub(crate) fn bytes(&self) -> usize {
-        size_of_val(&*self.nodes) + size_of_val(&*self.blocks)
+        let nodes = match &self.nodes {
+            SimdNodes::Planes(nodes) => size_of_val(&**nodes),
+            SimdNodes::Boxes(nodes) => size_of_val(&**nodes),
+        };
+        nodes + size_of_val(&*self.blocks)
     }
 }
 

@@ -8,12 +8,15 @@ mod layout;
 mod pages;
 mod spheres;
 mod triangles;
+mod wide;
 
 pub(crate) use block::{BLOCK, BlockData, NONE};
 pub(crate) use boxes::Boxes;
 pub use layout::SimdTree;
 pub(crate) use layout::{
-    ABOVE_EMPTY, AnyBlockTree, BELOW_EMPTY, BlockTree, CHILD_SHIFT, LEAF, Node, with_block_tree,
+    ABOVE_EMPTY, AnyBlockTree, BELOW_EMPTY, BlockTree, CHILD_SHIFT, LEAF, Node, SimdNodes,
+    with_block_tree,
 };
 pub(crate) use spheres::Spheres;
 pub(crate) use triangles::Triangles;
+pub(crate) use wide::WideNode;

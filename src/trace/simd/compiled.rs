@@ -7,16 +7,17 @@ use super::block::Block;
 use super::candidate::{Candidate, ExactTests};
 use super::instruction_set::InstructionSet;
 use super::packet::{self, Coherence, PendingNode};
+use super::pool::{self, Pool};
 use super::queue::RayQueue;
 use super::ray::RayBuffer;
 use super::stream::{self, Stacks};
-use crate::structure::simd_tree::BlockTree;
+use crate::structure::simd_tree::{BlockTree, WideNode};
 use std::ops::Range;
 
 /// Defines the kernels for an instruction set, as functions that are compiled for it as a whole.
 #[cfg(target_arch = "x86_64")]
 macro_rules! compiled {
-    ($features:literal, $refill:ident, $stream:ident, $packets:ident, $simd:ty, $groups:literal) => {
+    ($features:literal, $refill:ident, $stream:ident, $packets:ident, $pool:ident, $simd:ty, $groups:literal) => {
         /// # Safety
         /// The processor must have the instruction set.
         #[target_feature(enable = $features)]
@@ -64,14 +65,37 @@ macro_rules! compiled {
             // SAFETY: the caller's.
             unsafe { packet::traverse::<$simd, B>(tree, rays, ahead, queue, stack, tests) }
         }
+
+        /// # Safety
+        /// The processor must have the instruction set.
+        #[target_feature(enable = $features)]
+        #[allow(clippy::too_many_arguments)]
+        unsafe fn $pool<B: Block>(
+            tree: &BlockTree<B>,
+            nodes: &[WideNode],
+            rays: &mut RayBuffer,
+            ahead: Range<usize>,
+            queue: &mut RayQueue<'_>,
+            pool: &mut Pool,
+            candidates: &mut Vec<Candidate>,
+            tests: &mut dyn ExactTests,
+        ) {
+            // SAFETY: the caller's.
+            unsafe {
+                pool::traverse::<$simd, Avx2, B>(
+                    tree, nodes, rays, ahead, queue, pool, candidates, tests,
+                )
+            }
+        }
     };
 }
 #[cfg(target_arch = "x86_64")]
 compiled!(
-    "avx512f,avx512dq,avx512vl,avx512bw,fma,bmi1,popcnt",
+    "avx2,avx512f,avx512dq,avx512vl,avx512bw,fma,bmi1,popcnt",
     refill_avx512,
     stream_avx512,
     packets_avx512,
+    pool_avx512,
     Avx512,
     5
 );
@@ -81,6 +105,7 @@ compiled!(
     refill_avx2,
     stream_avx2,
     packets_avx2,
+    pool_avx2,
     Avx2,
     4
 );
@@ -162,6 +187,40 @@ pub(super) unsafe fn packets<B: Block>(
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx2 => packets_avx2(tree, rays, ahead, queue, stack, tests),
             _ => packet::traverse::<Portable, _>(tree, rays, ahead, queue, stack, tests),
+        }
+    }
+}
+
+/// Calls [`pool::traverse`].
+///
+/// # Safety
+/// The processor must have the instruction set.
+#[allow(clippy::too_many_arguments)]
+pub(super) unsafe fn pool<B: Block>(
+    set: InstructionSet,
+    tree: &BlockTree<B>,
+    nodes: &[WideNode],
+    rays: &mut RayBuffer,
+    ahead: Range<usize>,
+    queue: &mut RayQueue<'_>,
+    pool: &mut Pool,
+    candidates: &mut Vec<Candidate>,
+    tests: &mut dyn ExactTests,
+) {
+    // SAFETY: the caller's.
+    unsafe {
+        match set {
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx512 => {
+                pool_avx512(tree, nodes, rays, ahead, queue, pool, candidates, tests);
+            }
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2 => {
+                pool_avx2(tree, nodes, rays, ahead, queue, pool, candidates, tests);
+            }
+            _ => pool::traverse::<Portable, Portable, _>(
+                tree, nodes, rays, ahead, queue, pool, candidates, tests,
+            ),
         }
     }
 }

@@ -18,13 +18,14 @@ use super::exact::{
 use super::instruction_set::InstructionSet;
 use super::mode::SimdMode;
 use super::packet::PendingNode;
+use super::pool::Pool;
 use super::queue::{RayQueue, end_all};
 use super::ray::{CHUNKS, RayBuffer, RaySetup};
 use super::stream::Stacks;
 use crate::geometry::Ray;
 use crate::primitive::{Arrays, Shapes, with_array};
-use crate::structure::Tree;
-use crate::structure::simd_tree::{AnyBlockTree, SimdTree, with_block_tree};
+use crate::structure::simd_tree::{AnyBlockTree, SimdNodes, SimdTree, with_block_tree};
+use crate::structure::{Nodes, Tree};
 use crate::trace::{Hit, Scratch, any_hit, closest_hit};
 use std::ops::Range;
 
@@ -76,6 +77,7 @@ pub struct SimdKernel<'a> {
     /// Whether the rays of this call are traced in packets; `None` while that is not decided.
     in_packets: Option<bool>,
     stacks: Stacks,
+    pool: Pool,
     packet_stack: Vec<PendingNode>,
     candidates: Vec<Candidate>,
     scratch: Scratch,
@@ -112,6 +114,7 @@ impl<'a> SimdKernel<'a> {
             mode,
             in_packets: None,
             stacks: Stacks::default(),
+            pool: Pool::default(),
             packet_stack: Vec::new(),
             candidates: Vec::new(),
             scratch: Scratch::default(),
@@ -165,7 +168,11 @@ impl<'a> SimdKernel<'a> {
         };
         let mut queue = RayQueue::new(setup, rays);
         self.rays.scalar_rays.clear();
-        self.in_packets = self.mode.uses_packets();
+        // Packets need planes.
+        self.in_packets = match self.tree.nodes() {
+            Nodes::Planes(_) => self.mode.uses_packets(),
+            Nodes::Boxes(_) => Some(false),
+        };
         while !queue.is_empty() {
             let chunks = if self.in_packets == Some(true) {
                 CHUNKS
@@ -220,9 +227,17 @@ impl<'a> SimdKernel<'a> {
     ) {
         let (set, rays, stacks) = (self.instructions, &mut *self.rays, &mut self.stacks);
         let candidates = &mut self.candidates;
-        with_block_tree!(self.simd_tree, tree => {
-            // SAFETY: as above.
-            unsafe { compiled::stream(set, tree, rays, ahead, queue, stacks, candidates, tests) }
+        let pool = &mut self.pool;
+        // SAFETY: as above.
+        with_block_tree!(self.simd_tree, tree => unsafe {
+            match &tree.nodes {
+                SimdNodes::Planes(_) => {
+                    compiled::stream(set, tree, rays, ahead, queue, stacks, candidates, tests);
+                }
+                SimdNodes::Boxes(nodes) => {
+                    compiled::pool(set, tree, nodes, rays, ahead, queue, pool, candidates, tests);
+                }
+            }
         });
     }
 

@@ -18,7 +18,7 @@
 //! | rays | [`ray`], [`ray_packet`], [`candidate`], [`queue`] |
 //! | blocks | [`block`] |
 //! | exact tests | [`crossings`], [`exact`] |
-//! | traversal | [`packet`], [`stream`] |
+//! | traversal | [`packet`], [`stream`], [`pool`] |
 //! | kernel | [`mode`], [`compiled`], [`kernel`] |
 
 mod arithmetic;
@@ -32,6 +32,7 @@ mod instruction_set;
 mod kernel;
 mod mode;
 mod packet;
+mod pool;
 mod prefetch;
 mod queue;
 mod ray;

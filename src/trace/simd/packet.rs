@@ -204,10 +204,11 @@ unsafe fn traverse_packet<S: Simd, B: Block>(
         enter: S::load(packet.t_enter.as_ptr()),
         exit: S::load(packet.t_exit.as_ptr()),
     };
+    let nodes = tree.nodes.planes();
     loop {
         pending.coherence.visits += 1;
         pending.coherence.lanes += visit.lanes.count_ones();
-        let node = *tree.nodes.get_unchecked(at as usize);
+        let node = *nodes.get_unchecked(at as usize);
         if node.word & LEAF != LEAF {
             let axis = (node.word & LEAF) as usize;
             let shifted = S::load(packet.shifted.get_unchecked(axis).as_ptr());

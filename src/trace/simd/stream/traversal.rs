@@ -249,7 +249,7 @@ pub(crate) unsafe fn traverse<S: Simd, B: Block, const GROUPS: usize>(
         // With few rays left, all lanes idle.
         let min_moving = alive.saturating_sub(enough);
         // The next nodes of a group are loaded while the others step.
-        let nodes = tree.nodes.as_ptr().cast();
+        let nodes = tree.nodes.planes().as_ptr().cast();
         let mut fetched = [(S::splat_u(0), S::splat_u(0)); GROUPS];
         each_group!(GROUPS, J => fetched[J] = S::gather_pairs(nodes, states[J].node));
         loop {
