@@ -107,20 +107,21 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
             build,
         })
     };
-    let start = Instant::now();
-    let tree = ours::build(scene);
-    let simd_tree = SimdTree::of(scene, &tree);
-    let build = start.elapsed();
-    println!(
-        "SIMD tree: {:.1} bytes per object",
-        simd_tree.bytes() as f64 / scene.objects().len() as f64
-    );
-    println!(
-        "our tree: {} nodes, {} references, depth {}",
-        tree.nodes().len(),
-        tree.references().len(),
-        tree.depth_reached()
-    );
+    let trees = ours::CHOICES.map(|choice| {
+        let start = Instant::now();
+        let tree = ours::build(scene, &choice);
+        let simd_tree = SimdTree::of(scene, &tree);
+        let build = start.elapsed();
+        println!(
+            "our {} tree: {} nodes, {} references, depth {}, {:.1} bytes per object for SIMD kernels",
+            choice.name,
+            tree.nodes().len(),
+            tree.references().len(),
+            tree.depth_reached(),
+            simd_tree.bytes() as f64 / scene.objects().len() as f64
+        );
+        (choice, tree, build)
+    });
     let mut entrants = Vec::new();
     match timed("embree i1", &|| {
         Some(Box::new(embree::Embree::new(scene, 1)?) as _)
@@ -141,12 +142,14 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
         }));
     }
     let reference = entrants.len();
-    for (name, kernel) in ours::kernels(scene, &tree, simd_tree) {
-        entrants.push(Entrant {
-            name,
-            kernel,
-            build,
-        });
+    for (choice, tree, build) in &trees {
+        for (name, kernel) in ours::kernels(choice, scene, tree, SimdTree::of(scene, tree)) {
+            entrants.push(Entrant {
+                name,
+                kernel,
+                build: *build,
+            });
+        }
     }
     let sets = ray_sets(subject, options.size, |rays| {
         let mut found = Vec::new();

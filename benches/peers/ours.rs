@@ -5,24 +5,50 @@ use bspscope::primitive::{Precision, Shapes};
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
 use bspscope::structure::SimdTree;
-use bspscope::structure::{BuildSettings, MaxDepth, Method, Tree, build as build_tree};
+use bspscope::structure::{BuildSettings, MaxDepth, Method, Nodes, Tree, build as build_tree};
 use bspscope::trace::{
     Batch, Hit, InstructionSet, RayKind, RayTracer, ScalarKernel, SimdKernel, SimdMode,
 };
 
-/// Builds the tree of all our kernels, on one thread as the others'.
-pub fn build(scene: &Scene) -> Tree {
+/// A tree that our kernels are fast with: its name, its method, and settings of the method.
+pub struct Choice {
+    pub name: &'static str,
+    method: &'static str,
+    constants: &'static [(&'static str, f64)],
+}
+
+/// The trees of all our kernels.
+pub const CHOICES: [Choice; 2] = [
+    Choice {
+        name: "kd",
+        method: "sah",
+        constants: &[],
+    },
+    Choice {
+        name: "bvh",
+        method: "bvh-binned",
+        constants: &[("width", 8.0), ("max-leaf", 16.0), ("block", 16.0)],
+    },
+];
+
+/// Builds a tree on one thread, as the others do.
+pub fn build(scene: &Scene, choice: &Choice) -> Tree {
+    let constants = choice.constants.iter();
     let settings = BuildSettings {
         d_max: MaxDepth::Fixed(MaxDepth::LIMIT),
-        ..BuildSettings::for_method(Method::named("sah").expect("a method"))
+        constants: constants
+            .map(|(name, value)| ((*name).to_owned(), *value))
+            .collect(),
+        ..BuildSettings::for_method(Method::named(choice.method).expect("a method"))
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let build = || build_tree(scene, &settings, &Progress::new());
     pool.expect("a thread").install(build).expect("a tree")
 }
 
-/// Returns all kernels; the first is the scalar kernel in `f64`.
+/// Returns all kernels on a tree; the first is the scalar kernel in `f64`.
 pub fn kernels<'a>(
+    choice: &Choice,
     scene: &'a Scene,
     tree: &'a Tree,
     simd_tree: &'a SimdTree,
@@ -35,12 +61,19 @@ pub fn kernels<'a>(
             shapes,
             progress: Progress::new(),
         };
-        kernels.push((format!("scalar {}", precision.name()), Box::new(scalar)));
+        kernels.push((
+            format!("{} scalar {}", choice.name, precision.name()),
+            Box::new(scalar),
+        ));
         for instructions in InstructionSet::ALL
             .into_iter()
             .filter(|set| set.is_available())
         {
-            for mode in SimdMode::ALL {
+            let modes = match tree.nodes() {
+                Nodes::Planes(_) => &SimdMode::ALL[..],
+                Nodes::Boxes(_) => &[SimdMode::Stream],
+            };
+            for &mode in modes {
                 let kernel = Simd {
                     tree,
                     simd_tree,
@@ -49,7 +82,7 @@ pub fn kernels<'a>(
                     mode,
                 };
                 let [mode, set] = [mode.name(), instructions.name()];
-                let name = format!("{mode} {set} {}", precision.name());
+                let name = format!("{} {mode} {set} {}", choice.name, precision.name());
                 kernels.push((name, Box::new(kernel)));
             }
         }

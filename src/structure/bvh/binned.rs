@@ -2,7 +2,7 @@
 
 use super::binary::Binary;
 use super::builder::{BvhBuilder, Costs, Input, center};
-use super::constants::{COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::constants::{BLOCK, COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
 use super::sweep::bounds_of;
 use super::top_down::{self, Divide, Split};
 use crate::geometry::{Aabb, Vec3};
@@ -20,7 +20,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: None,
     paper_spheres_exactly: false,
     structure: Structure::Bvh,
-    constants: &[WIDTH, MAX_LEAF, BINS, COST_TRAVERSAL, COST_TEST],
+    constants: &[WIDTH, MAX_LEAF, BLOCK, BINS, COST_TRAVERSAL, COST_TEST],
     builder: Builder::Boxes(|settings| Box::new(Binned::new(settings))),
 };
 
@@ -128,7 +128,7 @@ impl Divide for Binned {
                 *bounds = bounds.union(&input.bounds[object as usize]);
                 *count += 1;
             }
-            for (first_right, cost) in costs_between(&held) {
+            for (first_right, cost) in costs_between(&held, &self.costs) {
                 if best.is_none_or(|best| cost < best.cost) {
                     let how = Between { bins, first_right };
                     best = Some(Split { how, cost });
@@ -166,24 +166,24 @@ fn centers_of(input: &Input<'_>, objects: &[u32]) -> Aabb {
 
 /// Returns the cost of every split between bins that leaves objects on both sides, with the first bin to the
 /// right. `held` has the bounds and the number of references of each bin.
-pub fn costs_between(held: &[(Aabb, usize)]) -> Vec<(usize, f64)> {
+pub fn costs_between(held: &[(Aabb, usize)], costs: &Costs) -> Vec<(usize, f64)> {
     let mut rest = vec![(0.0, 0_usize); held.len()];
     let (mut bounds, mut count) = (Aabb::EMPTY, 0);
     for (i, (more, n)) in held.iter().enumerate().skip(1).rev() {
         bounds = bounds.union(more);
         count += n;
-        rest[i] = (bounds.surface_area() * count as f64, count);
+        rest[i] = (bounds.surface_area() * costs.blocks(count), count);
     }
     let (mut bounds, mut count) = (Aabb::EMPTY, 0);
-    let mut costs = Vec::new();
+    let mut found = Vec::new();
     for i in 1..held.len() {
         let (more, n) = &held[i - 1];
         bounds = bounds.union(more);
         count += n;
         let (right, on_right) = rest[i];
         if count > 0 && on_right > 0 {
-            costs.push((i, bounds.surface_area() * count as f64 + right));
+            found.push((i, bounds.surface_area() * costs.blocks(count) + right));
         }
     }
-    costs
+    found
 }

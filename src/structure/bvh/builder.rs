@@ -52,8 +52,10 @@ pub fn center(bounds: &Aabb) -> Vec3 {
 pub struct Costs {
     /// Cost of an inner node.
     pub traversal: f64,
-    /// Cost of an intersection test.
+    /// Cost of the test of a block of objects.
     pub test: f64,
+    /// Objects per block.
+    pub block: usize,
     /// A leaf with more objects is always split.
     pub max_leaf: usize,
     /// A node with at most this many objects is a leaf, `N_OILF`.
@@ -61,13 +63,19 @@ pub struct Costs {
 }
 
 impl Costs {
-    /// Reads the constants `cost-traversal`, `cost-test` and `max-leaf` of a method.
+    /// Reads the constants `cost-traversal`, `cost-test`, `block` and `max-leaf` of a method.
     pub fn of(settings: &BuildSettings) -> Costs {
         Costs {
             traversal: settings.constant("cost-traversal"),
             test: settings.constant("cost-test"),
+            block: settings.constant("block") as usize,
             max_leaf: settings.constant("max-leaf") as usize,
             min_leaf: settings.n_oilf as usize,
         }
+    }
+
+    /// Returns the number of blocks that objects take.
+    pub fn blocks(&self, objects: usize) -> f64 {
+        objects.div_ceil(self.block) as f64
     }
 }

@@ -36,6 +36,18 @@ pub const COST_TEST: Constant = Constant {
     source: "T. Aila, T. Karras and S. Laine, On quality metrics of bounding volume hierarchies, 2013",
 };
 
+pub const BLOCK: Constant = Constant {
+    name: "block",
+    default: 1.0,
+    lowest: 1.0,
+    highest: 64.0,
+    step: 1.0,
+    unit: "objects",
+    about: "Objects that a kernel tests at once. The cost of a leaf counts blocks of this many objects, begun ones \
+            as whole ones.",
+    source: "ours: 16 suits the SIMD kernels",
+};
+
 pub const MAX_LEAF: Constant = Constant {
     name: "max-leaf",
     default: 8.0,

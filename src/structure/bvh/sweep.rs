@@ -2,7 +2,7 @@
 
 use super::binary::Binary;
 use super::builder::{BvhBuilder, Costs, Input};
-use super::constants::{COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::constants::{BLOCK, COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
 use super::top_down::{self, Divide, Split};
 use crate::geometry::Aabb;
 use crate::progress::Cancelled;
@@ -22,7 +22,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: None,
     paper_spheres_exactly: false,
     structure: Structure::Bvh,
-    constants: &[WIDTH, MAX_LEAF, COST_TRAVERSAL, COST_TEST],
+    constants: &[WIDTH, MAX_LEAF, BLOCK, COST_TRAVERSAL, COST_TEST],
     builder: Builder::Boxes(|settings| Box::new(Sweep::new(settings))),
 };
 
@@ -42,6 +42,7 @@ impl BvhBuilder for Sweep {
     fn build(&self, input: &Input<'_>) -> Result<Binary, Cancelled> {
         let is_left = (0..input.count()).map(|_| AtomicBool::new(false));
         let sweeping = Sweeping {
+            costs: self.costs,
             is_left: is_left.collect(),
         };
         top_down::build(&sweeping, self.costs, input)
@@ -49,6 +50,7 @@ impl BvhBuilder for Sweep {
 }
 
 struct Sweeping {
+    costs: Costs,
     /// Scratch by object. Nodes that are built at the same time have no object in common.
     is_left: Vec<AtomicBool>,
 }
@@ -107,12 +109,12 @@ impl Divide for Sweeping {
             let mut bounds = Aabb::EMPTY;
             for i in (1..count).rev() {
                 bounds = bounds.union(&input.bounds[order[i] as usize]);
-                rest[i] = bounds.surface_area() * (count - i) as f64;
+                rest[i] = bounds.surface_area() * self.costs.blocks(count - i);
             }
             let mut bounds = Aabb::EMPTY;
             for i in 1..count {
                 bounds = bounds.union(&input.bounds[order[i - 1] as usize]);
-                let cost = bounds.surface_area() * i as f64 + rest[i];
+                let cost = bounds.surface_area() * self.costs.blocks(i) + rest[i];
                 if best.is_none_or(|best| cost < best.cost) {
                     let how = Prefix { axis, count: i };
                     best = Some(Split { how, cost });

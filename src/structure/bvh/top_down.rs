@@ -8,7 +8,7 @@ use crate::structure::node::StopReason;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A division of a node's references with its cost: the areas of both boxes, each multiplied by the number
-/// of references in it.
+/// of blocks that its references take.
 #[derive(Clone, Copy, Debug)]
 pub struct Split<D> {
     pub how: D,
@@ -141,6 +141,7 @@ impl<D: Divide> Driver<'_, D> {
             test,
             max_leaf,
             min_leaf,
+            ..
         } = self.costs;
         if count <= min_leaf.max(1) {
             return Err(StopReason::FewObjects);
@@ -160,7 +161,7 @@ impl<D: Divide> Driver<'_, D> {
             None => Ok(None),
             Some(split) => {
                 let area = bounds.surface_area();
-                let leaf_cost = test * count as f64 * area;
+                let leaf_cost = test * self.costs.blocks(count) * area;
                 if leaf_may_do && leaf_cost <= traversal * area + test * split.cost {
                     return Err(StopReason::LeafIsCheaper);
                 }

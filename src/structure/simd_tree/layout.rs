@@ -5,7 +5,7 @@ use super::boxes::Boxes;
 use super::pages::Pages;
 use super::spheres::Spheres;
 use super::triangles::Triangles;
-use super::wide::WideNode;
+use super::wide::WideNodes;
 use crate::primitive::UnitFrame;
 
 /// A node in 8 bytes.
@@ -45,7 +45,7 @@ impl Node {
 /// The nodes of a tree.
 pub(crate) enum SimdNodes {
     Planes(Pages<Node>),
-    Boxes(Pages<WideNode>),
+    Boxes(WideNodes),
 }
 
 impl SimdNodes {
@@ -76,7 +76,7 @@ impl<B> BlockTree<B> {
     pub(crate) fn bytes(&self) -> usize {
         let nodes = match &self.nodes {
             SimdNodes::Planes(nodes) => size_of_val(&**nodes),
-            SimdNodes::Boxes(nodes) => size_of_val(&**nodes),
+            SimdNodes::Boxes(nodes) => size_of_val(&*nodes.nodes),
         };
         nodes + size_of_val(&*self.blocks)
     }

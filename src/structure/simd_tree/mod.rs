@@ -19,4 +19,4 @@ pub(crate) use layout::{
 };
 pub(crate) use spheres::Spheres;
 pub(crate) use triangles::Triangles;
-pub(crate) use wide::WideNode;
+pub(crate) use wide::{Child, WideNode, WideNodes};

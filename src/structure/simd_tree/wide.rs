@@ -14,13 +14,91 @@ use crate::structure::tree::Tree;
 pub(crate) struct WideNode {
     /// Lower and upper corners of the children, by axis, in the coordinates of the unit frame.
     pub(crate) corners: [[[f32; MAX_WIDTH]; 3]; 2],
-    /// Index of the child's node, or of a leaf's first block.
-    pub(crate) child: [u32; MAX_WIDTH],
-    /// Number of a leaf's blocks; 0 for an inner node.
-    pub(crate) blocks: [u32; MAX_WIDTH],
+    pub(crate) children: [Child; MAX_WIDTH],
 }
 
 const _: () = assert!(size_of::<WideNode>() == 256);
+
+/// A child of a node, in a word.
+///
+/// | | inner node | leaf |
+/// |---|---|---|
+/// | bit 0 | 0 | 1 |
+/// | bits 1 to 4 | 0 | number of blocks; 0 if there are more than 15 |
+/// | other bits | index of the node | index of the first block |
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+#[repr(transparent)]
+pub(crate) struct Child(u32);
+
+impl Child {
+    /// Marks the bottom of a stack: a leaf that does not exist.
+    pub(crate) const END: Child = Child(u32::MAX);
+
+    const BITS: u32 = 5;
+    const MOST_BLOCKS: usize = 15;
+
+    fn node(index: usize) -> Child {
+        assert!(index < 1 << (32 - Self::BITS), "a tree of 32 GiB of nodes");
+        Child((index as u32) << Self::BITS)
+    }
+
+    fn leaf(first: usize, blocks: usize) -> Child {
+        assert!(
+            first < (1 << (32 - Self::BITS)) - 1,
+            "a tree of 2³¹ objects"
+        );
+        let few = if blocks > Self::MOST_BLOCKS {
+            0
+        } else {
+            blocks
+        };
+        Child((first as u32) << Self::BITS | (few as u32) << 1 | 1)
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_leaf(self) -> bool {
+        self.0 & 1 != 0
+    }
+
+    /// Returns the index of the node, or of the first block.
+    #[inline(always)]
+    pub(crate) fn index(self) -> usize {
+        (self.0 >> Self::BITS) as usize
+    }
+
+    /// Returns the number of a leaf's blocks; 0 if there are many.
+    #[inline(always)]
+    pub(crate) fn blocks(self) -> usize {
+        (self.0 >> 1 & 15) as usize
+    }
+}
+
+/// The nodes of a hierarchy.
+pub(crate) struct WideNodes {
+    pub(crate) nodes: Pages<WideNode>,
+    /// First block and number of blocks of each leaf whose [`Child`] does not say how many it has, ascending.
+    large_leaves: Vec<(u32, u32)>,
+}
+
+impl WideNodes {
+    /// Returns the number of blocks of a leaf.
+    #[inline(always)]
+    pub(crate) fn blocks(&self, leaf: Child) -> usize {
+        match leaf.blocks() {
+            0 => self.many_blocks(leaf),
+            blocks => blocks,
+        }
+    }
+
+    #[cold]
+    fn many_blocks(&self, leaf: Child) -> usize {
+        let first = leaf.index() as u32;
+        let found = self
+            .large_leaves
+            .binary_search_by_key(&first, |leaf| leaf.0);
+        found.map_or(0, |k| self.large_leaves[k].1 as usize)
+    }
+}
 
 impl WideNode {
     const EMPTY: WideNode = WideNode {
@@ -28,8 +106,7 @@ impl WideNode {
             [[f32::INFINITY; MAX_WIDTH]; 3],
             [[f32::NEG_INFINITY; MAX_WIDTH]; 3],
         ],
-        child: [0; MAX_WIDTH],
-        blocks: [0; MAX_WIDTH],
+        children: [Child::END; MAX_WIDTH],
     };
 }
 
@@ -54,6 +131,7 @@ impl<B: BlockData> BlockTree<B> {
             frame,
             wide: Pages::with_capacity(inner_count.max(1)),
             blocks: Pages::with_capacity(nodes.iter().map(leaf_blocks).sum()),
+            large_leaves: Vec::new(),
         };
         // A root that is a leaf becomes the only child of an inner node.
         builder.wide.push(WideNode::EMPTY);
@@ -62,9 +140,17 @@ impl<B: BlockData> BlockTree<B> {
         } else {
             builder.build();
         }
-        let Builder { wide, blocks, .. } = builder;
+        let Builder {
+            wide,
+            blocks,
+            large_leaves,
+            ..
+        } = builder;
         BlockTree {
-            nodes: SimdNodes::Boxes(wide),
+            nodes: SimdNodes::Boxes(WideNodes {
+                nodes: wide,
+                large_leaves,
+            }),
             blocks,
             max_pending: (tree.depth_reached() as usize + 1) * (MAX_WIDTH - 1) + 1,
             half_thickness,
@@ -80,6 +166,7 @@ struct Builder<'a, B> {
     frame: &'a UnitFrame,
     wide: Pages<WideNode>,
     blocks: Pages<B>,
+    large_leaves: Vec<(u32, u32)>,
 }
 
 impl<B: BlockData> Builder<'_, B> {
@@ -94,7 +181,7 @@ impl<B: BlockData> Builder<'_, B> {
                     self.set_leaf(to, place, child);
                 } else {
                     self.set_box(to, place, child);
-                    self.wide[to].child[place] = self.wide.len() as u32;
+                    self.wide[to].children[place] = Child::node(self.wide.len());
                     stack.push((child, self.wide.len()));
                     self.wide.push(WideNode::EMPTY);
                 }
@@ -110,8 +197,11 @@ impl<B: BlockData> Builder<'_, B> {
             return;
         }
         self.set_box(to, place, leaf);
-        self.wide[to].child[place] = self.blocks.len() as u32;
-        self.wide[to].blocks[place] = held.len().div_ceil(BLOCK) as u32;
+        let (first, blocks) = (self.blocks.len(), held.len().div_ceil(BLOCK));
+        self.wide[to].children[place] = Child::leaf(first, blocks);
+        if Child::leaf(first, blocks).blocks() == 0 {
+            self.large_leaves.push((first as u32, blocks as u32));
+        }
         for objects in held.chunks(BLOCK) {
             let mut block = B::default();
             for (place, &object) in objects.iter().enumerate() {

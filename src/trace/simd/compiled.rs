@@ -11,7 +11,7 @@ use super::pool::{self, Pool};
 use super::queue::RayQueue;
 use super::ray::RayBuffer;
 use super::stream::{self, Stacks};
-use crate::structure::simd_tree::{BlockTree, WideNode};
+use crate::structure::simd_tree::{BlockTree, WideNodes};
 use std::ops::Range;
 
 /// Defines the kernels for an instruction set, as functions that are compiled for it as a whole.
@@ -72,7 +72,7 @@ macro_rules! compiled {
         #[allow(clippy::too_many_arguments)]
         unsafe fn $pool<B: Block>(
             tree: &BlockTree<B>,
-            nodes: &[WideNode],
+            nodes: &WideNodes,
             rays: &mut RayBuffer,
             ahead: Range<usize>,
             queue: &mut RayQueue<'_>,
@@ -199,7 +199,7 @@ pub(super) unsafe fn packets<B: Block>(
 pub(super) unsafe fn pool<B: Block>(
     set: InstructionSet,
     tree: &BlockTree<B>,
-    nodes: &[WideNode],
+    nodes: &WideNodes,
     rays: &mut RayBuffer,
     ahead: Range<usize>,
     queue: &mut RayQueue<'_>,

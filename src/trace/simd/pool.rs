@@ -22,14 +22,14 @@
 //! axis, which the thickness ([`crate::structure::SimdTree`]) covers.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::arithmetic::Simd;
+use super::arithmetic::{Eight, Simd};
 use super::block::Block;
 use super::candidate::{Candidate, ExactTests};
 use super::prefetch::prefetch;
 use super::queue::RayQueue;
 use super::ray::{CHUNK, CHUNKS, RayBuffer};
 use crate::structure::MAX_WIDTH;
-use crate::structure::simd_tree::{BLOCK, BlockTree, WideNode};
+use crate::structure::simd_tree::{BLOCK, BlockTree, Child, WideNode, WideNodes};
 use std::ops::Range;
 
 /// Rays in the pool.
@@ -38,82 +38,126 @@ const RAYS: usize = 32;
 /// Leaves are tested once this many rays are at one.
 const ENOUGH: usize = 12;
 
-/// A child of a node: an inner node, or the blocks of a leaf.
-#[derive(Clone, Copy, Default)]
-struct Child {
-    index: u32,
-    /// 0 for an inner node.
-    blocks: u32,
-}
-
-/// A pending child.
-#[derive(Clone, Copy, Default)]
-#[repr(C, align(16))]
-struct Pending {
-    t_enter: f32,
-    child: Child,
-}
+/// The bits of a distance that hold a child's place while children are sorted.
+const PLACE: u32 = MAX_WIDTH as u32 - 1;
 
 /// A ray of the pool.
 #[derive(Clone, Copy, Default)]
+#[repr(C, align(64))]
 struct PoolRay {
     inverse: [f32; 3],
+    t_enter: f32,
     /// Added to a distance from the frame's origin: for the near and the far side of faces.
     shift: [[f32; 3]; 2],
     /// By axis, 1 if the ray points towards lower coordinates.
-    backward: [usize; 3],
-    t_enter: f32,
+    backward: [u32; 3],
     /// Slot in the [`RayBuffer`].
     slot: u32,
-    /// Number of pending children.
-    pending: usize,
+    /// Index of the first free entry of the stack.
+    top: u32,
 }
 
-/// The memory of a pool.
+/// The stacks of all rays, one after the other: where the pending children begin, and the children. At the
+/// bottom of each lies [`Child::END`].
 #[derive(Default)]
 pub(super) struct Pool {
-    /// The stacks of all rays, one after the other.
-    stacks: Vec<Pending>,
+    begins: Vec<f32>,
+    children: Vec<Child>,
+}
+
+/// Room at the bottom of a stack for the vectors that [`Stacks::pop`] loads.
+const BOTTOM: usize = MAX_WIDTH;
+
+/// Pointers to the stacks.
+#[derive(Clone, Copy)]
+struct Stacks {
+    begins: *mut f32,
+    children: *mut Child,
+    depth: usize,
+}
+
+impl Stacks {
+    /// Returns the stacks of all rays, each with room for this many children.
+    fn new(pool: &mut Pool, pending: usize) -> Stacks {
+        let depth = BOTTOM + pending + MAX_WIDTH;
+        pool.begins.resize(RAYS * depth, 0.0);
+        pool.children.resize(RAYS * depth, Child::END);
+        for stack in 0..RAYS {
+            let bottom = stack * depth..stack * depth + BOTTOM;
+            pool.begins[bottom.clone()].fill(f32::NEG_INFINITY);
+            pool.children[bottom].fill(Child::END);
+        }
+        Stacks {
+            begins: pool.begins.as_mut_ptr(),
+            children: pool.children.as_mut_ptr(),
+            depth,
+        }
+    }
+
+    /// Returns the index of the first free entry of an empty stack.
+    fn bottom(&self, ray: usize) -> u32 {
+        (ray * self.depth + BOTTOM) as u32
+    }
+
+    /// Removes the entries from the top to the first that begins before the limit, and returns that one. The
+    /// bottom is before any limit.
+    ///
+    /// # Safety
+    /// As [`Simd`]; `top` is that of a stack.
+    #[inline(always)]
+    unsafe fn pop<N: Eight>(&self, top: &mut u32, limit: f32) -> Child {
+        let limit = N::splat(limit);
+        let mut at = *top as usize - MAX_WIDTH;
+        loop {
+            let before = N::mask_bits(N::le(N::load(self.begins.add(at)), limit));
+            if before != 0 {
+                at += before.ilog2() as usize;
+                *top = at as u32;
+                return *self.children.add(at);
+            }
+            at -= MAX_WIDTH;
+        }
+    }
 }
 
 /// Rays of the pool with a child each, in any order.
 struct List {
-    rays: [u32; RAYS],
-    children: [Child; RAYS],
+    rays: [u32; 2 * RAYS],
+    children: [Child; 2 * RAYS],
     count: usize,
 }
 
 impl List {
     fn new() -> Self {
         List {
-            rays: [0; RAYS],
-            children: [Child::default(); RAYS],
+            rays: [0; 2 * RAYS],
+            children: [Child::END; 2 * RAYS],
             count: 0,
         }
     }
 
-    /// Appends a ray.
+    /// Appends a ray if `is_added`. Branchless: it is stored in any case.
     ///
     /// # Safety
-    /// The list is not full.
+    /// Fewer than all rays are in the list.
     #[inline(always)]
-    unsafe fn push(&mut self, ray: u32, child: Child) {
+    unsafe fn push(&mut self, is_added: bool, ray: u32, child: Child) {
         *self.rays.get_unchecked_mut(self.count) = ray;
         *self.children.get_unchecked_mut(self.count) = child;
-        self.count += 1;
+        self.count += usize::from(is_added);
     }
 }
 
 /// Traces rays through a hierarchy: first the entering rays in `ahead`, then those of the queue as chunks
-/// become free. `S` are the vectors of objects, `N` those of boxes, with eight lanes.
+/// become free. `S` are the vectors of objects, `N` those of boxes.
 ///
 /// # Safety
 /// As [`Simd`].
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-pub(super) unsafe fn traverse<S: Simd, N: Simd, B: Block>(
+pub(super) unsafe fn traverse<S: Simd, N: Eight, B: Block>(
     tree: &BlockTree<B>,
-    nodes: &[WideNode],
+    wide: &WideNodes,
     rays: &mut RayBuffer,
     mut ahead: Range<usize>,
     queue: &mut RayQueue<'_>,
@@ -122,23 +166,24 @@ pub(super) unsafe fn traverse<S: Simd, N: Simd, B: Block>(
     tests: &mut dyn ExactTests,
 ) {
     const { assert!(N::LANES == MAX_WIDTH) };
-    let depth = tree.max_pending + MAX_WIDTH;
-    pool.stacks.resize(RAYS * depth, Pending::default());
-    let stacks = pool.stacks.as_mut_ptr();
+    let stacks = Stacks::new(pool, tree.max_pending);
+    let (nodes, blocks) = (wide.nodes.as_ptr(), tree.blocks.as_ptr());
     let any_hit = tests.any_hit_suffices();
     let mut flights = [PoolRay::default(); RAYS];
     let mut limits = [-1.0_f32; RAYS];
-    let mut free: [u32; RAYS] = std::array::from_fn(|k| k as u32);
-    let mut free_count = RAYS;
-    let (mut moving, mut leaves) = (List::new(), List::new());
+    let mut free = List::new();
+    for k in 0..RAYS {
+        free.push(true, k as u32, Child::END);
+    }
+    let (mut moving, mut leaves, mut ended) = (List::new(), List::new(), List::new());
     loop {
         // Start rays.
-        while free_count > 0 {
+        while free.count > 0 {
             if ahead.is_empty() {
                 if queue.is_empty() {
                     break;
                 }
-                let Some(chunk) = free_chunk(&flights, &free[..free_count]) else {
+                let Some(chunk) = free_chunk(&flights, &free.rays[..free.count]) else {
                     break;
                 };
                 rays.entering.keep_from(ahead.start);
@@ -146,13 +191,14 @@ pub(super) unsafe fn traverse<S: Simd, N: Simd, B: Block>(
                 ahead = 0..rays.entering.count;
                 continue;
             }
-            free_count -= 1;
-            let k = *free.get_unchecked(free_count);
+            free.count -= 1;
+            let k = *free.rays.get_unchecked(free.count);
             let entry = ahead.start;
             ahead.start += 1;
-            *flights.get_unchecked_mut(k as usize) = PoolRay::new(rays, entry);
-            *limits.get_unchecked_mut(k as usize) = rays.entering.t_exit[entry];
-            moving.push(k, Child::default());
+            *flights.get_unchecked_mut(k as usize) =
+                PoolRay::new(rays, entry, stacks.bottom(k as usize));
+            *limits.get_unchecked_mut(k as usize) = *rays.entering.t_exit.get_unchecked(entry);
+            moving.push(true, k, Child::default());
             queue.prefetch(1);
         }
         // Step until enough rays are at a leaf.
@@ -160,42 +206,46 @@ pub(super) unsafe fn traverse<S: Simd, N: Simd, B: Block>(
             let count = std::mem::take(&mut moving.count);
             for i in 0..count {
                 let k = *moving.rays.get_unchecked(i);
-                let node = nodes.get_unchecked(moving.children.get_unchecked(i).index as usize);
+                let at = moving.children.get_unchecked(i).index();
                 let ray = flights.get_unchecked_mut(k as usize);
-                let stack = stacks.add(k as usize * depth);
                 let limit = *limits.get_unchecked(k as usize);
-                let next = match step::<N>(node, ray, stack, limit, any_hit) {
-                    Some(child) => Some(child),
-                    None => pop(ray, stack, limit),
-                };
-                place(
-                    next,
-                    k,
-                    tree,
-                    nodes,
-                    &mut moving,
-                    &mut leaves,
-                    &mut free,
-                    &mut free_count,
-                );
+                let next = step::<N>(&*nodes.add(at), ray, &stacks, limit);
+                // Branchless: leaves and nodes alternate without a pattern.
+                let is_leaf = next.is_leaf();
+                let address = [
+                    nodes.wrapping_add(next.index()).cast::<u8>(),
+                    blocks.wrapping_add(next.index()).cast(),
+                ];
+                prefetch(address[usize::from(is_leaf)].cast::<[u8; 256]>());
+                moving.push(!is_leaf, k, next);
+                leaves.push(is_leaf, k, next);
             }
         }
         if leaves.count == 0 {
-            if free_count == RAYS && ahead.is_empty() && queue.is_empty() {
+            if free.count == RAYS && ahead.is_empty() && queue.is_empty() {
                 return;
             }
             continue;
         }
-        // Test leaves.
+        // Rays at the bottom of their stack are done.
         let count = std::mem::take(&mut leaves.count);
-        let at_leaves = (leaves.rays, leaves.children);
+        ended.count = 0;
+        for i in 0..count {
+            let (k, leaf) = (leaves.rays[i], leaves.children[i]);
+            let is_end = leaf == Child::END;
+            free.push(is_end, k, leaf);
+            ended.push(!is_end, k, leaf);
+        }
+        // Test leaves.
+        let count = ended.count;
         candidates.clear();
         for i in 0..count {
-            let (k, leaf) = (at_leaves.0[i], at_leaves.1[i]);
+            let k = *ended.rays.get_unchecked(i);
+            let leaf = *ended.children.get_unchecked(i);
             let slot = flights.get_unchecked(k as usize).slot;
             let limit = limits.get_unchecked_mut(k as usize);
-            for block in leaf.index..leaf.index + leaf.blocks {
-                let objects = tree.blocks.get_unchecked(block as usize);
+            for block in leaf.index()..leaf.index() + wide.blocks(leaf) {
+                let objects = &*blocks.add(block);
                 let masks = objects.candidates::<S>(rays, slot as usize, *limit, any_hit);
                 if masks.certain != 0 {
                     tests.mark_hit(rays, &[slot]);
@@ -209,7 +259,7 @@ pub(super) unsafe fn traverse<S: Simd, N: Simd, B: Block>(
                     candidates.push(Candidate {
                         lane: k,
                         ray: slot,
-                        block,
+                        block: block as u32,
                         place,
                         object: *objects.objects().get_unchecked(place as usize),
                     });
@@ -220,33 +270,32 @@ pub(super) unsafe fn traverse<S: Simd, N: Simd, B: Block>(
             tests.test(rays, candidates, &mut limits);
         }
         for i in 0..count {
-            let k = at_leaves.0[i];
+            let k = *ended.rays.get_unchecked(i);
             let ray = flights.get_unchecked_mut(k as usize);
             let limit = *limits.get_unchecked(k as usize);
-            let next = pop(ray, stacks.add(k as usize * depth), limit);
-            place(
-                next,
-                k,
-                tree,
-                nodes,
-                &mut moving,
-                &mut leaves,
-                &mut free,
-                &mut free_count,
-            );
+            let next = stacks.pop::<N>(&mut ray.top, limit);
+            let is_leaf = next.is_leaf();
+            let address = [
+                nodes.wrapping_add(next.index()).cast::<u8>(),
+                blocks.wrapping_add(next.index()).cast(),
+            ];
+            prefetch(address[usize::from(is_leaf)].cast::<[u8; 256]>());
+            moving.push(!is_leaf, k, next);
+            leaves.push(is_leaf, k, next);
         }
     }
 }
 
 impl PoolRay {
-    /// Returns an entering ray.
+    /// Returns an entering ray with an empty stack.
     #[inline(always)]
-    unsafe fn new(rays: &RayBuffer, entry: usize) -> PoolRay {
+    unsafe fn new(rays: &RayBuffer, entry: usize, bottom: u32) -> PoolRay {
         let entering = &rays.entering;
         let thickness = 2.0 * rays.half_thickness;
         let mut ray = PoolRay {
             t_enter: *entering.t_enter.get_unchecked(entry),
             slot: *entering.ray.get_unchecked(entry),
+            top: bottom,
             ..PoolRay::default()
         };
         for k in 0..3 {
@@ -255,27 +304,24 @@ impl PoolRay {
             ray.inverse[k] = inverse;
             ray.shift[0][k] = near;
             ray.shift[1][k] = near + thickness * inverse.abs();
-            ray.backward[k] = usize::from(inverse.is_sign_negative());
+            ray.backward[k] = u32::from(inverse.is_sign_negative());
         }
         ray
     }
 }
 
-/// Tests the children of a node. Returns the nearest of those that the ray meets before its limit, and pushes
-/// the others so that the nearest is on top.
+/// Tests the children of a node. Pushes those that the ray meets before its limit, the nearest on top, and pops
+/// one.
+///
+/// Children are sorted by the distances where their boxes begin, with the child's place in the lowest bits.
+/// Rounded down again, such a distance still is a lower bound.
 #[inline(always)]
-unsafe fn step<N: Simd>(
-    node: &WideNode,
-    ray: &mut PoolRay,
-    stack: *mut Pending,
-    limit: f32,
-    any_hit: bool,
-) -> Option<Child> {
+unsafe fn step<N: Eight>(node: &WideNode, ray: &mut PoolRay, stacks: &Stacks, limit: f32) -> Child {
     let (mut enter, mut exit) = (N::splat(ray.t_enter), N::splat(limit));
     for k in 0..3 {
         let inverse = N::splat(ray.inverse[k]);
-        let face = |side: usize| {
-            let side = side ^ ray.backward.get_unchecked(k);
+        let face = |side: u32| {
+            let side = (side ^ ray.backward[k]) as usize;
             N::load(node.corners.get_unchecked(side).get_unchecked(k).as_ptr())
         };
         let near = N::mul_add(face(0), inverse, N::splat(ray.shift[0][k]));
@@ -283,82 +329,29 @@ unsafe fn step<N: Simd>(
         enter = N::max(near, enter);
         exit = N::min(far, exit);
     }
-    let mut met = N::mask_bits(N::le(enter, exit));
+    let is_met = N::le(enter, exit);
+    let met = N::mask_bits(is_met).count_ones();
     if met == 0 {
-        return None;
+        return stacks.pop::<N>(&mut ray.top, limit);
     }
-    let mut begins = [0.0_f32; MAX_WIDTH];
-    N::store_u(begins.as_mut_ptr().cast(), N::bits_of(enter));
-    let first = ray.pending;
-    loop {
-        let k = met.trailing_zeros() as usize;
-        met &= met - 1;
-        let pending = Pending {
-            t_enter: *begins.get_unchecked(k),
-            child: Child {
-                index: *node.child.get_unchecked(k),
-                blocks: *node.blocks.get_unchecked(k),
-            },
-        };
-        // Insertion: the nearest is on top. The order does not matter where any hit suffices.
-        let mut at = ray.pending;
-        if !any_hit {
-            while at > first && (*stack.add(at - 1)).t_enter < pending.t_enter {
-                *stack.add(at) = *stack.add(at - 1);
-                at -= 1;
-            }
-        }
-        *stack.add(at) = pending;
-        ray.pending += 1;
-        if met == 0 {
-            break;
-        }
-    }
-    ray.pending -= 1;
-    Some((*stack.add(ray.pending)).child)
+    let place = N::splat_u(PLACE);
+    let begins = N::and_not_u(N::bits_of(enter), place);
+    let keys = N::from_bits(N::add_u(begins, N::load_u(PLACES.as_ptr())));
+    // The missed ones come last.
+    let keys = N::select(is_met, keys, N::splat(f32::NEG_INFINITY));
+    let sorted = N::bits_of(N::sort_descending(keys));
+    let children = N::load_u(node.children.as_ptr().cast());
+    let top = ray.top as usize;
+    N::store_u(stacks.begins.add(top).cast(), N::and_not_u(sorted, place));
+    N::store_u(
+        stacks.children.add(top).cast(),
+        N::permute_u(children, sorted),
+    );
+    ray.top = (top as u32) + met - 1;
+    *stacks.children.add(ray.top as usize)
 }
 
-/// Pops a pending child that begins before the limit.
-#[inline(always)]
-unsafe fn pop(ray: &mut PoolRay, stack: *const Pending, limit: f32) -> Option<Child> {
-    while ray.pending > 0 {
-        ray.pending -= 1;
-        let pending = *stack.add(ray.pending);
-        if pending.t_enter <= limit {
-            return Some(pending.child);
-        }
-    }
-    None
-}
-
-/// Appends a ray to the list of those at an inner node, at a leaf, or done; and prefetches what it needs next.
-#[inline(always)]
-#[allow(clippy::too_many_arguments)]
-unsafe fn place<B: Block>(
-    next: Option<Child>,
-    ray: u32,
-    tree: &BlockTree<B>,
-    nodes: &[WideNode],
-    moving: &mut List,
-    leaves: &mut List,
-    free: &mut [u32; RAYS],
-    free_count: &mut usize,
-) {
-    match next {
-        None => {
-            *free.get_unchecked_mut(*free_count) = ray;
-            *free_count += 1;
-        }
-        Some(child) if child.blocks == 0 => {
-            prefetch(nodes.as_ptr().add(child.index as usize));
-            moving.push(ray, child);
-        }
-        Some(child) => {
-            prefetch(tree.blocks.as_ptr().add(child.index as usize));
-            leaves.push(ray, child);
-        }
-    }
-}
+const PLACES: [u32; MAX_WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7];
 
 /// Returns a chunk none of whose rays is in the pool. No ray is ahead.
 fn free_chunk(flights: &[PoolRay; RAYS], free: &[u32]) -> Option<usize> {

@@ -1,7 +1,7 @@
 //! Eight lanes of AVX2 with fused multiply–add.
 #![allow(unsafe_op_in_unsafe_fn)] // the trait's contract covers every line
 
-use super::vector::{ROW, ROW_STRIDE, Simd};
+use super::vector::{Eight, ROW, ROW_STRIDE, Simd};
 use std::arch::x86_64::*;
 
 #[derive(Clone, Copy)]
@@ -65,6 +65,38 @@ pub(super) unsafe fn max_lane(a: __m256) -> f32 {
     let four = _mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps::<1>(a));
     let two = _mm_max_ps(four, _mm_movehl_ps(four, four));
     _mm_cvtss_f32(_mm_max_ss(two, _mm_movehdup_ps(two)))
+}
+
+/// Puts the larger of lane `k` and lane `at[k]` into the lower of both lanes. `UPPER` has the bits of the upper
+/// ones.
+#[inline(always)]
+unsafe fn exchange<const UPPER: i32>(a: __m256, at: [i32; 8]) -> __m256 {
+    let at = _mm256_loadu_si256(at.as_ptr().cast());
+    let b = _mm256_permutevar8x32_ps(a, at);
+    _mm256_blend_ps::<UPPER>(_mm256_max_ps(a, b), _mm256_min_ps(a, b))
+}
+
+impl Eight for Avx2 {
+    #[inline(always)]
+    unsafe fn sort_descending(a: __m256) -> __m256 {
+        // The network of 19 exchanges in 6 layers (D. E. Knuth, The Art of Computer Programming 3, 5.3.4).
+        let a = exchange::<0b1100_1100>(a, [2, 3, 0, 1, 6, 7, 4, 5]);
+        let a = exchange::<0b1111_0000>(a, [4, 5, 6, 7, 0, 1, 2, 3]);
+        let a = exchange::<0b1010_1010>(a, [1, 0, 3, 2, 5, 4, 7, 6]);
+        let a = exchange::<0b0011_0000>(a, [0, 1, 4, 5, 2, 3, 6, 7]);
+        let a = exchange::<0b0101_0000>(a, [0, 4, 2, 6, 1, 5, 3, 7]);
+        exchange::<0b0101_0100>(a, [0, 2, 1, 4, 3, 6, 5, 7])
+    }
+
+    #[inline(always)]
+    unsafe fn permute_u(a: __m256i, at: __m256i) -> __m256i {
+        _mm256_permutevar8x32_epi32(a, at)
+    }
+
+    #[inline(always)]
+    unsafe fn and_not_u(a: __m256i, b: __m256i) -> __m256i {
+        _mm256_andnot_si256(b, a)
+    }
 }
 
 impl Simd for Avx2 {

@@ -7,4 +7,4 @@ pub(super) mod avx512;
 pub(super) mod portable;
 mod vector;
 
-pub(super) use vector::{ROW, ROW_STRIDE, Simd, WIDEST};
+pub(super) use vector::{Eight, ROW, ROW_STRIDE, Simd, WIDEST};

@@ -1,6 +1,6 @@
 //! Eight lanes in portable Rust, for processors without code of their own.
 
-use super::vector::{ROW, ROW_STRIDE, Simd};
+use super::vector::{Eight, ROW, ROW_STRIDE, Simd};
 
 #[derive(Clone, Copy)]
 pub(crate) struct Portable;
@@ -20,6 +20,24 @@ fn compare<A: Copy>(a: [A; LANES], b: [A; LANES], f: impl Fn(A, A) -> bool) -> u
 #[inline(always)]
 fn blend<A: Copy>(mask: u32, a: [A; LANES], b: [A; LANES]) -> [A; LANES] {
     std::array::from_fn(|k| if mask >> k & 1 == 1 { a[k] } else { b[k] })
+}
+
+impl Eight for Portable {
+    #[inline(always)]
+    unsafe fn sort_descending(mut a: Self::F) -> Self::F {
+        a.sort_unstable_by(|a, b| b.total_cmp(a));
+        a
+    }
+
+    #[inline(always)]
+    unsafe fn permute_u(a: Self::U, at: Self::U) -> Self::U {
+        at.map(|k| a[k as usize % LANES])
+    }
+
+    #[inline(always)]
+    unsafe fn and_not_u(a: Self::U, b: Self::U) -> Self::U {
+        map(a, b, |a, b| a & !b)
+    }
 }
 
 impl Simd for Portable {

@@ -9,6 +9,27 @@ pub(crate) const ROW: usize = 8;
 /// Numbers from the beginning of a row to that of the next.
 pub(crate) const ROW_STRIDE: usize = 2 * ROW;
 
+/// Vectors of eight lanes: one per child of a node.
+pub(crate) trait Eight: Simd {
+    /// Sorts lanes, the largest first. None may be NaN.
+    ///
+    /// # Safety
+    /// As [`Simd`].
+    unsafe fn sort_descending(a: Self::F) -> Self::F;
+
+    /// Returns the lanes of `a` whose numbers are the lowest three bits of `at`.
+    ///
+    /// # Safety
+    /// As [`Simd`].
+    unsafe fn permute_u(a: Self::U, at: Self::U) -> Self::U;
+
+    /// Returns `a` and not `b`, bit by bit.
+    ///
+    /// # Safety
+    /// As [`Simd`].
+    unsafe fn and_not_u(a: Self::U, b: Self::U) -> Self::U;
+}
+
 /// A vector type: lanes of `f32` (`F`), of `u32` (`U`), and masks (`M`).
 ///
 /// Functions named `…_u` work on `u32`.
