@@ -1,6 +1,7 @@
 //! The choice of the kernel for timed rendering.
 
 use super::{InstructionSet, SimdMode};
+use crate::structure::split::Structure;
 use serde::{Deserialize, Serialize};
 
 /// The kernel chosen for timed rendering.
@@ -64,11 +65,16 @@ impl KernelChoice {
         }
     }
 
-    /// Returns the kernel used on this processor, as reports name it.
+    /// Returns the kernel used on this processor for trees with planes, as reports name it.
     pub fn description(self) -> String {
+        self.description_for(Structure::Bintree)
+    }
+
+    /// Returns the kernel used on this processor for a structure, as reports name it.
+    pub fn description_for(self, structure: Structure) -> String {
         match self.simd() {
             None => "scalar".into(),
-            Some((mode, set)) => format!("{}, {}", mode.name(), set.name()),
+            Some((mode, set)) => format!("{}, {}", mode.of(structure).name(), set.name()),
         }
     }
 }

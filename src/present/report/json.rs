@@ -103,7 +103,7 @@ fn settings(report: &Report, run: &Measurement) -> Value {
     });
     let kernel = json!({
         "asked": settings["kernel"],
-        "used": run.render.kernel.description(),
+        "used": run.render.kernel.description_for(run.build.method.structure),
     });
     settings["precision"] = precision;
     settings["kernel"] = kernel;

@@ -83,7 +83,15 @@ pub fn settings(report: &Report) -> Vec<String> {
             camera.angle
         ));
         lines.push(format!("Precision: {}", run.precision));
-        lines.push(format!("Timed kernel: {}", run.render.kernel.description()));
+        let mut kernels: Vec<String> = Vec::new();
+        for run in &report.runs {
+            let structure = run.build.method.structure;
+            let kernel = run.render.kernel.description_for(structure);
+            if !kernels.contains(&kernel) {
+                kernels.push(kernel);
+            }
+        }
+        lines.push(format!("Timed kernel: {}", kernels.join("; ")));
     }
     lines.extend(report.runs.iter().map(|run| tree(report, run)));
     lines

@@ -24,7 +24,7 @@ const _: () = assert!(size_of::<WideNode>() == 256);
 /// | | inner node | leaf |
 /// |---|---|---|
 /// | bit 0 | 0 | 1 |
-/// | bits 1 to 4 | 0 | number of blocks; 0 if there are more than 15 |
+/// | bits 1 to 4 | 0 | number of blocks; 0 if there are more than 14 |
 /// | other bits | index of the node | index of the first block |
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 #[repr(transparent)]
@@ -32,10 +32,10 @@ pub(crate) struct Child(u32);
 
 impl Child {
     /// Marks the bottom of a stack: a leaf that does not exist.
-    pub(crate) const END: Child = Child(u32::MAX);
+    pub(crate) const END: Child = Child(15 << 1 | 1);
 
     const BITS: u32 = 5;
-    const MOST_BLOCKS: usize = 15;
+    const MOST_BLOCKS: usize = 14;
 
     fn node(index: usize) -> Child {
         assert!(index < 1 << (32 - Self::BITS), "a tree of 32 GiB of nodes");

@@ -24,8 +24,8 @@ use super::ray::{CHUNKS, RayBuffer, RaySetup};
 use super::stream::Stacks;
 use crate::geometry::Ray;
 use crate::primitive::{Arrays, Shapes, with_array};
+use crate::structure::Tree;
 use crate::structure::simd_tree::{AnyBlockTree, SimdNodes, SimdTree, with_block_tree};
-use crate::structure::{Nodes, Tree};
 use crate::trace::{Hit, Scratch, any_hit, closest_hit};
 use std::ops::Range;
 
@@ -111,7 +111,7 @@ impl<'a> SimdKernel<'a> {
             shapes,
             instructions,
             rays: RayBuffer::new(),
-            mode,
+            mode: mode.of(tree.settings().method.structure),
             in_packets: None,
             stacks: Stacks::default(),
             pool: Pool::default(),
@@ -168,11 +168,7 @@ impl<'a> SimdKernel<'a> {
         };
         let mut queue = RayQueue::new(setup, rays);
         self.rays.scalar_rays.clear();
-        // Packets need planes.
-        self.in_packets = match self.tree.nodes() {
-            Nodes::Planes(_) => self.mode.uses_packets(),
-            Nodes::Boxes(_) => Some(false),
-        };
+        self.in_packets = self.mode.uses_packets();
         while !queue.is_empty() {
             let chunks = if self.in_packets == Some(true) {
                 CHUNKS

@@ -1,5 +1,7 @@
 //! The two ways in which SIMD kernels traverse a tree, and the choice between them.
 
+use crate::structure::split::Structure;
+
 /// How the rays of a call traverse the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SimdMode {
@@ -17,6 +19,14 @@ impl SimdMode {
     /// Returns the name in reports.
     pub const fn name(self) -> &'static str {
         ["stream", "packets", "stream and packets"][self as usize]
+    }
+
+    /// Returns how rays traverse a structure where this is chosen: packets need planes.
+    pub(in crate::trace) fn of(self, structure: Structure) -> SimdMode {
+        match structure {
+            Structure::Bvh => SimdMode::Stream,
+            _ => self,
+        }
     }
 
     /// Returns whether rays are traced in packets; `None` where the coherence of the rays decides.

@@ -30,6 +30,7 @@ use super::queue::RayQueue;
 use super::ray::{CHUNK, CHUNKS, RayBuffer};
 use crate::structure::MAX_WIDTH;
 use crate::structure::simd_tree::{BLOCK, BlockTree, Child, WideNode, WideNodes};
+use std::hint::select_unpredictable;
 use std::ops::Range;
 
 /// Rays in the pool.
@@ -210,15 +211,7 @@ pub(super) unsafe fn traverse<S: Simd, N: Eight, B: Block>(
                 let ray = flights.get_unchecked_mut(k as usize);
                 let limit = *limits.get_unchecked(k as usize);
                 let next = step::<N>(&*nodes.add(at), ray, &stacks, limit);
-                // Branchless: leaves and nodes alternate without a pattern.
-                let is_leaf = next.is_leaf();
-                let address = [
-                    nodes.wrapping_add(next.index()).cast::<u8>(),
-                    blocks.wrapping_add(next.index()).cast(),
-                ];
-                prefetch(address[usize::from(is_leaf)].cast::<[u8; 256]>());
-                moving.push(!is_leaf, k, next);
-                leaves.push(is_leaf, k, next);
+                place(next, k, (nodes, blocks), &mut moving, &mut leaves);
             }
         }
         if leaves.count == 0 {
@@ -232,6 +225,7 @@ pub(super) unsafe fn traverse<S: Simd, N: Eight, B: Block>(
         ended.count = 0;
         for i in 0..count {
             let (k, leaf) = (leaves.rays[i], leaves.children[i]);
+            prefetch(blocks.wrapping_add(leaf.index()));
             let is_end = leaf == Child::END;
             free.push(is_end, k, leaf);
             ended.push(!is_end, k, leaf);
@@ -274,16 +268,26 @@ pub(super) unsafe fn traverse<S: Simd, N: Eight, B: Block>(
             let ray = flights.get_unchecked_mut(k as usize);
             let limit = *limits.get_unchecked(k as usize);
             let next = stacks.pop::<N>(&mut ray.top, limit);
-            let is_leaf = next.is_leaf();
-            let address = [
-                nodes.wrapping_add(next.index()).cast::<u8>(),
-                blocks.wrapping_add(next.index()).cast(),
-            ];
-            prefetch(address[usize::from(is_leaf)].cast::<[u8; 256]>());
-            moving.push(!is_leaf, k, next);
-            leaves.push(is_leaf, k, next);
+            place(next, k, (nodes, blocks), &mut moving, &mut leaves);
         }
     }
+}
+
+/// Appends a ray to the list of those at a node or of those at a leaf, and prefetches the node or the beginning
+/// of the leaf's first block. Branchless: nodes and leaves follow each other without a pattern.
+#[inline(always)]
+unsafe fn place<B>(
+    next: Child,
+    ray: u32,
+    (nodes, blocks): (*const WideNode, *const B),
+    moving: &mut List,
+    leaves: &mut List,
+) {
+    let node = nodes.wrapping_add(next.index());
+    let block = blocks.wrapping_add(next.index()).cast();
+    prefetch(select_unpredictable(next.is_leaf(), block, node));
+    moving.push(!next.is_leaf(), ray, next);
+    leaves.push(next.is_leaf(), ray, next);
 }
 
 impl PoolRay {

@@ -40,8 +40,12 @@ impl Pane for FiguresPane {
         let room = ui.available_height();
         ui.spacing_mut().item_spacing.y = SPACE;
         let kernel = doc.figures(doc.which).map(|figures| {
-            let render = &figures.now.setup.render;
-            format!("Timed kernel: {}", render.kernel.description())
+            let setup = &figures.now.setup;
+            let structure = setup.build.method.structure;
+            format!(
+                "Timed kernel: {}",
+                setup.render.kernel.description_for(structure)
+            )
         });
         for symbol in CARDS {
             let is_time = parameter(symbol).class == Class::T;

@@ -105,7 +105,8 @@ fn note(doc: &Document, setting: &Setting, setup: &Setup) -> Option<[String; 2]>
             }
         }
         "kernel" => {
-            let used = setup.render.kernel.description();
+            let structure = setup.build.method.structure;
+            let used = setup.render.kernel.description_for(structure);
             let is_other = used != setup.render.kernel.name();
             is_other.then(|| [used, "On this processor".to_owned()])
         }
