@@ -309,6 +309,16 @@ impl Shape for Cone {
         bounds.touches(cell) && !gjk::excludes_origin(difference, scale)
     }
 
+    /// Returns twice the sum of the areas of the silhouettes along the axes, which may be a little too large.
+    fn least_box_area(&self) -> f64 {
+        let radius = self.ends.base_radius.max(self.ends.apex_radius);
+        let side = (self.ends.base_radius + self.ends.apex_radius) * self.length();
+        let disc = std::f64::consts::PI * radius * radius;
+        let n = self.side.axis;
+        let across = (Vec3::ONE - n * n).max(Vec3::ZERO).map(f64::sqrt);
+        2.0 * (across * side + n.abs() * disc).element_sum()
+    }
+
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         Surface::Cone(self.ends).settle(self.estimates(ray), ray, t_max)
