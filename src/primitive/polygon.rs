@@ -437,13 +437,15 @@ impl Shape for Polygon {
 
     /// Whether the polygon is convex or not, every point of it is in a triangle of the fan around the first
     /// vertex: the number of times that the outline turns around the point is the sum of those of the
-    /// triangles. The exact plane is less than 64 ε of the largest coordinate from the vertices in it.
+    /// triangles. The vertices themselves count, too, as for the bounds. The exact plane is less than 64 ε of the largest coordinate from the vertices in it.
     fn certain_bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
-        let vertices = self.vertices_in_plane();
-        let first = vertices[0];
+        let outlines = [Some(&*self.vertices), self.in_plane.as_deref()];
         certain(&self.bounds, cell, |cell| {
-            let fan = vertices[1..].windows(2);
-            let parts = fan.filter_map(|edge| bounds_of_outline(&[first, edge[0], edge[1]], cell));
+            let fans = outlines.into_iter().flatten().flat_map(|vertices| {
+                let edges = vertices[1..].windows(2);
+                edges.map(|edge| [vertices[0], edge[0], edge[1]])
+            });
+            let parts = fans.filter_map(|triangle| bounds_of_outline(&triangle, cell));
             parts.reduce(|all, part| all.union(&part))
         })
     }

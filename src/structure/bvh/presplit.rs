@@ -39,6 +39,8 @@ const BUDGET: Constant = Constant {
 struct Presplit {
     sweep: Sweep,
     budget: f64,
+    /// So few objects are one leaf.
+    min_leaf: u32,
 }
 
 impl Presplit {
@@ -46,13 +48,18 @@ impl Presplit {
         Presplit {
             sweep: Sweep::new(settings),
             budget: settings.constant("budget"),
+            min_leaf: settings.n_oilf,
         }
     }
 }
 
 impl BvhBuilder for Presplit {
     fn build(&self, input: &Input<'_>) -> Result<Binary, Cancelled> {
-        let splits = (self.budget * f64::from(input.count())) as u64;
+        let splits = if input.count() > self.min_leaf {
+            (self.budget * f64::from(input.count())) as u64
+        } else {
+            0
+        };
         let parts = split_all(input, splits)?;
         let bounds: Vec<Aabb> = parts.iter().map(|(bounds, _)| *bounds).collect();
         let mut built = self.sweep.build(&Input {
@@ -164,6 +171,9 @@ struct MedianPlanes {
 /// Levels of median planes.
 const LEVELS: u32 = 30;
 
+/// The part of a cell of the last level that rounding may add to a box.
+const TOUCH: f64 = 1.0 / 1024.0;
+
 /// A median plane.
 #[derive(Clone, Copy)]
 struct MedianPlane {
@@ -187,9 +197,10 @@ impl MedianPlanes {
             let (from, length) = (self.all.lo[axis], self.all.size()[axis]);
             let cells = f64::from(1 << LEVELS);
             let place = |at: f64| (at - from) / length * cells;
-            // The cells in which the box begins and ends. It does not reach into the one that it only touches.
-            let lo = (place(bounds.lo[axis]).floor() as u64).min((1 << LEVELS) - 1);
-            let hi = (place(bounds.hi[axis]).ceil() as u64).clamp(1, 1 << LEVELS) - 1;
+            // The cells in which the box begins and ends. It does not reach into one that it only touches, up to
+            // rounding.
+            let lo = ((place(bounds.lo[axis]) + TOUCH).floor() as u64).min((1 << LEVELS) - 1);
+            let hi = ((place(bounds.hi[axis]) - TOUCH).ceil() as u64).clamp(1, 1 << LEVELS) - 1;
             if lo >= hi {
                 continue;
             }
@@ -220,7 +231,9 @@ impl MedianPlanes {
         // Relative to the scene, so that a scene that is scaled has the same priorities.
         let excess = (bounds.surface_area() - least_area) / self.all.surface_area();
         let excess = excess.max(0.0);
-        libm::cbrt(libm::exp2(f64::from(plane.level)) * excess)
+        let priority = libm::cbrt(libm::exp2(f64::from(plane.level)) * excess);
+        // So that rounding does not decide which of several equal objects are split.
+        f64::from(priority as f32)
     }
 
     /// Adds the parts of an object.

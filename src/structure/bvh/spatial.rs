@@ -202,6 +202,10 @@ impl Divide for Splitting {
         } else {
             None
         };
+        if parts.is_none() && whole.is_none() {
+            // Halves with the same centers would not do better.
+            references.spare = 0;
+        }
         parts.or(whole.map(|(split, _)| split))
     }
 
