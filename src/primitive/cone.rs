@@ -1,5 +1,6 @@
 //! Cylinders and truncated cones: the open lateral surface between two circles.
 
+use super::clip::certain;
 use super::estimate::{Estimate, U, UNDERFLOW};
 use super::exact::{ConeEnds, Root, Surface};
 use super::{Polygon, Shape, ShapeError, SurfacePoint, gjk, numeric};
@@ -141,6 +142,54 @@ impl Cone {
         (0..sides).filter_map(side).collect()
     }
 
+    /// Returns how far a disc of radius 1 perpendicular to the axis extends along each coordinate axis.
+    fn disc_extent(&self) -> Vec3 {
+        let n = self.side.axis;
+        let squares = n * n;
+        let extent = Vec3::new(
+            (squares.y + squares.z).sqrt(),
+            (squares.z + squares.x).sqrt(),
+            (squares.x + squares.y).sqrt(),
+        );
+        // Its error is at most 9 u; it has none if the axis is parallel to a coordinate axis.
+        let is_exact = extent == extent.round();
+        if is_exact {
+            extent
+        } else {
+            extent * (1.0 + 10.0 * U)
+        }
+    }
+
+    /// Returns the bounds of the solid between the first and the last disc that reach into all slabs of a cell,
+    /// if any does, up to rounding.
+    fn bounds_of_discs_within(&self, cell: &Aabb) -> Option<Aabb> {
+        let ends = &self.ends;
+        let extent = self.disc_extent();
+        let disc = |share: f64| {
+            let center = ends.base + share * (ends.apex - ends.base);
+            let reach = (ends.base_radius + share * (ends.apex_radius - ends.base_radius)) * extent;
+            Aabb::new(center - reach, center + reach)
+        };
+        let (base, apex) = (disc(0.0), disc(1.0));
+        let (mut first, mut last) = (0.0_f64, 1.0_f64);
+        for k in 0..3 {
+            // How far discs reach beyond the near side of the slab: linear along the axis.
+            for (at_base, at_apex) in [
+                (base.hi[k] - cell.lo[k], apex.hi[k] - cell.lo[k]),
+                (cell.hi[k] - base.lo[k], cell.hi[k] - apex.lo[k]),
+            ] {
+                let share = at_base / (at_base - at_apex);
+                match (at_base < 0.0, at_apex < 0.0) {
+                    (false, false) => (),
+                    (true, true) => return None,
+                    (true, false) => first = first.max(share),
+                    (false, true) => last = last.min(share),
+                }
+            }
+        }
+        (first <= last).then(|| disc(first).union(&disc(last)))
+    }
+
     /// Returns the farthest point of the solid in a direction, which is on the rim of one end. `u` and `v` span
     /// the plane perpendicular to the axis, so that the result is on the rim even if the direction's component
     /// in that plane is only rounding.
@@ -276,20 +325,7 @@ impl Shape for Cone {
     /// Returns the tight box of the two discs. A disc of radius r and unit normal n extends r √(1 − nᵢ²) along
     /// axis i, computed from the other two components of n to avoid cancellation.
     fn bounds(&self) -> Aabb {
-        let n = self.side.axis;
-        let squares = n * n;
-        let extent = Vec3::new(
-            (squares.y + squares.z).sqrt(),
-            (squares.z + squares.x).sqrt(),
-            (squares.x + squares.y).sqrt(),
-        );
-        // Its error is at most 9 u; it has none if the axis is parallel to a coordinate axis.
-        let is_exact = extent == extent.round();
-        let extent = if is_exact {
-            extent
-        } else {
-            extent * (1.0 + 10.0 * U)
-        };
+        let extent = self.disc_extent();
         let disc = |center: Vec3, radius: f64| {
             Aabb::new(center - radius * extent, center + radius * extent)
         };
@@ -307,6 +343,22 @@ impl Shape for Cone {
         };
         let scale = bounds.magnitude().max(cell.magnitude());
         bounds.touches(cell) && !gjk::excludes_origin(difference, scale)
+    }
+
+    fn certain_bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
+        certain(&self.bounds(), cell, |cell| {
+            self.bounds_of_discs_within(cell)
+        })
+    }
+
+    /// Returns twice the sum of the areas of the silhouettes along the axes, which may be a little too large.
+    fn least_box_area(&self) -> f64 {
+        let radius = self.ends.base_radius.max(self.ends.apex_radius);
+        let side = (self.ends.base_radius + self.ends.apex_radius) * self.length();
+        let disc = std::f64::consts::PI * radius * radius;
+        let n = self.side.axis;
+        let across = (Vec3::ONE - n * n).max(Vec3::ZERO).map(f64::sqrt);
+        2.0 * (across * side + n.abs() * disc).element_sum()
     }
 
     #[inline]

@@ -73,6 +73,14 @@ impl Shape for Primitive {
         each_kind!(self, shape => shape.bounds_within(cell))
     }
 
+    fn certain_bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
+        each_kind!(self, shape => shape.certain_bounds_within(cell))
+    }
+
+    fn least_box_area(&self) -> f64 {
+        each_kind!(self, shape => shape.least_box_area())
+    }
+
     #[inline]
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64> {
         each_kind!(self, shape => Shape::intersect(shape, ray, t_max))

@@ -1,6 +1,6 @@
 //! Simple polygons, convex or not.
 
-use super::clip::bounds_of_outline;
+use super::clip::{bounds_of_outline, certain};
 use super::estimate::{Estimate, U, UNDERFLOW};
 use super::exact::{self, Root, Surface};
 use super::numeric;
@@ -433,6 +433,29 @@ impl Shape for Polygon {
 
     fn bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
         bounds_of_outline(&self.vertices, cell)
+    }
+
+    /// Whether the polygon is convex or not, every point of it is in a triangle of the fan around the first
+    /// vertex: the number of times that the outline turns around the point is the sum of those of the
+    /// triangles. The vertices themselves count, too, as for the bounds. The exact plane is less than 64 ε of the largest coordinate from the vertices in it.
+    fn certain_bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
+        let outlines = [Some(&*self.vertices), self.in_plane.as_deref()];
+        certain(&self.bounds, cell, |cell| {
+            let fans = outlines.into_iter().flatten().flat_map(|vertices| {
+                let edges = vertices[1..].windows(2);
+                edges.map(|edge| [vertices[0], edge[0], edge[1]])
+            });
+            let parts = fans.filter_map(|triangle| bounds_of_outline(&triangle, cell));
+            parts.reduce(|all, part| all.union(&part))
+        })
+    }
+
+    /// Returns twice the sum of the areas of the projections along the axes.
+    fn least_box_area(&self) -> f64 {
+        let first = self.vertices[0];
+        let fan = self.vertices[1..].windows(2);
+        let crosses = fan.map(|edge| (edge[0] - first).cross(edge[1] - first));
+        crosses.sum::<Vec3>().abs().element_sum()
     }
 
     /// The outline is part of the polygon. A ray within its plane has no hit.

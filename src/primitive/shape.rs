@@ -19,6 +19,24 @@ pub trait Shape: Send + Sync {
         (!part.is_empty()).then_some(part)
     }
 
+    /// Returns a box within a closed cell that certainly contains every point of the object there that
+    /// [`Shape::intersect`] can report; `None` only if there certainly is none. By default these are the bounds
+    /// clipped to the cell.
+    ///
+    /// In contrast to [`Shape::bounds_within`], the box is wide enough in spite of rounding, so the boxes of the
+    /// parts between planes cover the object.
+    fn certain_bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
+        let part = self.bounds().intersection(cell);
+        (!part.is_empty()).then_some(part)
+    }
+
+    /// Returns a lower bound on the surface area of all boxes around the object's parts, however small the
+    /// parts are (T. Karras and T. Aila, Fast parallel construction of high-quality bounding volume hierarchies,
+    /// 2013). By default it is the area of the bounds: division does not help.
+    fn least_box_area(&self) -> f64 {
+        self.bounds().surface_area()
+    }
+
     /// Returns the smallest `t` of the ray's interval at which it hits the surface, rounded to the nearest
     /// number, if any and if that is at most `t_max`. Exact ([`super::exact`]): nothing else is rounded.
     fn intersect(&self, ray: &Ray, t_max: f64) -> Option<f64>;

@@ -1,5 +1,6 @@
 //! Spheres.
 
+use super::clip::certain;
 use super::estimate::{self, Estimate};
 use super::exact::{Root, Surface};
 use super::{Shape, ShapeError, SurfacePoint, numeric};
@@ -69,6 +70,10 @@ impl Shape for Sphere {
         let reach = squared.max(Vec3::ZERO).map(f64::sqrt);
         let part = Aabb::new(self.center - reach, self.center + reach).intersection(cell);
         (away.element_sum() <= self.squared_reach() && !part.is_empty()).then_some(part)
+    }
+
+    fn certain_bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
+        certain(&self.bounds(), cell, |cell| self.bounds_within(cell))
     }
 
     #[inline]

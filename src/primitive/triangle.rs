@@ -1,6 +1,6 @@
 //! Triangles, with or without vertex normals.
 
-use super::clip::bounds_of_outline;
+use super::clip::{bounds_of_outline, certain};
 use super::estimate::{self, Estimate};
 use super::exact::{Root, Surface};
 use super::numeric;
@@ -114,6 +114,16 @@ impl Shape for Triangle {
 
     fn bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
         bounds_of_outline(&self.vertices, cell)
+    }
+
+    fn certain_bounds_within(&self, cell: &Aabb) -> Option<Aabb> {
+        certain(&self.bounds(), cell, |cell| self.bounds_within(cell))
+    }
+
+    /// Returns twice the sum of the areas of the projections along the axes.
+    fn least_box_area(&self) -> f64 {
+        let [a, b, c] = self.vertices;
+        (b - a).cross(c - a).abs().element_sum()
     }
 
     /// Edges are part of the triangle. A ray within its plane has no hit.

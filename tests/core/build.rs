@@ -5,7 +5,6 @@ use bspscope::geometry::Vec3;
 use bspscope::primitive::{Primitive, Sphere, Triangle};
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
-use bspscope::structure::split::Structure;
 use bspscope::structure::{
     BuildError, BuildSettings, Constants, Inseparable, MaxDepth, Method, NodeKind, OverlapRule,
     RootMargin, SettingsError, StopReason, Tree, TreeIndex, build, validate,
@@ -88,8 +87,7 @@ fn leaves_say_why_they_stopped() {
 #[test]
 fn no_leaf_lies_deeper_than_d_max_and_the_deepest_is_d_reach() {
     let balls = scene("balls:3");
-    // Grids know no D_MAX.
-    for method in Method::all().filter(|m| m.structure != Structure::Grid) {
+    for method in Method::all().filter(|m| m.obeys_d_max()) {
         for depth in [0, 1, 7, 20] {
             let settings = with(method.name, |s| s.d_max = MaxDepth::Fixed(depth));
             let tree = tree_with(&balls, &settings);

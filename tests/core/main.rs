@@ -5,6 +5,7 @@ mod support;
 
 mod accuracy;
 mod build;
+mod bvh;
 mod compare;
 mod conformance;
 mod exact;

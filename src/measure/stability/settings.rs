@@ -76,7 +76,7 @@ fn depths(trial: &Trial<'_>) -> Outcome {
             ..trial.settings()
         };
         match build(&scene, &settings, trial.progress) {
-            Ok(tree) if tree.depth_reached() <= depth || tree.voxels().is_some() => {
+            Ok(tree) if tree.depth_reached() <= depth || !trial.method.obeys_d_max() => {
                 trial.check_tree(&scene, &tree, &rays)
             }
             Ok(tree) => Outcome::fail(format!("a leaf at depth {}", tree.depth_reached())),

@@ -24,7 +24,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     builder: Builder::Boxes(|settings| Box::new(Binned::new(settings))),
 };
 
-const BINS: Constant = Constant {
+pub const BINS: Constant = Constant {
     name: "bins",
     default: 16.0,
     lowest: 2.0,
@@ -35,13 +35,13 @@ const BINS: Constant = Constant {
     source: "I. Wald, On fast construction of SAH-based bounding volume hierarchies, 2007",
 };
 
-struct Binned {
+pub struct Binned {
     costs: Costs,
     bins: usize,
 }
 
 impl Binned {
-    fn new(settings: &BuildSettings) -> Self {
+    pub fn new(settings: &BuildSettings) -> Self {
         Binned {
             costs: Costs::of(settings),
             bins: settings.constant("bins") as usize,

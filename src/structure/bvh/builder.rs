@@ -18,6 +18,12 @@ pub trait BvhBuilder: Send + Sync {
     fn max_references_per_object(&self) -> f64 {
         1.0
     }
+
+    /// Returns whether no leaf of the hierarchy is deeper than `D_MAX`. A builder that merges from the leaves
+    /// upward cannot know the depth.
+    fn obeys_d_max(&self) -> bool {
+        true
+    }
 }
 
 /// The objects of a scene.
@@ -25,7 +31,7 @@ pub struct Input<'a> {
     pub objects: &'a [Primitive],
     /// The bounds of all objects.
     pub bounds: &'a [Aabb],
-    /// Maximum depth of a leaf of the binary hierarchy.
+    /// Maximum depth of a leaf of the binary hierarchy, for builders that obey `D_MAX`.
     pub depth_limit: u32,
     pub progress: &'a Progress,
 }

@@ -6,8 +6,15 @@
 mod binary;
 mod binned;
 pub(super) mod builder;
+mod collapse;
 mod constants;
 mod layout;
+mod lbvh;
+mod morton;
+mod ploc;
+mod presplit;
+mod reinsert;
+mod spatial;
 mod sweep;
 mod top_down;
 
@@ -18,4 +25,12 @@ pub(super) use layout::{Laid, lay_out};
 use super::settings::MethodInfo;
 
 /// All builders.
-pub static BVH_BUILDERS: &[MethodInfo] = &[sweep::METHOD, binned::METHOD];
+pub static BVH_BUILDERS: &[MethodInfo] = &[
+    sweep::METHOD,
+    binned::METHOD,
+    spatial::METHOD,
+    presplit::METHOD,
+    lbvh::METHOD,
+    ploc::METHOD,
+    reinsert::METHOD,
+];

@@ -7,7 +7,7 @@ mod spheres;
 mod triangles;
 
 use crate::support::random::Random;
-use bspscope::geometry::{Aabb, Ray, Vec3};
+use bspscope::geometry::{Aabb, Axis, Ray, Vec3};
 use bspscope::primitive::{Cone, Polygon, Shape, ShapeError, Sphere, Triangle};
 
 fn cube(center: Vec3, half: f64) -> Aabb {
@@ -160,6 +160,50 @@ fn check_bounds_within(shape: &impl Shape, points: &[Vec3], random: &mut Random)
         }
     }
     assert!(met > 10, "{met}");
+    check_certain_bounds_within(shape, points, true, random);
+}
+
+/// The certain bounds within a cell hold every point there, without any tolerance, also of cells whose faces are
+/// within rounding of points. Of convex objects, they reach hardly
+/// farther than the bounds within the cell.
+fn check_certain_bounds_within(
+    shape: &impl Shape,
+    points: &[Vec3],
+    is_convex: bool,
+    random: &mut Random,
+) {
+    let bounds = shape.bounds();
+    let size = bounds.size().max_element();
+    for i in 0..400 {
+        let at = random.one_of(points);
+        let mut cell = cube(at, size * random.within(0.1, 0.5));
+        let k = random.below(3);
+        match i % 4 {
+            0 => cell.lo[k] = at[k],
+            1 => cell.hi[k] = at[k],
+            2 => (cell.lo[k], cell.hi[k]) = (at[k], at[k].next_up()),
+            _ => (),
+        }
+        let part = shape.certain_bounds_within(&cell).unwrap();
+        let clipped = cell.intersection(&bounds);
+        assert_eq!(part.intersection(&clipped), part, "{part:?} in {cell:?}");
+        let within = points.iter().copied();
+        let within = within.filter(|&p| clipped.contains(p));
+        for point in within {
+            assert!(part.contains(point), "{point} in {part:?}");
+        }
+        if let Some(rounded) = shape
+            .bounds_within(&cell)
+            .filter(|_| is_convex && i % 4 == 3)
+        {
+            let held = rounded.enlarged(1e-12 * bounds.magnitude());
+            let is_held = held.contains(part.lo) && held.contains(part.hi);
+            assert!(is_held, "{part:?} for {rounded:?}");
+        }
+    }
+    assert_eq!(shape.certain_bounds_within(&bounds), Some(bounds));
+    let beside = Aabb::new(bounds.hi + size, bounds.hi + 2.0 * size);
+    assert_eq!(shape.certain_bounds_within(&beside), None);
 }
 
 #[test]
@@ -188,4 +232,36 @@ fn bounds_within_a_cell_are_those_of_the_part() {
         .map(|_| center + 1.5 * random.unit() * random.within(0.0, 1.0).cbrt())
         .collect();
     check_bounds_within(&Sphere::new(center, 1.5).unwrap(), &ball, &mut random);
+    // A polygon that is not convex: an arrow.
+    let arrow = [[0.0, 0.0], [2.0, 1.0], [0.0, 2.0], [0.7, 1.0]];
+    let tilted = |[x, y]: [f64; 2]| Vec3::new(x, y, 0.3 * x - 0.7 * y);
+    let polygon = Polygon::new(arrow.map(tilted).to_vec(), None).unwrap();
+    let mut points = Vec::new();
+    while points.len() < 2000 {
+        let [x, y] = [(); 2].map(|()| random.within(0.0, 2.0));
+        let from_middle = (y - 1.0).abs();
+        let is_left = x < 0.7 * (1.0 - from_middle);
+        if x <= 2.0 * (1.0 - from_middle) && !is_left {
+            points.push(tilted([x, y]));
+        }
+    }
+    check_certain_bounds_within(&polygon, &points, false, &mut random);
+    let (base, apex) = (Vec3::new(0.1, 0.2, 0.3), Vec3::new(2.0, -1.0, 1.0));
+    let cone = Cone::new(base, 0.3, apex, 0.3).unwrap();
+    let across = (apex - base).normalize().any_orthonormal_pair();
+    let points: Vec<Vec3> = (0..2000)
+        .map(|_| {
+            let angle = random.within(0.0, std::f64::consts::TAU);
+            let outward = libm::cos(angle) * across.0 + libm::sin(angle) * across.1;
+            base + random.within(0.0, 1.0) * (apex - base) + 0.299_999 * outward
+        })
+        .collect();
+    check_certain_bounds_within(&cone, &points, true, &mut random);
+    let part = cone
+        .certain_bounds_within(&cone.bounds().split(Axis::X, 1.0).0)
+        .unwrap();
+    assert!(part.size().y < 0.8 * cone.bounds().size().y, "{part:?}");
+    for shape in [&polygon as &dyn Shape, &cone, &triangle] {
+        assert!(shape.least_box_area() < shape.bounds().surface_area());
+    }
 }
