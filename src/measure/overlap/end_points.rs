@@ -18,6 +18,7 @@ use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
 use crate::structure::{NodeKind, Tree, TreeIndex};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Cost of an inner node in `C_SAH` and `EPO`.
 pub const COST_OF_INNER_NODE: f64 = 1.2;
@@ -27,6 +28,10 @@ pub const COST_OF_TEST: f64 = 1.0;
 
 /// Objects between two checks for cancellation.
 const CHUNK: usize = 256;
+
+/// Most points of surfaces that are compared with boxes: about ten seconds of CPU time. Ten times as many as
+/// the 8401 curved objects of rings need.
+const MOST_WORK: u64 = 1 << 32;
 
 /// What is known of the tree.
 struct Nodes<'a> {
@@ -43,7 +48,8 @@ struct Memory {
     foreign: Vec<(u32, Piece)>,
 }
 
-/// Returns the end-point overlap of a hierarchy whose nodes have these boxes. `None` if the surface has no area.
+/// Returns the end-point overlap of a hierarchy whose nodes have these boxes. `None` if the surface has no area,
+/// or if it would take too long.
 ///
 /// # Errors
 /// Cancellation.
@@ -59,21 +65,30 @@ pub fn end_point_overlap(
         boxes,
         index: TreeIndex::new(tree, objects.len()),
     };
+    // Whether their sum is too large does not depend on the number of threads.
+    let work = AtomicU64::new(0);
     let chunks = objects.par_chunks(CHUNK).enumerate();
     let parts: Vec<[f64; 2]> = chunks
         .map(|(chunk, objects)| {
             progress.check()?;
             let mut memory = Memory::default();
             let mut sums = [0.0; 2];
+            if work.load(Ordering::Relaxed) > MOST_WORK {
+                return Ok(sums);
+            }
             for (i, object) in objects.iter().enumerate() {
                 let whole = memory.pieces.whole(object);
                 sums[0] += memory.pieces.area(&whole);
                 let number = (chunk * CHUNK + i) as u32;
                 sums[1] += nodes.cost(number, &object.bounds(), &whole, &mut memory);
             }
+            work.fetch_add(memory.pieces.work, Ordering::Relaxed);
             Ok(sums)
         })
         .collect::<Result<_, Cancelled>>()?;
+    if work.into_inner() > MOST_WORK {
+        return Ok(None);
+    }
     // One sum after the other, so that the result is the same for any number of threads.
     let [area, cost] = parts
         .iter()

@@ -3,9 +3,10 @@
 use crate::geometry::{Aabb, Axis, Vec3};
 use crate::primitive::{Cone, Primitive};
 use std::f64::consts::{PI, TAU};
+use std::sync::LazyLock;
 
 /// Points of a curved surface, each of which stands for the same area.
-const POINTS: usize = 1024;
+const POINTS: u32 = 1024;
 
 /// The form in which parts of a surface are measured.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +28,8 @@ pub struct Piece {
 /// The surface of one object and parts of it. Memory is reused for the next object.
 #[derive(Default)]
 pub struct Pieces {
+    /// Points that were compared with boxes, over all objects.
+    pub work: u64,
     form: Option<Form>,
     /// The points of all pieces.
     pool: Vec<Vec3>,
@@ -48,19 +51,21 @@ impl Pieces {
                 Form::Outline
             }
             Primitive::Sphere(sphere) => {
-                let points = (0..POINTS).map(|i| {
-                    let (height, turn) = place(i);
-                    let height = 2.0 * height - 1.0;
+                let points = PLACES.iter().map(|place| {
+                    let height = 2.0 * place.below - 1.0;
                     let ring = (1.0 - height * height).sqrt();
-                    let (sin, cos) = libm::sincos(turn);
-                    sphere.center + sphere.radius * Vec3::new(ring * cos, ring * sin, height)
+                    let [x, y] = place.direction.map(|along| ring * along);
+                    sphere.center + sphere.radius * Vec3::new(x, y, height)
                 });
                 self.pool.extend(points);
-                Form::Points(4.0 * PI * sphere.radius * sphere.radius / POINTS as f64)
+                Form::Points(4.0 * PI * sphere.radius * sphere.radius / f64::from(POINTS))
             }
             Primitive::Cone(cone) => {
-                self.pool.extend((0..POINTS).map(|i| point_of(cone, i)));
-                Form::Points(area_of(cone) / POINTS as f64)
+                let along = cone.apex() - cone.base();
+                let sides = along.normalize().any_orthonormal_pair();
+                let point = |place| point_of(cone, along, sides, place);
+                self.pool.extend(PLACES.iter().map(point));
+                Form::Points(area_of(cone) / f64::from(POINTS))
             }
         };
         self.form = Some(form);
@@ -93,6 +98,7 @@ impl Pieces {
             return Some(*piece);
         }
         self.pool.truncate(piece.to);
+        self.work += (piece.to - piece.from) as u64;
         match self.form? {
             Form::Outline => {
                 let [outline, cut] = &mut self.outlines;
@@ -154,29 +160,39 @@ fn clip(outline: &mut Vec<Vec3>, cut: &mut Vec<Vec3>, bounds: &Aabb, cell: &Aabb
     }
 }
 
-/// Returns the place of a point on a surface that is rolled out: its share of the area below it, and its angle.
-/// The points form a Fibonacci lattice.
-fn place(i: usize) -> (f64, f64) {
-    /// The golden angle as a share of a turn.
-    const GOLDEN: f64 = 0.381_966_011_250_105_2;
-    let height = (i as f64 + 0.5) / POINTS as f64;
-    (height, TAU * (i as f64 * GOLDEN).fract())
+/// The place of a point on a surface around an axis.
+struct Place {
+    /// The share of the area that lies below the point.
+    below: f64,
+    /// The cosine and sine of the angle around the axis.
+    direction: [f64; 2],
 }
 
-/// Returns a point of a cylinder or cone.
-fn point_of(cone: &Cone, i: usize) -> Vec3 {
-    let (below, turn) = place(i);
+/// The places of all points, a Fibonacci lattice.
+static PLACES: LazyLock<Vec<Place>> = LazyLock::new(|| {
+    /// The golden angle as a share of a turn.
+    const GOLDEN: f64 = 0.381_966_011_250_105_2;
+    let place = |i| {
+        let (sin, cos) = libm::sincos(TAU * (f64::from(i) * GOLDEN).fract());
+        Place {
+            below: (f64::from(i) + 0.5) / f64::from(POINTS),
+            direction: [cos, sin],
+        }
+    };
+    (0..POINTS).map(place).collect()
+});
+
+/// Returns a point of a cylinder or cone, given its axis and two directions perpendicular to it.
+fn point_of(cone: &Cone, along: Vec3, (u, v): (Vec3, Vec3), place: &Place) -> Vec3 {
     let (base, apex) = (cone.base_radius(), cone.apex_radius());
     // The area below a height grows with the square of the radius there.
-    let radius = (base * base + (apex * apex - base * base) * below).sqrt();
+    let radius = (base * base + (apex * apex - base * base) * place.below).sqrt();
     let height = if base == apex {
-        below
+        place.below
     } else {
         (radius - base) / (apex - base)
     };
-    let along = cone.apex() - cone.base();
-    let (u, v) = along.normalize().any_orthonormal_pair();
-    let (sin, cos) = libm::sincos(turn);
+    let [cos, sin] = place.direction;
     cone.base() + along * height + (u * cos + v * sin) * radius
 }
 

@@ -40,10 +40,13 @@ fn comparison(first: &Measurement, second: &Measurement) -> Value {
         (parameter.symbol.to_owned(), value)
     });
     let break_even = BreakEven::of(first, second);
+    let mut rays = json!({ "rays": break_even.and_then(BreakEven::rays) });
+    if break_even == Some(BreakEven::Never) {
+        rays["reason"] = json!("rays are not faster with the second tree");
+    }
     json!({
         "parameters": Value::Object(parameters.collect()),
-        // Null if rays are not faster with the second tree.
-        "N_BE": break_even.and_then(BreakEven::rays),
+        "N_BE": rays,
     })
 }
 
