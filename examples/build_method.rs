@@ -23,6 +23,7 @@ static METHOD: MethodInfo = MethodInfo {
     paper: None,
     paper_spheres_exactly: true,
     structure: Structure::Bintree,
+    has_limits: true,
     constants: &[],
     builder: Builder::Cells(|_| Box::new(LongestSide)),
 };

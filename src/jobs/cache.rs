@@ -1,8 +1,8 @@
 //! The scenes, trees and pictures that jobs share. What a setup can reuse follows from what its
 //! settings affect ([`Setup::invalidates`]).
 
-use crate::measure::Measurement;
 use crate::measure::heat::PixelCounts;
+use crate::measure::{Measurement, TreeFacts};
 use crate::scene::Scene;
 use crate::setup::{Affects, Setup};
 use crate::structure::Tree;
@@ -118,6 +118,15 @@ impl Cache {
 
     pub fn put_tree(&self, setup: Setup, built: Built) {
         self.lock().trees.put((setup, built));
+    }
+
+    /// Adds what was found out about a tree after it was built.
+    pub fn put_facts(&self, tree: &Arc<Tree>, facts: TreeFacts) {
+        let trees = &mut self.lock().trees;
+        let same = trees.0.iter_mut().map(|(_, built)| built);
+        for built in same.filter(|built| Arc::ptr_eq(&built.tree, tree)) {
+            built.known.tree = facts;
+        }
     }
 
     /// The picture of a setup, if it was finished with this tree.

@@ -148,6 +148,7 @@ impl Job for RenderPicture {
             scene,
             tree: built.tree,
             pool,
+            cache: &cache,
             context,
         };
         match finished {
@@ -169,6 +170,7 @@ struct Answer<'a> {
     scene: Arc<Scene>,
     tree: Arc<Tree>,
     pool: Arc<ThreadPool>,
+    cache: &'a Cache,
     /// What is known before a ray is traced.
     measurement: Measurement,
     context: &'a Context<Update>,
@@ -234,9 +236,10 @@ impl Answer<'_> {
         };
         measurement.rendering = Some(self.render_first_sample(add(0))?);
         let CountedPixels {
-            measurement,
+            mut measurement,
             pixels,
         } = self.count(measurement)?;
+        self.find_overlaps(&mut measurement)?;
         let counted = measurement.counted.unwrap_or_default();
         let pixel_counts = pixels.map(Arc::new);
         if let Some(counts) = &pixel_counts {
@@ -290,6 +293,18 @@ impl Answer<'_> {
     ) -> Result<TimedRender, RenderError> {
         let (scene, tree, render) = (&self.scene, &self.tree, &self.setup.render);
         render_timed(scene, tree, render, sample, &self.pool, progress, on_tile)
+    }
+
+    /// Finds how far the nodes of the tree overlap, once per tree. That can take as long as building it, so it
+    /// comes after the picture.
+    fn find_overlaps(&self, measurement: &mut Measurement) -> Result<(), JobError> {
+        let facts = &mut measurement.tree;
+        self.context.unit(|progress| {
+            let find = || facts.find_overlaps(&self.scene, &self.tree, progress);
+            self.pool.install(find).map_err(RenderError::from)
+        })?;
+        self.cache.put_facts(&self.tree, *facts);
+        Ok(())
     }
 
     fn count(&self, measurement: Measurement) -> Result<CountedPixels, JobError> {

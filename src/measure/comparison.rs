@@ -3,9 +3,9 @@
 //! The paper's precondition (section 4) is that the parameters of class S, and thus of class D, are
 //! equal, and that the images are equal. Everything else is the result.
 
-use super::{Class, Measurement, Unit, parameters};
+use super::{Class, Measurement, Parameter, RayFigure, Unit, parameters};
 use crate::setup::{Affects, Group, SETTINGS, Setting, Setup};
-use crate::trace::Picture;
+use crate::trace::{Picture, RayKind};
 
 /// A reason why two measurements are not comparable.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,6 +121,84 @@ pub fn change(unit: Unit, first: Option<f64>, second: Option<f64>) -> Option<Cha
         Unit::Percent => Some(Change::Points((second - first) * 100.0)),
         _ if first == 0.0 => None,
         _ => Some(Change::Ratio(second / first)),
+    }
+}
+
+/// How the values of two measurements compare.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Comparison {
+    Change(Change),
+    /// A value is missing, or the first is zero.
+    NoValue,
+    /// The values count nodes of different structures.
+    OtherUnit,
+}
+
+impl Comparison {
+    /// Returns the change, if there is one.
+    pub fn change(self) -> Option<Change> {
+        match self {
+            Comparison::Change(change) => Some(change),
+            Comparison::NoValue | Comparison::OtherUnit => None,
+        }
+    }
+
+    fn of(has_same_unit: bool, unit: Unit, first: Option<f64>, second: Option<f64>) -> Comparison {
+        if !has_same_unit && first.is_some() && second.is_some() {
+            return Comparison::OtherUnit;
+        }
+        change(unit, first, second).map_or(Comparison::NoValue, Comparison::Change)
+    }
+}
+
+impl Parameter {
+    /// Compares its value in a measurement with that in another one.
+    pub fn compare(&self, first: &Measurement, second: &Measurement) -> Comparison {
+        let same = self.has_same_unit(first, second);
+        Comparison::of(same, self.unit, self.value(first), self.value(second))
+    }
+}
+
+impl RayFigure {
+    /// Compares its value for rays of a kind in a measurement with that in another one.
+    pub fn compare(&self, first: &Measurement, second: &Measurement, kind: RayKind) -> Comparison {
+        let [a, b] = [first, second].map(|measurement| self.of(measurement, kind));
+        Comparison::of(self.has_same_unit(first, second), self.unit, a, b)
+    }
+}
+
+/// How many rays must be traced until building another tree pays off, `N_BE`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BreakEven {
+    /// After this many rays. 0 if the second tree takes no longer to build and rays are faster.
+    Rays(f64),
+    /// Rays are not faster with the second tree.
+    Never,
+}
+
+impl BreakEven {
+    /// Returns when the second tree pays off compared with the first one: the additional time of building it,
+    /// divided by the time that each ray takes less, without shading. `None` without a timed render of both.
+    pub fn of(first: &Measurement, second: &Measurement) -> Option<BreakEven> {
+        let per_ray = |measurement: &Measurement| {
+            let rendering = measurement.rendering.filter(|r| r.rays > 0)?;
+            Some(rendering.tracing.as_secs_f64() / rendering.rays as f64)
+        };
+        let build = |measurement: &Measurement| measurement.building.cpu.as_secs_f64();
+        let saved = per_ray(first)? - per_ray(second)?;
+        let extra = build(second) - build(first);
+        Some(match saved > 0.0 {
+            true => BreakEven::Rays((extra / saved).max(0.0)),
+            false => BreakEven::Never,
+        })
+    }
+
+    /// Returns the number of rays, if it pays off.
+    pub fn rays(self) -> Option<f64> {
+        match self {
+            BreakEven::Rays(rays) => Some(rays),
+            BreakEven::Never => None,
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use super::heat::PixelCounts;
 use super::{SceneFacts, TreeFacts};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Camera, Scene};
+use crate::structure::split::Structure;
 use crate::structure::{BuildError, BuildSettings, Tree, build};
 use crate::trace::{
     ChosenPrecision, CountedRender, CountedTile, Picture, RayKind, RenderError, RenderSettings,
@@ -65,6 +66,16 @@ impl Times {
         };
         (result, times)
     }
+}
+
+/// What a node is to a ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KindOfNode {
+    /// A plane between two children.
+    Plane,
+    Voxel,
+    /// The boxes of up to this many children.
+    Boxes(u32),
 }
 
 /// Everything that is specified, counted and timed; `None` for what is not measured yet.
@@ -129,6 +140,15 @@ impl Measurement {
             rendering: None,
             counted: None,
             ..self.clone()
+        }
+    }
+
+    /// Returns what a node of this tree is to a ray. Numbers of nodes are comparable only if it is the same.
+    pub fn kind_of_node(&self) -> KindOfNode {
+        match self.build.method.structure {
+            Structure::Bintree | Structure::Octree => KindOfNode::Plane,
+            Structure::Grid => KindOfNode::Voxel,
+            Structure::Bvh => KindOfNode::Boxes(self.build.constant("width") as u32),
         }
     }
 
@@ -208,6 +228,8 @@ fn measure_with(
     let (tree, building) = Times::of(&pool, || build(scene, build_settings, progress));
     let tree = tree?;
     let mut measurement = Measurement::of_tree(scene, &tree, building, render_settings);
+    pool.install(|| measurement.tree.find_overlaps(scene, &tree, progress))
+        .map_err(BuildError::from)?;
     let picture = Mutex::new(Picture::new(render_settings.width, render_settings.height));
     measurement.rendering = Some(render_timed(
         scene,

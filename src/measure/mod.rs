@@ -10,16 +10,17 @@ pub mod heat;
 pub mod judge;
 mod measurement;
 pub mod model;
+mod overlap;
 pub mod paper;
 pub mod stability;
 pub mod sweep;
 pub mod tune;
 mod verify;
 
-pub use comparison::{Change, Unequal, change, differing_pixels, unequal};
+pub use comparison::{BreakEven, Change, Comparison, Unequal, change, differing_pixels, unequal};
 pub use counter::{
-    COUNTERS, Class, Counter, DELTA, LAMBDA, Parameter, RayFigure, Table, Unit, parameter,
-    parameters, ray_figures,
+    ACROSS_STRUCTURES, COUNTERS, Class, Counter, DELTA, LAMBDA, Parameter, RayFigure, Table, Unit,
+    parameter, parameters, ray_figures,
 };
 pub use facts::{SceneFacts, TreeFacts};
 pub use measurement::{MeasureError, Measured, Measurement, Times, measure, measure_pixels};

@@ -76,6 +76,8 @@ pub struct MethodInfo {
     pub paper_spheres_exactly: bool,
     /// The structure that its cells form.
     pub structure: Structure,
+    /// Whether `D_MAX` and `N_OILF` limit the depth and the leaves of its trees.
+    pub has_limits: bool,
     /// The settings of this method.
     pub constants: &'static [Constant],
     pub builder: Builder,

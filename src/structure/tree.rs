@@ -2,7 +2,7 @@
 
 use super::box_node::BoxNode;
 use super::frame::Frame;
-use super::node::{NodeKind, StopReason};
+use super::node::{Node, NodeKind, StopReason};
 use super::nodes::Nodes;
 use super::settings::BuildSettings;
 use super::simd_tree::SimdTree;
@@ -109,6 +109,15 @@ impl Tree {
         self.nodes.bytes()
             + size_of_val(self.references.as_slice())
             + self.voxels.as_ref().map_or(0, Voxels::bytes)
+    }
+
+    /// Returns the bytes of what rays step along: a node, or a voxel of a grid.
+    pub fn node_bytes(&self) -> usize {
+        match (&self.nodes, &self.voxels) {
+            (_, Some(_)) => Voxels::VOXEL_BYTES,
+            (Nodes::Planes(_), None) => size_of::<Node>(),
+            (Nodes::Boxes(_), None) => size_of::<BoxNode>(),
+        }
     }
 
     /// Returns the root with its cell. The cell of a node with a box is the box.

@@ -91,6 +91,9 @@ impl Voxels {
         self.voxels[self.index(place)]
     }
 
+    /// Bytes of a voxel.
+    pub(super) const VOXEL_BYTES: usize = size_of::<Voxel>();
+
     pub(super) fn bytes(&self) -> usize {
         let planes: usize = self.planes.iter().map(|p| size_of_val(p.as_slice())).sum();
         planes + size_of_val(self.voxels.as_slice())

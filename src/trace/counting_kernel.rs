@@ -82,6 +82,8 @@ pub struct CountingKernel<'a> {
     pub tallies: [Tally; 4],
     /// Maxima over single rays by [`RayKind`](super::RayKind).
     pub maxima: [RayMaxima; 4],
+    /// The sum over rays of the squared number of leaves that each visits, by [`RayKind`](super::RayKind).
+    pub leaves_squared: [u64; 4],
     /// CPU time of the traversal of all rays to their known ends, without tests and shading.
     pub traversal: Duration,
     /// Counts of each pixel of the batches.
@@ -100,6 +102,7 @@ impl<'a> CountingKernel<'a> {
             limits: Vec::new(),
             tallies: Default::default(),
             maxima: Default::default(),
+            leaves_squared: [0; 4],
             traversal: Duration::ZERO,
             pixels: vec![PixelTallies::default(); pixels],
         }
@@ -131,6 +134,7 @@ impl<'a> CountingKernel<'a> {
             let hit = Q::is_hit(answer);
             self.tallies[batch.kind as usize].add(counts, hit);
             self.maxima[batch.kind as usize].add(counts);
+            self.leaves_squared[batch.kind as usize] += u64::from(counts.leaves).pow(2);
             self.pixels[pixel as usize][batch.kind as usize].add(counts, hit);
         }
         self.replay(batch.rays);

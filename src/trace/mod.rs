@@ -23,6 +23,7 @@ mod settings;
 mod simd;
 mod space;
 mod stack;
+mod timed_batches;
 mod timed_kernel;
 mod traversal_ray;
 mod traverse;
@@ -55,6 +56,7 @@ pub use scalar_kernel::ScalarKernel;
 pub use settings::RenderSettings;
 pub use simd::{InstructionSet, SimdKernel, SimdMode};
 pub use stack::Scratch;
+pub use timed_batches::TimedBatches;
 pub use timed_kernel::TimedKernel;
 #[cfg(test)]
 pub(crate) use traversal_ray::{PlaneCrossing, TraversalRay, TraversalRayF64};

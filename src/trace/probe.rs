@@ -103,6 +103,8 @@ pub struct RayCounts {
     pub empty_leaves: u32,
     /// Intersection tests.
     pub tests: u32,
+    /// Intersection tests that find a hit before the closest one so far.
+    pub test_hits: u32,
     /// Tests of children's boxes; 0 for trees with planes.
     pub box_tests: u32,
     /// Pending nodes that were skipped because they begin beyond the closest hit.
@@ -133,8 +135,9 @@ impl Probe for RayCounts {
     }
 
     #[inline(always)]
-    fn test(&mut self, _: u32, _: impl FnOnce() -> Option<f64>) {
+    fn test(&mut self, _: u32, hit: impl FnOnce() -> Option<f64>) {
         self.tests += 1;
+        self.test_hits += u32::from(hit().is_some());
     }
 }
 
@@ -153,6 +156,10 @@ pub struct RayMaxima {
     pub full_leaves: u32,
     /// Intersection tests.
     pub tests: u32,
+    /// Tests of children's boxes.
+    pub box_tests: u32,
+    /// Pending nodes that were skipped.
+    pub culled: u32,
 }
 
 impl RayMaxima {
@@ -165,6 +172,8 @@ impl RayMaxima {
             empty_leaves: counts.empty_leaves,
             full_leaves: counts.leaves - counts.empty_leaves,
             tests: counts.tests,
+            box_tests: counts.box_tests,
+            culled: counts.culled,
         });
     }
 
@@ -177,6 +186,8 @@ impl RayMaxima {
             empty_leaves: self.empty_leaves.max(other.empty_leaves),
             full_leaves: self.full_leaves.max(other.full_leaves),
             tests: self.tests.max(other.tests),
+            box_tests: self.box_tests.max(other.box_tests),
+            culled: self.culled.max(other.culled),
         }
     }
 }
@@ -190,6 +201,8 @@ pub struct Tally<N = u64> {
     pub hits: N,
     /// Intersection tests.
     pub tests: N,
+    /// Intersection tests that find a hit before the closest one so far.
+    pub test_hits: N,
     /// Inner nodes traversed.
     pub inner_nodes: N,
     /// Leaves visited, empty ones included.
@@ -211,6 +224,7 @@ impl<N: From<u32> + AddAssign> Tally<N> {
         self.rays += 1.into();
         self.hits += u32::from(hit).into();
         self.tests += counts.tests.into();
+        self.test_hits += counts.test_hits.into();
         self.inner_nodes += counts.inner_nodes.into();
         self.leaves += counts.leaves.into();
         self.empty_leaves += counts.empty_leaves.into();
@@ -224,6 +238,7 @@ impl<N: AddAssign, M: Into<N>> AddAssign<Tally<M>> for Tally<N> {
         self.rays += other.rays.into();
         self.hits += other.hits.into();
         self.tests += other.tests.into();
+        self.test_hits += other.test_hits.into();
         self.inner_nodes += other.inner_nodes.into();
         self.leaves += other.leaves.into();
         self.empty_leaves += other.empty_leaves.into();

@@ -63,7 +63,9 @@ impl<F: Form> LeafVisitor for Any<'_, F> {
         for &object in objects {
             let shape = &self.objects[object as usize];
             let is_hit = shape.is_hit(self.ray);
-            probe.test(object, || shape.intersect(self.ray, self.t_max));
+            // Distances take longer, so only hits are computed twice.
+            let hit = || is_hit.then(|| shape.intersect(self.ray, self.t_max));
+            probe.test(object, || hit().flatten());
             if is_hit {
                 self.blocked = true;
                 return f64::NEG_INFINITY;

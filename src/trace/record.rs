@@ -199,6 +199,8 @@ impl RayPath {
                     counts.leaves += 1;
                     counts.empty_leaves += u32::from(leaf.objects == 0);
                     counts.tests += leaf.tests.len() as u32;
+                    let hits = leaf.tests.iter().filter(|test| test.hit.is_some());
+                    counts.test_hits += hits.count() as u32;
                 }
             }
         }

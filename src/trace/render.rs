@@ -2,7 +2,7 @@
 
 use super::{
     CountingKernel, PixelTallies, RayKind, RayMaxima, RenderError, RenderSettings, ScalarKernel,
-    Scratch, Shading, Tally, Tile, TimedKernel, objects_on_ray, tiles, trace_samples,
+    Scratch, Shading, Tally, Tile, TimedBatches, TimedKernel, objects_on_ray, tiles, trace_samples,
 };
 use crate::geometry::Vec3;
 use crate::progress::{Cancelled, Progress};
@@ -35,6 +35,10 @@ pub struct TimedRender {
     pub wall: Duration,
     /// Threads that rendered.
     pub threads: usize,
+    /// Rays that were traced.
+    pub rays: u64,
+    /// CPU time of tracing them, in batches: all of `cpu` but making rays and shading.
+    pub tracing: Duration,
 }
 
 /// The counts of one rendering.
@@ -44,6 +48,8 @@ pub struct CountedRender {
     pub tallies: [Tally; 4],
     /// Maxima over single rays, by [`RayKind`].
     pub maxima: [RayMaxima; 4],
+    /// The sum over rays of the squared number of leaves that each visits, by [`RayKind`].
+    pub leaves_squared: [u64; 4],
     /// CPU time of the traversal of all rays to their known ends, without tests and shading, `T_TT`.
     pub traversal: Duration,
     /// Sum over the primary rays of the objects that each hits: `D_COMPX` times the number of primary rays.
@@ -62,12 +68,25 @@ pub struct CountedTile {
 }
 
 impl CountedRender {
+    /// Returns the standard deviation, over all rays of these kinds, of the leaves that a ray visits. `None`
+    /// without rays.
+    pub fn leaf_deviation(&self, kinds: &[RayKind]) -> Option<f64> {
+        let tally: Tally = kinds.iter().map(|&k| self.tallies[k as usize]).sum();
+        let squares: u64 = kinds.iter().map(|&k| self.leaves_squared[k as usize]).sum();
+        let rays = tally.rays as f64;
+        let mean = tally.leaves as f64 / rays;
+        // Rounding may make the variance of equal numbers negative.
+        let variance = (squares as f64 / rays - mean * mean).max(0.0);
+        (tally.rays > 0).then(|| variance.sqrt())
+    }
+
     /// Returns the sum of both.
     pub fn merge(mut self, other: CountedRender) -> CountedRender {
         for kind in RayKind::ALL {
             let kind = kind as usize;
             self.tallies[kind] += other.tallies[kind];
             self.maxima[kind] = self.maxima[kind].merge(other.maxima[kind]);
+            self.leaves_squared[kind] += other.leaves_squared[kind];
         }
         self.traversal += other.traversal;
         self.objects_met += other.objects_met;
@@ -121,29 +140,31 @@ pub fn render_timed(
     // Preparing the tree for the kernel, once per tree, does not count as rendering time.
     TimedKernel::new(settings.kernel, scene, tree, shading.shapes, progress);
     let start = Instant::now();
-    let cpu = over_tiles(
+    let (cpu, tracing, rays) = over_tiles(
         settings,
         pool,
         progress,
         |tile, pixels| {
             let start = ThreadTime::now();
-            let mut tracer =
-                TimedKernel::new(settings.kernel, scene, tree, shading.shapes, progress);
+            let kernel = TimedKernel::new(settings.kernel, scene, tree, shading.shapes, progress);
+            let mut tracer = TimedBatches::new(kernel);
             let mut colors = Vec::new();
             trace_samples(&shading, pixels, sample, &mut tracer, &mut colors);
             let time = start.elapsed();
             if !progress.is_cancelled() {
                 on_tile(tile, &colors);
             }
-            time
+            (time, tracer.time, tracer.rays)
         },
-        |a, b| a + b,
-        || Duration::ZERO,
+        |a, b| (a.0 + b.0, a.1 + b.1, a.2 + b.2),
+        || (Duration::ZERO, Duration::ZERO, 0),
     )?;
     Ok(TimedRender {
         cpu,
         wall: start.elapsed(),
         threads: pool.current_num_threads(),
+        rays,
+        tracing,
     })
 }
 
@@ -181,6 +202,7 @@ pub fn render_counted(
             let sum = CountedRender {
                 tallies: tracer.tallies,
                 maxima: tracer.maxima,
+                leaves_squared: tracer.leaves_squared,
                 traversal: tracer.traversal,
                 objects_met: depth_complexity.iter().copied().map(u64::from).sum(),
             };

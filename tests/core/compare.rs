@@ -165,6 +165,7 @@ fn the_most_of_a_ray_is_that_of_the_pixel_with_the_most() {
                 leaves: tally.leaves,
                 empty_leaves: tally.empty_leaves,
                 tests: tally.tests,
+                test_hits: tally.test_hits,
                 box_tests: tally.box_tests,
                 culled: tally.culled,
             });

@@ -21,6 +21,7 @@ mod leaks;
 mod lessons;
 mod malformed;
 mod malformed_meshes;
+mod measures;
 mod methods;
 mod model;
 mod paper;

@@ -8,7 +8,7 @@ use bspscope::primitive::{Precision, Primitive, Shape};
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
 use bspscope::structure::{
-    BuildSettings, CellOfNode, Constants, MaxDepth, NodeKind, StopReason, Tree,
+    BuildSettings, CellOfNode, Constants, MaxDepth, NodeKind, OverlapRule, StopReason, Tree,
 };
 use bspscope::trace::{BoxTest, Children, Probe, RenderSettings, Scratch, closest_hit};
 
@@ -181,7 +181,7 @@ fn a_bonus_for_empty_space_cuts_more_of_it_off() {
     let tetra = scene("tetra:4");
     let full = |bonus| {
         let facts = TreeFacts::of(&tree(&tetra, "sah-auto", &[("empty-bonus", bonus)]));
-        facts.root_volume - facts.empty_volume
+        facts.root_volume - facts.empty_volume.unwrap()
     };
     assert!(full(0.5) < full(0.0), "{} {}", full(0.5), full(0.0));
 }
@@ -238,6 +238,39 @@ fn an_octree_has_the_leaves_of_one_with_children_by_eights() {
         assert!(leaves(&tree).all(|(cell, ..)| cell.depth.is_multiple_of(3)));
         assert_eq!(facts.inner_nodes % 7, 0);
         assert_eq!(tree.depth_reached(), 3 * levels);
+    }
+}
+
+/// V. Havran, statistics of octrees and grids on the SPD scenes, 1999 (`docs/havran_stats_octrees.txt` and
+/// `docs/havran_stats_grids.txt` in the SPD repository): leaves, empty leaves, references. An octree's depth is
+/// counted in levels of eight children.
+#[test]
+fn octrees_and_grids_have_the_published_counts() {
+    let counts = |scene: &Scene, settings: &BuildSettings| {
+        let facts = TreeFacts::of(&tree_with(scene, settings));
+        [facts.leaves, facts.empty_leaves, facts.references]
+    };
+    let octree = |scene: &Scene, levels: u32| {
+        let mut settings = settings("octree", &[]);
+        settings.d_max = MaxDepth::Fixed(3 * levels);
+        settings.overlap = OverlapRule::Bounds;
+        counts(scene, &settings)
+    };
+    let tetra = scene("tetra");
+    assert_eq!(octree(&tetra, 4), [2136, 1072, 13_312]);
+    assert_eq!(octree(&tetra, 5), [9584, 4764, 32_768]);
+    assert_eq!(octree(&tetra, 6), [43_324, 21_100, 110_592]);
+    assert_eq!(octree(&tetra, 7), [198_892, 80_444, 512_000]);
+    // 35 voxels along each axis.
+    let mut grid = settings("grid", &[("density", 10.47)]);
+    grid.overlap = OverlapRule::Bounds;
+    assert_eq!(counts(&tetra, &grid), [42_875, 37_311, 35_936]);
+    // Cylinders and the rounding of coordinates differ: a few references do, too.
+    for (name, published) in [("balls", [400, 300, 9171]), ("rings", [1618, 416, 22_505])] {
+        let found = octree(&scene(name), 4);
+        assert_eq!(found[..2], published[..2], "{name}");
+        let off = found[2] as f64 / published[2] as f64 - 1.0;
+        assert!(off.abs() < 0.023, "{name}: {} references", found[2]);
     }
 }
 

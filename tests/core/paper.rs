@@ -87,7 +87,7 @@ fn method_2_comes_within_5_per_cent_of_the_best_rule_found() {
             100.0 * empty / leaves,
             100.0 * (references / scene.objects().len() as f64 - 1.0),
             references / (leaves - empty),
-            100.0 * (f.root_volume - f.empty_volume) / f.root_volume,
+            100.0 * (f.root_volume - f.empty_volume.unwrap()) / f.root_volume,
         ];
         for (found, expected) in found.into_iter().zip(expected) {
             let off = (found / expected - 1.0).abs();

@@ -23,7 +23,7 @@ fn a_pixels_record_sums_to_what_the_counting_kernel_counted() {
     for name in ["balls", "rings", "tetra", "teaching"] {
         let scene = scene_file(name);
         let settings = small(&scene);
-        for method in ["midpoint", "sah-cut"] {
+        for method in ["midpoint", "sah-cut", "bvh-binned"] {
             let tree = tree_by(&scene, method);
             let counted: Mutex<HashMap<(u32, u32), PixelTallies>> = Mutex::default();
             render_counted(&scene, &tree, &settings, &pool, &Progress::new(), |part| {

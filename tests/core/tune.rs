@@ -3,7 +3,7 @@
 use crate::support::scenes::scene;
 use bspscope::jobs::{End, FindBestTree, Handle, News, Scheduler};
 use bspscope::measure::tune::{
-    Goal, LeftOut, NAIVE_LIMIT, Phase, ROUNDS, Row, Search, Tuned, Tuning, Turn, has_limits,
+    Goal, LeftOut, NAIVE_LIMIT, Phase, ROUNDS, Row, Search, Tuned, Tuning, Turn,
 };
 use bspscope::measure::{measure, parameter};
 use bspscope::progress::Progress;
@@ -155,7 +155,7 @@ fn rows_have_the_counts_of_a_measurement() {
             parameter("T_TR").value(&row.measurement),
             Some(row.spread().median)
         );
-        if has_limits(build.method) {
+        if build.method.has_limits {
             assert_eq!(row.nodes(), expected.tree.nodes().len() as u64);
         }
     }

@@ -44,4 +44,6 @@ pub enum Unit {
     Volume,
     Seconds,
     Bytes,
+    /// Rays per second.
+    Rate,
 }

@@ -3,6 +3,7 @@
 use super::class::{Class, Table, Unit};
 use crate::measure::heat::RayFilter;
 use crate::measure::measurement::Measurement;
+use crate::structure::split::MethodInfo;
 use crate::trace::{RayMaxima, Tally};
 
 /// Something that is specified, counted or timed. It is declared once, in
@@ -22,8 +23,10 @@ pub struct Counter {
     /// Whether a smaller value means less work. Only then can one tree be better in it than another:
     /// nobody knows the best number of leaves.
     pub less_is_better: bool,
-    /// Whether it applies only if rays cross split planes, as in all structures but grids.
-    pub(super) needs_planes: bool,
+    /// Whether it applies to the trees of a method.
+    pub(super) applies: fn(&MethodInfo) -> bool,
+    /// Whether its unit is the node of the structure, so that it means something else in another one.
+    pub(super) counts_nodes: bool,
     pub(super) parameter: Option<(Table, Class)>,
     pub(in crate::measure) heatmap: Option<HeatmapEntry>,
     pub(super) ray_figures: Option<RayFigureEntry>,
@@ -47,6 +50,8 @@ pub enum Value {
     Measured(fn(&Measurement) -> Option<f64>),
     /// The sum over rays of these kinds.
     Rays(RayFilter, Quantity),
+    /// The standard deviation over rays of these kinds of the leaves that each visits.
+    LeafDeviation(RayFilter),
     /// Only pixels have a value.
     PixelTime,
 }
@@ -117,7 +122,8 @@ impl Counter {
             formula: "",
             value,
             less_is_better: false,
-            needs_planes: false,
+            applies: |_| true,
+            counts_nodes: false,
             parameter: None,
             heatmap: None,
             ray_figures: None,
@@ -140,8 +146,15 @@ impl Counter {
         self
     }
 
-    pub(super) const fn needs_planes(mut self) -> Self {
-        self.needs_planes = true;
+    /// Restricts it to the trees of some methods.
+    pub(super) const fn applies(mut self, applies: fn(&MethodInfo) -> bool) -> Self {
+        self.applies = applies;
+        self
+    }
+
+    /// Makes the node of the structure its unit.
+    pub(super) const fn counts_nodes(mut self) -> Self {
+        self.counts_nodes = true;
         self
     }
 

@@ -10,5 +10,5 @@ mod ray_figure;
 pub use class::{Class, Table, Unit};
 pub use declaration::{Count, Counter, Quantity, Value};
 pub use list::COUNTERS;
-pub use parameter::{DELTA, LAMBDA, Parameter, parameter, parameters};
+pub use parameter::{ACROSS_STRUCTURES, DELTA, LAMBDA, Parameter, parameter, parameters};
 pub use ray_figure::{RayFigure, ray_figures};

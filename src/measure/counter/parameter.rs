@@ -4,7 +4,7 @@ use super::class::{Class, Table, Unit};
 use super::declaration::{Counter, Value};
 use super::list::COUNTERS;
 use crate::measure::measurement::Measurement;
-use crate::structure::split::Structure;
+use crate::structure::split::MethodInfo;
 use crate::trace::Tally;
 use std::sync::LazyLock;
 
@@ -15,6 +15,9 @@ pub const DELTA: [&str; 7] = [
 
 /// The triplet Λ by symbol, in the paper's order (equation 3).
 pub const LAMBDA: [&str; 3] = ["T_CB", "T_TR", "T_TT/T_TR"];
+
+/// What takes the place of `N_AT` in comparisons of different structures, by symbol.
+pub const ACROSS_STRUCTURES: [&str; 2] = ["N_PT", "B_RAY"];
 
 /// A counter that has one value for a whole measurement.
 pub struct Parameter {
@@ -32,7 +35,8 @@ pub struct Parameter {
     /// Whether a smaller value means less work.
     pub less_is_better: bool,
     value: Value,
-    needs_planes: bool,
+    applies: fn(&MethodInfo) -> bool,
+    counts_nodes: bool,
 }
 
 impl Parameter {
@@ -49,16 +53,15 @@ impl Parameter {
             formula: counter.formula,
             less_is_better: counter.less_is_better,
             value: counter.value,
-            needs_planes: counter.needs_planes,
+            applies: counter.applies,
+            counts_nodes: counter.counts_nodes,
         })
     }
 
     /// Returns its value. `None` before it is measured, for a ratio whose denominator is 0, and if it
     /// does not apply to the structure.
     pub fn value(&self, measurement: &Measurement) -> Option<f64> {
-        // Rays cross split planes in all structures but grids.
-        let is_grid = measurement.build.method.structure == Structure::Grid;
-        if self.needs_planes && is_grid {
+        if !(self.applies)(&measurement.build.method) {
             return None;
         }
         match self.value {
@@ -69,8 +72,15 @@ impl Parameter {
                 let tally: Tally = kinds.map(|&kind| counted.tallies[kind as usize]).sum();
                 quantity.of(&tally)
             }
+            Value::LeafDeviation(rays) => measurement.counted?.leaf_deviation(rays.kinds()),
             Value::PixelTime => None,
         }
+    }
+
+    /// Returns whether its values have the same unit in both measurements. A node of one structure is not
+    /// a node of another one.
+    pub fn has_same_unit(&self, a: &Measurement, b: &Measurement) -> bool {
+        !self.counts_nodes || a.kind_of_node() == b.kind_of_node()
     }
 }
 

@@ -18,6 +18,7 @@ pub struct RayFigure {
     pub meaning: String,
     /// Whether a smaller value means less work.
     pub less_is_better: bool,
+    counts_nodes: bool,
     statistic: Statistic,
 }
 
@@ -29,6 +30,8 @@ enum Statistic {
     Mean(Count),
     /// Of any ray.
     Maximum(fn(&RayMaxima) -> u32),
+    /// The standard deviation of leaves per ray.
+    LeafDeviation,
 }
 
 impl RayFigure {
@@ -42,7 +45,14 @@ impl RayFigure {
             _ if tally.rays == 0 => None,
             Statistic::Mean(count) => Some(count(tally) as f64 / tally.rays as f64),
             Statistic::Maximum(maximum) => Some(f64::from(maximum(&counted.maxima[kind as usize]))),
+            Statistic::LeafDeviation => counted.leaf_deviation(&[kind]),
         }
+    }
+
+    /// Returns whether its values have the same unit in both measurements, as
+    /// [`Parameter::has_same_unit`](super::Parameter::has_same_unit).
+    pub fn has_same_unit(&self, a: &Measurement, b: &Measurement) -> bool {
+        !self.counts_nodes || a.kind_of_node() == b.kind_of_node()
     }
 }
 
@@ -68,32 +78,37 @@ fn figures(counter: &Counter) -> Vec<([u32; 2], RayFigure)> {
         maximum,
         mean_symbol,
     } = entry;
-    let Value::Rays(_, quantity) = counter.value else {
-        return Vec::new();
+    let (statistic, order) = match counter.value {
+        Value::Rays(_, quantity @ Quantity::Count(_)) => (Statistic::Of(quantity), 0),
+        Value::Rays(_, quantity @ Quantity::Ratio(..)) => (Statistic::Of(quantity), 1),
+        Value::LeafDeviation(_) => (Statistic::LeafDeviation, 4),
+        Value::Measured(_) | Value::PixelTime => return Vec::new(),
     };
+    let counts_nodes = counter.counts_nodes;
     let named = |name: String, symbol: &str| match symbol {
         "" => name,
         symbol => format!("{name} ({symbol})"),
     };
     let (meaning, less_is_better) = (counter.meaning, counter.less_is_better);
     let symbol = counter.parameter.map_or("", |_| counter.symbol);
-    let is_ratio = matches!(quantity, Quantity::Ratio(..));
     let total = RayFigure {
         key: key.to_owned(),
         name: named(noun.to_owned(), symbol),
         unit: counter.unit,
         meaning: meaning.to_owned(),
         less_is_better,
-        statistic: Statistic::Of(quantity),
+        counts_nodes,
+        statistic,
     };
-    let mut figures = vec![([place, u32::from(is_ratio)], total)];
-    if let (Some(maximum), Quantity::Count(count)) = (maximum, quantity) {
+    let mut figures = vec![([place, order], total)];
+    if let (Some(maximum), Statistic::Of(Quantity::Count(count))) = (maximum, statistic) {
         let mean = RayFigure {
             key: format!("{key}_mean"),
             name: named(format!("{noun} per ray, mean"), mean_symbol),
             unit: Unit::Ratio,
             meaning: format!("{meaning} Mean per ray."),
             less_is_better,
+            counts_nodes,
             statistic: Statistic::Mean(count),
         };
         let most = RayFigure {
@@ -102,6 +117,7 @@ fn figures(counter: &Counter) -> Vec<([u32; 2], RayFigure)> {
             unit: Unit::Count,
             meaning: format!("{meaning} Maximum of any ray."),
             less_is_better,
+            counts_nodes,
             statistic: Statistic::Maximum(maximum),
         };
         figures.extend([([place, 2], mean), ([place, 3], most)]);

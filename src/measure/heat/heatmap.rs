@@ -75,7 +75,7 @@ impl Heatmap {
             Value::Rays(_, Quantity::Ratio(over, under)) => {
                 (Source::Rays(over), Whole::RatioTo(under))
             }
-            Value::Measured(_) => return None,
+            Value::Measured(_) | Value::LeafDeviation(_) => return None,
         };
         let mut totals = Vec::new();
         if counter.is_parameter() {

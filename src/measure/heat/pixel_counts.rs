@@ -2,10 +2,10 @@
 
 use crate::trace::{CountedTile, PixelTallies, RayKind, Tally};
 
-/// The most pixels whose counts are kept. A pixel needs about 100 bytes.
+/// The most pixels whose counts are kept. A pixel needs about 150 bytes.
 pub const PIXEL_COUNTS_LIMIT: u64 = 4_000_000;
 
-/// The counts of all pixels, row by row from the upper left. A pixel needs about 100 bytes.
+/// The counts of all pixels, row by row from the upper left. A pixel needs about 150 bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelCounts {
     pub width: u32,

@@ -143,7 +143,8 @@ fn cells(row: &Row) -> impl Iterator<Item = Value> {
         .zip(&row.values)
         .map(|(p, value)| match (*value, p.unit) {
             (None, _) => Value::Null,
-            (Some(value), Unit::Count | Unit::Bytes) => json!(value as u64),
+            (Some(value), Unit::Count) => json!(value as u64),
+            (Some(value), Unit::Bytes) if value.fract() == 0.0 => json!(value as u64),
             (Some(value), _) => json!(value),
         });
     first.into_iter().chain(values)

@@ -1,7 +1,6 @@
 //! The settings that are tried.
 
 use crate::setup::Setup;
-use crate::structure::split::Structure;
 use crate::structure::{BuildSettings, MaxDepth, Method};
 
 /// Most objects for which `none`, which tests every object, is a candidate. In larger scenes it is
@@ -18,11 +17,6 @@ pub(super) const MOST_REFINEMENTS: usize = REFINED * DEPTHS.len() * LEAF_SIZES.l
 
 /// How many methods are refined.
 pub(super) const REFINED: usize = 2;
-
-/// Returns whether `D_MAX` and `N_OILF` change the trees of a method.
-pub fn has_limits(method: Method) -> bool {
-    method.structure != Structure::Grid && method.name != "none"
-}
 
 /// Returns whether a method is tried in a scene with this number of objects.
 pub fn is_tried(method: Method, objects: usize) -> bool {
@@ -152,7 +146,7 @@ mod tests {
 
     #[test]
     fn limits_do_not_apply_to_grids_and_to_no_tree() {
-        let without: Vec<_> = Method::all().filter(|m| !has_limits(*m)).collect();
+        let without: Vec<_> = Method::all().filter(|m| !m.has_limits).collect();
         let names: Vec<_> = without.iter().map(|m| m.name).collect();
         assert_eq!(names, ["grid", "none"]);
     }

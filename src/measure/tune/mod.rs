@@ -22,7 +22,7 @@ mod row;
 mod search;
 mod tuning;
 
-pub use candidates::{NAIVE_LIMIT, has_limits, is_tried};
+pub use candidates::{NAIVE_LIMIT, is_tried};
 pub use goal::Goal;
 pub use phase::Phase;
 pub use ranking::{MOST_SLOWDOWN, Rank, Score, Spread, best, rank};

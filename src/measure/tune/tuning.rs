@@ -1,8 +1,6 @@
 //! The search for the best tree, turn by turn.
 
-use super::candidates::{
-    MOST_REFINEMENTS, REFINED, all_methods, has_limits, is_tried, refinements,
-};
+use super::candidates::{MOST_REFINEMENTS, REFINED, all_methods, is_tried, refinements};
 use super::phase::Phase;
 use super::ranking::best;
 use super::row::Row;
@@ -245,7 +243,7 @@ impl<'a> Tuning<'a> {
             .into_iter()
             .map(|place| &self.rows[place].setup);
         setups
-            .filter(|setup| has_limits(setup.build.method))
+            .filter(|setup| setup.build.method.has_limits)
             .take(REFINED)
             .cloned()
             .collect()

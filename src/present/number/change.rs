@@ -1,7 +1,8 @@
 //! The change of a value, as a person says it.
 
-use super::digits::{Digits, SPACE, grouped};
-use crate::measure::{Parameter, RayFigure, Unit};
+use super::digits::{Digits, OTHER_UNIT, SPACE, grouped};
+use crate::measure::{Comparison, Measurement, Parameter, RayFigure, Unit};
+use crate::trace::RayKind;
 
 /// The change of a value in words, such as `−35 %`, `4.3× fewer` or `+11.5 points`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,7 +40,31 @@ impl Parameter {
     }
 }
 
+impl Parameter {
+    /// Describes the change from one measurement to another, or says that the unit is another one; `None` if a
+    /// value is missing.
+    pub fn comparison_text(&self, before: &Measurement, now: &Measurement) -> Option<ChangeText> {
+        match self.compare(before, now) {
+            Comparison::OtherUnit => Some(other_unit()),
+            _ => self.change_text(self.value(before), self.value(now)),
+        }
+    }
+}
+
 impl RayFigure {
+    /// Describes the change from one measurement to another, as [`Parameter::comparison_text`].
+    pub fn comparison_text(
+        &self,
+        before: &Measurement,
+        now: &Measurement,
+        kind: RayKind,
+    ) -> Option<ChangeText> {
+        match self.compare(before, now, kind) {
+            Comparison::OtherUnit => Some(other_unit()),
+            _ => self.change_text(self.of(before, kind), self.of(now, kind)),
+        }
+    }
+
     /// Describes the change from one value to another; `None` if there is none or one is not finite.
     pub fn change_text(&self, before: Option<f64>, now: Option<f64>) -> Option<ChangeText> {
         let words = words(self.unit);
@@ -57,12 +82,21 @@ impl ChangeText {
     }
 }
 
+fn other_unit() -> ChangeText {
+    ChangeText {
+        text: OTHER_UNIT.into(),
+        before: None,
+        direction: Direction::Neutral,
+    }
+}
+
 /// Returns the words for less and more of a unit. Times become faster, not fewer.
 const fn words(unit: Unit) -> [&'static str; 2] {
     match unit {
         Unit::Count | Unit::Ratio => ["fewer", "more"],
         Unit::Seconds => ["faster", "slower"],
         Unit::Volume => ["smaller", "larger"],
+        Unit::Rate => ["slower", "faster"],
         Unit::Percent | Unit::Bytes => ["less", "more"],
     }
 }
@@ -255,7 +289,7 @@ mod tests {
         let better: Vec<_> = COUNTERS.iter().filter(|c| c.less_is_better).collect();
         let symbols: Vec<_> = better.iter().map(|c| c.symbol).collect();
         let expected = "T_CB N_PRIT N_SRIT N_SECRIT N_RPRT N_VLS N_VFLS N_INODES N_NODES N_AT T_TR \
-                        T_TT T_CB_WALL T_TR_WALL N_IT T_PIXEL";
+                        T_TT T_CB_WALL T_TR_WALL C_SAH EPO N_BT N_BT/ray N_PT B_RAY N_IT T_PIXEL";
         assert_eq!(symbols.join(" "), expected);
         let of = |key: &str| {
             let figure = ray_figures().iter().find(|f| f.key == key);

@@ -3,6 +3,9 @@
 /// Shown in place of a missing value, and of one that is not finite.
 pub const NO_VALUE: &str = "–";
 
+/// Shown in place of the change of a value that has another unit.
+pub const OTHER_UNIT: &str = "other unit";
+
 /// A space at which no line breaks. egui breaks lines at the narrow no-break space, U+202F.
 pub(super) const SPACE: char = '\u{a0}';
 

@@ -11,5 +11,5 @@ mod paper;
 mod value;
 
 pub use change::{ChangeText, Direction};
-pub use digits::{Digits, NO_VALUE, counted, grouped};
+pub use digits::{Digits, NO_VALUE, OTHER_UNIT, counted, grouped};
 pub use paper::significant;

@@ -1,7 +1,7 @@
 //! Numbers in the form of the paper's tables, for reports and exports.
 
-use super::digits::{SPACE, grouped};
-use crate::measure::{Change, Parameter, Unit};
+use super::digits::{NO_VALUE, OTHER_UNIT, SPACE, grouped};
+use crate::measure::{Change, Comparison, Parameter, Unit};
 use std::fmt;
 
 impl Unit {
@@ -13,6 +13,7 @@ impl Unit {
             Unit::Volume => " units³",
             Unit::Seconds => " s",
             Unit::Bytes => " B",
+            Unit::Rate => " rays/s",
         }
     }
 
@@ -22,7 +23,7 @@ impl Unit {
             // Plain spaces, so that a search in a report finds the number.
             Unit::Count | Unit::Bytes => grouped(value).replace(SPACE, " "),
             Unit::Percent => significant(value * 100.0),
-            Unit::Ratio | Unit::Volume | Unit::Seconds => significant(value),
+            Unit::Ratio | Unit::Volume | Unit::Seconds | Unit::Rate => significant(value),
         }
     }
 }
@@ -31,6 +32,16 @@ impl Parameter {
     /// Formats a value without its unit, for reports.
     pub fn number(&self, value: f64) -> String {
         self.unit.number(value)
+    }
+}
+
+impl fmt::Display for Comparison {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Comparison::Change(change) => change.fmt(f),
+            Comparison::NoValue => f.write_str(NO_VALUE),
+            Comparison::OtherUnit => f.write_str(OTHER_UNIT),
+        }
     }
 }
 

@@ -13,6 +13,7 @@ impl Unit {
             Unit::Volume => with_unit(digits.number(value), "units³"),
             Unit::Seconds => digits.seconds(value),
             Unit::Bytes => digits.bytes(value),
+            Unit::Rate => with_unit(digits.number(value), "rays/s"),
         }
     }
 }

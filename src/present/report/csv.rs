@@ -79,5 +79,6 @@ const fn unit(unit: Unit) -> &'static str {
         Unit::Volume => "units^3",
         Unit::Seconds => "seconds",
         Unit::Bytes => "bytes",
+        Unit::Rate => "rays/second",
     }
 }

@@ -13,9 +13,9 @@ pub fn exact_value(parameter: &Parameter, measurement: &Measurement) -> Value {
 pub fn exact(value: Option<f64>, unit: Unit) -> Value {
     match (value, unit) {
         (None, _) => Value::Null,
-        (Some(value), Unit::Count | Unit::Bytes) => Value::from(value as u64),
-        (Some(value), Unit::Ratio | Unit::Percent | Unit::Volume | Unit::Seconds) => {
-            Value::from(value)
-        }
+        (Some(value), Unit::Count) => Value::from(value as u64),
+        // A mean of bytes has a fraction.
+        (Some(value), Unit::Bytes) if value.fract() == 0.0 => Value::from(value as u64),
+        (Some(value), _) => Value::from(value),
     }
 }

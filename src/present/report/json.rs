@@ -4,7 +4,7 @@ use super::content::{Report, SceneSummary};
 use super::exact::exact_value;
 use super::per_kind;
 use super::writer::Writer;
-use crate::measure::{DELTA, LAMBDA, Measurement, parameter, parameters};
+use crate::measure::{BreakEven, DELTA, LAMBDA, Measurement, parameter, parameters};
 use crate::setup::{Kind, SETTINGS, Setting, Setup};
 use serde_json::{Map, Value, json};
 use std::io::{Result, Write};
@@ -22,11 +22,32 @@ fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
         "runs": report.runs.iter().map(|one| run(report, one)).collect::<Vec<_>>(),
         "failures": report.failures,
     });
+    if let [first, second] = &report.runs[..] {
+        value["comparison"] = comparison(first, second);
+    }
     if let Some(per_kind) = per_kind::json(report) {
         value["per_kind"] = per_kind;
     }
     serde_json::to_writer_pretty(&mut *out, &value)?;
     writeln!(out)
+}
+
+/// Returns every parameter of the second run relative to the first, and when the second tree pays off.
+fn comparison(first: &Measurement, second: &Measurement) -> Value {
+    let parameters = parameters().iter().map(|parameter| {
+        let mut value = json!({});
+        per_kind::add_comparison(&mut value, Some(parameter.compare(first, second)));
+        (parameter.symbol.to_owned(), value)
+    });
+    let break_even = BreakEven::of(first, second);
+    let mut rays = json!({ "rays": break_even.and_then(BreakEven::rays) });
+    if break_even == Some(BreakEven::Never) {
+        rays["reason"] = json!("rays are not faster with the second tree");
+    }
+    json!({
+        "parameters": Value::Object(parameters.collect()),
+        "N_BE": rays,
+    })
 }
 
 fn scene(scene: &SceneSummary) -> Result<Value> {

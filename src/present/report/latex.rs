@@ -22,7 +22,7 @@ fn write(report: &Report, out: &mut dyn Write) -> Result<()> {
     for line in lines.concat() {
         writeln!(out, "% {line}")?;
     }
-    for section in delta_and_lambda().into_iter().chain(tables()) {
+    for section in delta_and_lambda(report).into_iter().chain(tables()) {
         write_section(&section, report, out)?;
     }
     let mut grids = per_kind::grids(report).into_iter();

@@ -86,7 +86,7 @@ impl Page<'_> {
                         h2 { "Pictures" }
                         @for figure in &self.figures { (figure.markup()) }
                     }
-                    @for section in delta_and_lambda() { (table(&section, report)) }
+                    @for section in delta_and_lambda(report) { (table(&section, report)) }
                     (list(&words::times(report)))
                     h2 { "Settings" }
                     (list(&words::settings(report)))

@@ -4,8 +4,8 @@ use super::content::Report;
 use super::exact::exact;
 use super::grid::Grid;
 use super::sections::value_titles;
-use crate::measure::{Change, RayFigure, change, ray_figures};
-use crate::present::number::NO_VALUE;
+use crate::measure::{Change, Comparison, RayFigure, ray_figures};
+use crate::present::number::{NO_VALUE, OTHER_UNIT};
 use crate::trace::RayKind;
 use serde_json::{Map, Value, json};
 
@@ -20,19 +20,19 @@ fn kinds(report: &Report) -> impl Iterator<Item = RayKind> {
         .filter(move |kind| report.per_kind && has_rays(kind))
 }
 
-/// Returns the values of a figure in all runs. If there are exactly two runs, also returns the
-/// second relative to the first.
+/// Returns the values of a figure in all runs. If there are exactly two runs, also compares the second with
+/// the first.
 fn values(
     report: &Report,
     figure: &RayFigure,
     kind: RayKind,
-) -> (Vec<Option<f64>>, Option<Change>) {
+) -> (Vec<Option<f64>>, Option<Comparison>) {
     let values: Vec<_> = report.runs.iter().map(|run| figure.of(run, kind)).collect();
-    let change = match values[..] {
-        [first, second] => change(figure.unit, first, second),
+    let comparison = match &report.runs[..] {
+        [first, second] => Some(figure.compare(first, second, kind)),
         _ => None,
     };
-    (values, change)
+    (values, comparison)
 }
 
 /// Returns one table per kind of ray.
@@ -54,14 +54,13 @@ pub fn grids(report: &Report) -> Vec<Grid> {
 }
 
 fn row(report: &Report, figure: &RayFigure, kind: RayKind) -> Vec<String> {
-    let (values, change) = values(report, figure, kind);
+    let (values, comparison) = values(report, figure, kind);
     let none = || NO_VALUE.to_owned();
-    let two = values.len() == 2;
     let values = values.into_iter();
     [figure.name.to_owned()]
         .into_iter()
         .chain(values.map(|value| value.map_or_else(none, |value| figure.unit.number(value))))
-        .chain(two.then(|| change.map_or_else(none, |change| change.to_string())))
+        .chain(comparison.map(|comparison| comparison.to_string()))
         .collect()
 }
 
@@ -75,15 +74,25 @@ fn capitalised(word: &str) -> String {
 pub fn json(report: &Report) -> Option<Value> {
     let of_kind = |kind| -> Map<String, Value> {
         let figures = ray_figures().iter().map(|figure| {
-            let (values, change) = values(report, figure, kind);
+            let (values, comparison) = values(report, figure, kind);
             let values: Vec<_> = values.into_iter().map(|v| exact(v, figure.unit)).collect();
-            let value = json!({"values": values, "second_to_first": change.map(Change::value)});
+            let mut value = json!({"values": values});
+            add_comparison(&mut value, comparison);
             (figure.key.to_owned(), value)
         });
         figures.collect()
     };
     let kinds = kinds(report).map(|kind| (kind.name().to_owned(), Value::Object(of_kind(kind))));
     report.per_kind.then(|| Value::Object(kinds.collect()))
+}
+
+/// Adds the second value relative to the first, or null and the reason.
+pub fn add_comparison(value: &mut Value, comparison: Option<Comparison>) {
+    let change = comparison.and_then(Comparison::change);
+    value["second_to_first"] = json!(change.map(Change::value));
+    if comparison == Some(Comparison::OtherUnit) {
+        value["reason"] = json!(OTHER_UNIT);
+    }
 }
 
 /// One value of one figure.
@@ -100,7 +109,7 @@ pub fn lines(report: &Report) -> Vec<Line> {
     let mut lines = Vec::new();
     for kind in kinds(report) {
         for figure in ray_figures() {
-            let (values, change) = values(report, figure, kind);
+            let (values, comparison) = values(report, figure, kind);
             let line = |run, value| Line {
                 kind,
                 figure,
@@ -109,8 +118,8 @@ pub fn lines(report: &Report) -> Vec<Line> {
             };
             let of_runs = values.iter().enumerate();
             lines.extend(of_runs.map(|(run, v)| line(Some(run), exact(*v, figure.unit))));
-            if values.len() == 2 {
-                lines.push(line(None, json!(change.map(Change::value))));
+            if let Some(comparison) = comparison {
+                lines.push(line(None, json!(comparison.change().map(Change::value))));
             }
         }
     }

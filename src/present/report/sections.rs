@@ -1,7 +1,9 @@
 //! The tables of a report that all writers for people share.
 
 use super::content::Report;
-use crate::measure::{Class, DELTA, LAMBDA, Parameter, Table, change, parameter, parameters};
+use crate::measure::{
+    ACROSS_STRUCTURES, Class, DELTA, LAMBDA, Parameter, Table, parameter, parameters,
+};
 use crate::present::number::NO_VALUE;
 
 /// One table.
@@ -26,16 +28,20 @@ impl Row {
     }
 }
 
-/// Returns Δ and Λ, as in the paper's Tables 5 and 6.
-pub fn delta_and_lambda() -> [Section; 2] {
+/// Returns Δ and Λ, as in the paper's Tables 5 and 6. If the nodes of the runs are of different kinds, what
+/// compares across structures follows N_AT.
+pub fn delta_and_lambda(report: &Report) -> [Section; 2] {
     let section = |title, symbols: &[&str]| Section {
         title,
         parameters: symbols.iter().map(|symbol| parameter(symbol)).collect(),
     };
-    [
-        section("Δ: the tree", &DELTA),
-        section("Λ: the implementation", &LAMBDA),
-    ]
+    let mut delta = section("Δ: the tree", &DELTA);
+    let mut pairs = report.runs.windows(2);
+    if pairs.any(|pair| pair[0].kind_of_node() != pair[1].kind_of_node()) {
+        let across = ACROSS_STRUCTURES.map(parameter);
+        delta.parameters.extend(across);
+    }
+    [delta, section("Λ: the implementation", &LAMBDA)]
 }
 
 /// Returns all parameters, grouped by the paper's tables.
@@ -55,13 +61,10 @@ pub fn rows(section: &Section, report: &Report) -> Vec<Row> {
             let values: Vec<_> = report.runs.iter().map(|run| parameter.value(run)).collect();
             Row {
                 parameter,
-                second_to_first: match values[..] {
+                second_to_first: match &report.runs[..] {
                     // Given parameters are the same for both.
                     [_, _] if parameter.class == Class::S => Some(String::new()),
-                    [first, second] => {
-                        let change = change(parameter.unit, first, second);
-                        Some(change.map_or_else(|| NO_VALUE.into(), |c| c.to_string()))
-                    }
+                    [first, second] => Some(parameter.compare(first, second).to_string()),
                     _ => None,
                 },
                 values: values

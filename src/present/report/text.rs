@@ -35,7 +35,7 @@ pub fn write_summary(report: &Report, out: &mut dyn Write) -> Result<()> {
     for line in words::scene(report) {
         writeln!(out, "{line}")?;
     }
-    for section in delta_and_lambda() {
+    for section in delta_and_lambda(report) {
         write_section(&section, report, false, out)?;
     }
     writeln!(out)?;

@@ -2,11 +2,9 @@
 
 use super::content::Report;
 use crate::geometry::Vec3;
-use crate::measure::Measurement;
+use crate::measure::{BreakEven, Measurement, Unit};
 use crate::present::number::{Digits, counted};
 use crate::setup::{Group, Kind, Setting, Setup, Value};
-
-use crate::structure::split::Structure;
 use crate::structure::{MaxDepth, RootMargin};
 use std::time::Duration;
 
@@ -148,20 +146,54 @@ pub fn times(report: &Report) -> Vec<String> {
         }
         line
     })
+    .chain(break_even(report))
+    .chain(union_error(report))
     .chain(failures)
     .collect()
+}
+
+/// Says when the second of two trees pays off, `N_BE`.
+fn break_even(report: &Report) -> Option<String> {
+    let [first, second] = &report.runs[..] else {
+        return None;
+    };
+    Some(match BreakEven::of(first, second)? {
+        BreakEven::Rays(0.0) => {
+            "Break-even N_BE: 0 rays; the second tree takes no longer to build, and rays are faster"
+                .into()
+        }
+        BreakEven::Rays(rays) => format!(
+            "Break-even N_BE: {} rays; from then on, the second tree has made up for its longer build",
+            Digits::Three.count(rays.ceil())
+        ),
+        BreakEven::Never => "Break-even N_BE: –; rays are not faster with the second tree".into(),
+    })
+}
+
+/// Says for each run how far V_EMPTY may be off, if it was estimated.
+fn union_error(report: &Report) -> impl Iterator<Item = String> + '_ {
+    let estimated = report
+        .runs
+        .iter()
+        .filter(|run| run.tree.empty_volume_error > 0.0);
+    estimated.map(|run| {
+        format!(
+            "{}: V_EMPTY is estimated from points; its standard error is at most {}",
+            run.build.method.name,
+            Unit::Volume.text(run.tree.empty_volume_error, Digits::Three)
+        )
+    })
 }
 
 /// Returns the settings that a tree was built with.
 fn tree(report: &Report, run: &Measurement) -> String {
     let setup = setup(report, run);
     let build = &run.build;
-    let is_grid = build.method.structure == Structure::Grid;
     let mut words = Vec::new();
     for setting in setup.settings().filter(|s| s.group == Group::Structure) {
         match setting.name {
             "method" => {}
-            "d-max" | "n-oilf" if is_grid => {
+            "d-max" | "n-oilf" if !build.method.has_limits => {
                 words.push(format!("{} (does not apply)", with_value(&setting, &setup)));
             }
             "d-max" if build.d_max == MaxDepth::Automatic => {

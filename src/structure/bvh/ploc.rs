@@ -25,6 +25,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: None,
     paper_spheres_exactly: false,
     structure: Structure::Bvh,
+    has_limits: false,
     constants: &[WIDTH, MAX_LEAF, RADIUS, COST_TRAVERSAL, COST_TEST],
     builder: Builder::Boxes(|settings| Box::new(Ploc::new(settings))),
 };

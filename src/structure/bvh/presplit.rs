@@ -21,6 +21,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: None,
     paper_spheres_exactly: false,
     structure: Structure::Bvh,
+    has_limits: true,
     constants: &[WIDTH, MAX_LEAF, BUDGET, COST_TRAVERSAL, COST_TEST],
     builder: Builder::Boxes(|settings| Box::new(Presplit::new(settings))),
 };

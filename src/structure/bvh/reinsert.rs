@@ -28,6 +28,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: None,
     paper_spheres_exactly: false,
     structure: Structure::Bvh,
+    has_limits: false,
     constants: &[
         WIDTH,
         MAX_LEAF,

@@ -22,6 +22,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: None,
     paper_spheres_exactly: false,
     structure: Structure::Bvh,
+    has_limits: true,
     constants: &[WIDTH, MAX_LEAF, BLOCK, COST_TRAVERSAL, COST_TEST],
     builder: Builder::Boxes(|settings| Box::new(Sweep::new(settings))),
 };

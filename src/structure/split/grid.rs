@@ -21,6 +21,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: None,
     paper_spheres_exactly: true,
     structure: Structure::Grid,
+    has_limits: false,
     constants: &[Constant {
         name: "density",
         default: 5.0,

@@ -14,6 +14,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: Some(1),
     paper_spheres_exactly: true,
     structure: Structure::Bintree,
+    has_limits: true,
     constants: &[],
     builder: Builder::Cells(|settings| Box::new(Midpoint(settings.first_axis))),
 };

@@ -14,6 +14,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: None,
     paper_spheres_exactly: true,
     structure: Structure::Bintree,
+    has_limits: true,
     constants: &[],
     builder: Builder::Cells(|_| Box::new(MidpointLongest)),
 };

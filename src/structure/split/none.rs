@@ -14,6 +14,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: None,
     paper_spheres_exactly: false,
     structure: Structure::Bintree,
+    has_limits: false,
     constants: &[],
     builder: Builder::Cells(|_| Box::new(Never)),
 };

@@ -19,6 +19,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: None,
     paper_spheres_exactly: true,
     structure: Structure::Octree,
+    has_limits: true,
     constants: &[],
     builder: Builder::Cells(|settings| Box::new(Midpoint(settings.first_axis))),
 };

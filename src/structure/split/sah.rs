@@ -33,6 +33,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: None,
     paper_spheres_exactly: false,
     structure: Structure::Bintree,
+    has_limits: true,
     constants: &[
         Constant {
             name: "block",

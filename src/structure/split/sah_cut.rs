@@ -23,6 +23,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper: Some(2),
     paper_spheres_exactly: false,
     structure: Structure::Bintree,
+    has_limits: true,
     constants: &[
         Constant {
             name: "epsilon",

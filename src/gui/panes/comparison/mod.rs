@@ -9,7 +9,7 @@ use crate::gui::action::tip;
 use crate::gui::document::Document;
 use crate::gui::document::comparing::Which;
 use crate::gui::pane::{Cx, Pane};
-use crate::measure::{DELTA, LAMBDA, parameter, parameters};
+use crate::measure::{ACROSS_STRUCTURES, DELTA, LAMBDA, parameter, parameters};
 use crate::trace::RayKind;
 use table::Sides;
 
@@ -64,7 +64,12 @@ impl Pane for ComparisonPane {
         if self.all_figures {
             sides.parameters(ui, parameters().iter());
         } else {
-            let symbols = DELTA.iter().chain(&LAMBDA);
+            let across: &[&str] = if sides.have_same_nodes() {
+                &[]
+            } else {
+                &ACROSS_STRUCTURES
+            };
+            let symbols = DELTA.iter().chain(across).chain(&LAMBDA);
             sides.parameters(ui, symbols.map(|symbol| parameter(symbol)));
         }
         if self.per_kind {

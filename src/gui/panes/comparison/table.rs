@@ -22,6 +22,14 @@ pub struct Sides<'a> {
 }
 
 impl Sides<'_> {
+    /// Returns whether nodes of both trees are of the same kind, as far as both are there.
+    pub fn have_same_nodes(&self) -> bool {
+        let [a, b] = self
+            .measurements()
+            .map(|m| m.map(Measurement::kind_of_node));
+        a.is_none() || b.is_none() || a == b
+    }
+
     /// Shows a table of parameters.
     pub fn parameters(&self, ui: &mut egui::Ui, of: impl Iterator<Item = &'static Parameter>) {
         ui.vertical(|ui| {
@@ -29,9 +37,8 @@ impl Sides<'_> {
             titles(ui);
             for (i, parameter) in of.enumerate() {
                 let values = self.measurements().map(|m| parameter.value(m?));
-                let [a, b] = values;
                 let texts = values.map(|value| parameter.format(value));
-                let change = parameter.change_text(a, b);
+                let change = self.compare(|a, b| parameter.comparison_text(a, b));
                 let name = sentence(parameter.name);
                 let label = self.row(ui, i, &name, parameter.symbol, texts, change);
                 if let Some(measurement) = self.measurements().into_iter().flatten().next() {
@@ -54,9 +61,8 @@ impl Sides<'_> {
             titles(ui);
             for (i, figure) in ray_figures().iter().enumerate() {
                 let values = self.measurements().map(|m| figure.of(m?, kind));
-                let [a, b] = values;
                 let texts = values.map(|value| figure.text(value, Digits::Four));
-                let change = figure.change_text(a, b);
+                let change = self.compare(|a, b| figure.comparison_text(a, b, kind));
                 self.row(ui, i, &sentence(&figure.name), "", texts, change)
                     .on_hover_text(&figure.meaning);
             }
@@ -66,6 +72,14 @@ impl Sides<'_> {
     fn measurements(&self) -> [Option<&Measurement>; 2] {
         let [a, b] = &self.both;
         [a, b].map(|side| side.as_ref().map(|figures| &figures.now.measurement))
+    }
+
+    fn compare(
+        &self,
+        compare: impl Fn(&Measurement, &Measurement) -> Option<ChangeText>,
+    ) -> Option<ChangeText> {
+        let [a, b] = self.measurements();
+        compare(a?, b?)
     }
 
     fn row(

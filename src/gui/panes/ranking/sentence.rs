@@ -1,13 +1,13 @@
 //! What a search recommends, in words.
 
 use crate::gui::document::tuning::Found;
-use crate::measure::tune::{Goal, Phase, Row, has_limits};
+use crate::measure::tune::{Goal, Phase, Row};
 use crate::present::number::{Digits, counted};
 
 /// Returns the settings of a candidate, such as "sah, depth 18, leaf size 4".
 pub fn name(row: &Row) -> String {
     let build = &row.setup.build;
-    if has_limits(build.method) {
+    if build.method.has_limits {
         let depth = row.measurement.depth_limit;
         let size = build.n_oilf;
         format!("{}, depth {depth}, leaf size {size}", build.method.name)

@@ -7,7 +7,7 @@ use crate::gui::document::tuning::Found;
 use crate::gui::edits::Edits;
 use crate::gui::icons;
 use crate::gui::theme::{HINT, IconButton, ROW, named, strong, tokens};
-use crate::measure::tune::{Rank, Row, has_limits};
+use crate::measure::tune::{Rank, Row};
 use crate::present::number::{Digits, NO_VALUE, grouped};
 use egui::{Align, Layout, Rect, Sense, Stroke, pos2, vec2};
 use egui_extras::{Column, TableBuilder};
@@ -144,7 +144,7 @@ fn alignment(place: usize) -> Layout {
 /// The texts of a row; none in the place of the bar.
 fn cells(rank: &Rank, row: &Row) -> [String; 10] {
     let build = &row.setup.build;
-    let [depth, leaf_size] = if has_limits(build.method) {
+    let [depth, leaf_size] = if build.method.has_limits {
         [row.measurement.depth_limit, build.n_oilf].map(|limit| limit.to_string())
     } else {
         [NO_VALUE, NO_VALUE].map(str::to_owned)

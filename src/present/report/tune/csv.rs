@@ -1,7 +1,6 @@
 //! The search as CSV: one line per candidate, in the order of the ranking.
 
 use super::content::TuneReport;
-use crate::measure::tune::has_limits;
 use std::io::{Result, Write};
 
 /// Writes one line per candidate. `rounds` tells how often each was timed.
@@ -31,7 +30,7 @@ pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
         let row = &tuned.rows[rank.place];
         let (build, spread) = (&row.setup.build, row.spread());
         let limit = |text: String| {
-            if has_limits(build.method) {
+            if build.method.has_limits {
                 text
             } else {
                 String::new()

@@ -3,7 +3,7 @@
 use super::content::TuneReport;
 use super::words::{command, left_out, recommendation};
 use crate::measure::parameter;
-use crate::measure::tune::{Phase, Rank, Row, has_limits};
+use crate::measure::tune::{Phase, Rank, Row};
 use crate::present::report::exact::exact_value;
 use serde_json::{Map, Value, json};
 use std::io::{Result, Write};
@@ -64,7 +64,7 @@ fn candidate(rank: &Rank, row: &Row, is_recommended: bool) -> Value {
             (symbol.into(), value)
         })
         .collect();
-    let applies = has_limits(build.method);
+    let applies = build.method.has_limits;
     json!({
         "rank": rank.rank,
         "tied": rank.is_tied,

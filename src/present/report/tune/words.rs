@@ -1,8 +1,6 @@
 //! The sentences of a search for the best tree.
 
-use crate::measure::tune::{
-    Goal, LeftOut, MOST_SLOWDOWN, NAIVE_LIMIT, Phase, ROUNDS, Row, Tuned, has_limits,
-};
+use crate::measure::tune::{Goal, LeftOut, MOST_SLOWDOWN, NAIVE_LIMIT, Phase, ROUNDS, Row, Tuned};
 use crate::present::number::{Digits, NO_VALUE, counted, grouped};
 use crate::setup::measure_command;
 
@@ -19,7 +17,7 @@ pub fn memory(row: &Row) -> String {
 /// Returns `D_MAX` and `N_OILF` of a row; a dash where they do not apply.
 pub fn limits(row: &Row) -> [String; 2] {
     let build = &row.setup.build;
-    if has_limits(build.method) {
+    if build.method.has_limits {
         [row.measurement.depth_in_words(), build.n_oilf.to_string()]
     } else {
         [NO_VALUE.into(), NO_VALUE.into()]
@@ -30,7 +28,7 @@ pub fn limits(row: &Row) -> [String; 2] {
 fn candidate(row: &Row) -> String {
     let [depth, leaf_size] = limits(row);
     let method = row.setup.build.method;
-    if has_limits(method) {
+    if method.has_limits {
         format!("{}, D_MAX {depth}, N_OILF {leaf_size}", method.name)
     } else {
         method.name.into()
