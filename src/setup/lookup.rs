@@ -3,6 +3,7 @@
 use super::setting::{Affects, Group, Setting};
 use super::{SETTINGS, Setup};
 use crate::structure::Method;
+use crate::structure::split::Structure;
 
 /// The setting of this name or alias, the constants of build methods left out.
 pub fn setting(name: &str) -> Option<&'static Setting> {
@@ -38,6 +39,17 @@ impl Setup {
             .chain(all().filter(structure))
             .chain(method.info().constants.iter().map(Setting::of_constant))
             .chain(all().filter(|s| matches!(s.group, Group::Picture | Group::Camera)))
+    }
+
+    /// Whether a setting has an effect with this method. Grids have no depth and no leaf size, and a bounding
+    /// volume hierarchy has neither cells nor planes.
+    pub fn applies(&self, setting: &Setting) -> bool {
+        let unused: &[&str] = match self.build.method.structure {
+            Structure::Bintree | Structure::Octree => &[],
+            Structure::Grid => &["d-max", "n-oilf", "first-axis"],
+            Structure::Bvh => &["overlap", "first-axis"],
+        };
+        !unused.contains(&setting.name)
     }
 
     /// The setting of this name: a constant of the method, or one of [`SETTINGS`] by its name or

@@ -6,7 +6,6 @@ use crate::measure::Measurement;
 use crate::present::number::{Digits, counted};
 use crate::setup::{Group, Kind, Setting, Setup, Value};
 
-use crate::structure::split::Structure;
 use crate::structure::{MaxDepth, RootMargin};
 use std::time::Duration;
 
@@ -148,12 +147,11 @@ pub fn times(report: &Report) -> Vec<String> {
 fn tree(report: &Report, run: &Measurement) -> String {
     let setup = setup(report, run);
     let build = &run.build;
-    let is_grid = build.method.structure == Structure::Grid;
     let mut words = Vec::new();
     for setting in setup.settings().filter(|s| s.group == Group::Structure) {
         match setting.name {
             "method" => {}
-            "d-max" | "n-oilf" if is_grid => {
+            _ if !setup.applies(&setting) => {
                 words.push(format!("{} (does not apply)", with_value(&setting, &setup)));
             }
             "d-max" if build.d_max == MaxDepth::Automatic => {
