@@ -535,8 +535,14 @@ mod tests {
             let parts = cost.boxes_at(&scene, axis, chosen.plane).unwrap();
             for (part, child) in parts.iter().zip(&children) {
                 let slack = 1e-5 * tree.root_cell().size().max_element();
-                assert!((part.lo - child.lo).abs().max_element() < slack, "node {node}");
-                assert!((part.hi - child.hi).abs().max_element() < slack, "node {node}");
+                assert!(
+                    (part.lo - child.lo).abs().max_element() < slack,
+                    "node {node}"
+                );
+                assert!(
+                    (part.hi - child.hi).abs().max_element() < slack,
+                    "node {node}"
+                );
             }
             let sample = cost.curves[axis.index()].at(chosen.plane);
             assert!((sample.cost - chosen.cost).abs() < 1e-4 * chosen.cost);

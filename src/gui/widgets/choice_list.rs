@@ -17,7 +17,11 @@ pub fn item(ui: &mut Ui, is_chosen: bool, name: &str, about: &str) -> Response {
     let t = tokens(ui);
     let style = ui.style();
     let [font, small] = [TextStyle::Body, named(HINT)].map(|text| text.resolve(style));
-    let width = ui.painter().layout_no_wrap(name.to_owned(), font.clone(), t.text).size().x;
+    let width = ui
+        .painter()
+        .layout_no_wrap(name.to_owned(), font.clone(), t.text)
+        .size()
+        .x;
     let mut text = LayoutJob::default();
     text.append(name, 0.0, TextFormat::simple(font, t.text));
     if !about.is_empty() {
@@ -25,5 +29,6 @@ pub fn item(ui: &mut Ui, is_chosen: bool, name: &str, about: &str) -> Response {
         let gap = (NAME - width).max(8.0);
         text.append(about, gap, TextFormat::simple(small, color));
     }
-    ui.add(Button::selectable(is_chosen, text)).accessible_name(name)
+    ui.add(Button::selectable(is_chosen, text))
+        .accessible_name(name)
 }

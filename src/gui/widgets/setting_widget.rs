@@ -261,7 +261,8 @@ fn choice(
                     ui.close();
                 }
                 if about.is_empty() && !choice.about.is_empty() {
-                    item.on_hover_text(choice.about).accessible_name(choice.name);
+                    item.on_hover_text(choice.about)
+                        .accessible_name(choice.name);
                 }
             }
         });

@@ -157,7 +157,9 @@ pub fn overlap(path: &RayPath, step: usize) -> Option<String> {
         return None;
     }
     let rest = path.steps[step + 1..].iter();
-    let next = rest.into_iter().find(|next| !matches!(next, Step::Culled(_)))?;
+    let next = rest
+        .into_iter()
+        .find(|next| !matches!(next, Step::Culled(_)))?;
     let hit = closest_until(path, step)?;
     Some(format!(
         "Boxes overlap: node {} is pending and begins at {} units, before the closest hit so far at {}. It may \
@@ -170,11 +172,17 @@ pub fn overlap(path: &RayPath, step: usize) -> Option<String> {
 
 /// The closest hit up to a step.
 fn closest_until(path: &RayPath, step: usize) -> Option<f64> {
-    let leaves = path.steps.iter().take(step + 1).filter_map(|step| match step {
-        Step::Leaf(leaf) => Some(leaf),
-        _ => None,
-    });
-    let hits = leaves.flat_map(|leaf| &leaf.tests).filter_map(|test| test.hit);
+    let leaves = path
+        .steps
+        .iter()
+        .take(step + 1)
+        .filter_map(|step| match step {
+            Step::Leaf(leaf) => Some(leaf),
+            _ => None,
+        });
+    let hits = leaves
+        .flat_map(|leaf| &leaf.tests)
+        .filter_map(|test| test.hit);
     hits.reduce(f64::min)
 }
 
@@ -186,7 +194,11 @@ pub fn first_hit(path: &RayPath) -> Option<String> {
         return None;
     }
     let hit_in = |step: &Step| match step {
-        Step::Leaf(leaf) => leaf.tests.iter().filter_map(|test| test.hit).reduce(f64::min),
+        Step::Leaf(leaf) => leaf
+            .tests
+            .iter()
+            .filter_map(|test| test.hit)
+            .reduce(f64::min),
         _ => None,
     };
     let mut hits = path.steps.iter().enumerate();
@@ -207,7 +219,9 @@ pub fn first_hit(path: &RayPath) -> Option<String> {
     let after = path.steps[first + 1..].iter();
     let leaves = after.filter(|step| matches!(step, Step::Leaf(_))).count();
     Some(match leaves {
-        0 => format!("The first hit, in step {number}, ends the search: no pending box begins before it."),
+        0 => format!(
+            "The first hit, in step {number}, ends the search: no pending box begins before it."
+        ),
         _ => format!(
             "The first hit, in step {number}, is the closest. To know that takes {} more, because boxes \
              overlap.",

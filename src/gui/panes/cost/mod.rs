@@ -137,9 +137,15 @@ fn words(ui: &mut egui::Ui, cost: &NodeCost, tried: &mut Option<WhatIf>) {
     ui.add(egui::Label::new(&text).wrap()).on_hover_text(about);
     let chosen = chosen.map(|(_, cost)| cost);
     let (what, try_it) = if cost.has_boxes {
-        ("the chosen boxes", "Drag or click in a curve to try other boxes.")
+        (
+            "the chosen boxes",
+            "Drag or click in a curve to try other boxes.",
+        )
     } else {
-        ("the chosen plane", "Drag or click in a curve to try a plane.")
+        (
+            "the chosen plane",
+            "Drag or click in a curve to try a plane.",
+        )
     };
     ui.horizontal_wrapped(|ui| {
         let some = tried.is_some();

@@ -89,7 +89,8 @@ fn outside(ui: &mut Ui, settings: &mut Settings) {
          is selected in it changes nothing.",
         "view3d.outside",
     );
-    ui.strong("Outside of the selected subtree").on_hover_text(&about);
+    ui.strong("Outside of the selected subtree")
+        .on_hover_text(&about);
     ui.horizontal(|ui| {
         for outside in Outside::ALL {
             ui.radio_value(&mut settings.outside, outside, outside.title())
