@@ -217,15 +217,14 @@ pub fn first_hit(path: &RayPath) -> Option<String> {
         ));
     }
     let after = path.steps[first + 1..].iter();
-    let leaves = after.filter(|step| matches!(step, Step::Leaf(_))).count();
-    Some(match leaves {
+    let visited = after.filter(|step| !matches!(step, Step::Culled(_)));
+    Some(match visited.count() {
         0 => format!(
             "The first hit, in step {number}, ends the search: no pending box begins before it."
         ),
-        _ => format!(
-            "The first hit, in step {number}, is the closest. To know that takes {} more, because boxes \
-             overlap.",
-            count(leaves as u32, "leaf", "leaves")
+        more => format!(
+            "The first hit, in step {number}, is the closest. To know that takes {}, because boxes overlap.",
+            count(more as u32, "more node", "more nodes")
         ),
     })
 }

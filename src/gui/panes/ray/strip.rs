@@ -22,6 +22,10 @@ const GROUND: Color32 = Color32::from_rgb(24, 27, 33);
 /// The least width of a leaf's block in points.
 const LEAST: f32 = 4.0;
 
+/// The width of a step after the last leaf in points, and the most that all of them take of the strip.
+const AFTER: f32 = 10.0;
+const MOST_AFTER: f32 = 0.2;
+
 /// A block of the strip.
 #[derive(Clone, Debug, PartialEq)]
 struct Block {
@@ -39,7 +43,14 @@ struct Layout {
 }
 
 impl Layout {
-    fn new(path: &RayPath, width: f32) -> Self {
+    fn new(path: &RayPath, whole: f32) -> Self {
+        let is_leaf = |step: &&Step| matches!(step, Step::Leaf(_));
+        let after = path.steps.iter().rev().take_while(|step| !is_leaf(step));
+        // In a hierarchy, pending nodes are left when the closest hit is known.
+        let width = match after.count() {
+            n if n == path.steps.len() => 0.0,
+            n => whole - (AFTER * n as f32).min(MOST_AFTER * whole),
+        };
         let spans: Vec<Range<f64>> = path
             .leaves()
             .map(|leaf| leaf.t_enter..leaf.t_exit)
@@ -81,9 +92,7 @@ impl Layout {
                 }
             }
         }
-        // The ray ends below these: they have the end of the strip.
-        let end = layout.leaves.last().map_or(0.0, |(_, x)| x.start);
-        layout.blocks.extend(side_by_side(&inner, end..width));
+        layout.blocks.extend(side_by_side(&inner, width..whole));
         layout
     }
 
@@ -325,7 +334,9 @@ mod tests {
                 assert!(layout.is_along());
             }
             assert!(leaves.is_sorted_by(|a, b| a.x.end <= b.x.start));
-            assert!((leaves.last().unwrap().x.end - 800.0).abs() < 0.5);
+            let end = layout.blocks.iter().map(|block| block.x.end);
+            assert!((end.fold(0.0, f32::max) - 800.0).abs() < 0.5);
+            assert!(leaves.last().unwrap().x.end >= 0.8 * 800.0 - 0.5);
             for block in &layout.blocks {
                 let middle = 0.5 * (block.x.start + block.x.end);
                 assert_eq!(layout.at(middle, !block.is_leaf), Some(block.step));
