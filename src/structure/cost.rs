@@ -34,9 +34,9 @@ pub struct SplitCost {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CostCurve {
     pub axis: Axis,
-    /// Lower and upper end of the cell.
+    /// Lower and upper end of the cell; in a hierarchy, a little below and above all centers.
     pub range: [f64; 2],
-    /// The middle of the cell.
+    /// The middle of the cell; in a hierarchy, between the outermost centers.
     pub spatial_median: f64,
     /// The upper median of all bounds of objects in the cell, in a hierarchy of their centers; `None` without
     /// objects.
@@ -74,6 +74,9 @@ pub struct Division {
     /// Expected number of intersection tests of a ray through the box.
     pub cost: f64,
 }
+
+/// How far the range of a curve reaches beyond the centers, as a share of their width.
+const MARGIN: f64 = 0.08;
 
 /// The costs of splitting one node.
 #[derive(Clone, Debug, PartialEq)]
@@ -296,6 +299,14 @@ impl CostCurve {
         places.sort_by(|&a, &b| center(a).total_cmp(&center(b)));
         let centers: Vec<f64> = places.iter().map(|&place| center(place)).collect();
         self.object_median = centers.get(n / 2).copied();
+        if let [first, .., last] = centers[..]
+            && first < last
+        {
+            // Nothing happens beside the centers.
+            let margin = MARGIN * (last - first);
+            self.range = [first - margin, last + margin];
+            self.spatial_median = first * 0.5 + last * 0.5;
+        }
         let area = cell.surface_area();
         // A flat box of a single point has no area: nothing is gained there.
         let share = |bounds: &Aabb| match area > 0.0 {

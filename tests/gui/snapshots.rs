@@ -195,7 +195,8 @@ fn with_boxes<'a>(key: Key) -> Window<'a> {
 fn boxes_look_as_they_did_in_explore() {
     let mut window = with_boxes(Key::Num1);
     click(&mut window, "Outline");
-    click(&mut window, "node 0");
+    click(&mut window, "Unfold node 2");
+    click(&mut window, "node 3");
     let view = window.get_by_label("3D view of scene and tree").rect();
     window.hover_at(view.center());
     press(&mut window, Modifiers::NONE, Key::H);

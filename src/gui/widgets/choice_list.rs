@@ -7,6 +7,11 @@ use egui::{Button, Response, TextFormat, TextStyle, Ui};
 /// The width of the names, in points.
 const NAME: f32 = 128.0;
 
+/// Leaves no space between items, so that long lists fit on the screen.
+pub fn close_together(ui: &mut Ui) {
+    ui.spacing_mut().item_spacing.y = 0.0;
+}
+
 /// Shows the heading of the items that follow.
 pub fn group(ui: &mut Ui, title: &str) {
     ui.label(hint(title));

@@ -248,6 +248,7 @@ fn choice(
         .height(f32::INFINITY)
         .show_ui(ui, |ui| {
             let mut group = "";
+            choice_list::close_together(ui);
             for choice in choices {
                 if choice.group != group {
                     group = choice.group;

@@ -122,6 +122,19 @@ pub fn entered(step: &BoxesStep) -> String {
     }
 }
 
+/// The same in a few characters.
+pub fn entered_briefly(step: &BoxesStep) -> String {
+    let (entered, all) = (step.entered(), step.tests.len());
+    match entered.first() {
+        None => format!("0 of {all} entered"),
+        Some(first) => format!(
+            "{} of {all} entered, {} first",
+            entered.len(),
+            grouped(first.node as usize)
+        ),
+    }
+}
+
 /// What becomes of a child, in a word or two.
 pub fn fate(step: &BoxesStep, test: &BoxTest) -> String {
     if test.fate != Fate::Entered {

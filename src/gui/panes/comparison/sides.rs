@@ -61,6 +61,7 @@ fn method(ui: &mut egui::Ui, doc: &Document, which: Which, setup: &Setup, edits:
         // Without scrolling: a list that hides its last item hides that there is one.
         .height(f32::INFINITY)
         .show_ui(ui, |ui| {
+            choice_list::close_together(ui);
             for (family, methods) in Method::families() {
                 choice_list::group(ui, family);
                 for other in methods {

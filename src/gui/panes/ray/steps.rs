@@ -135,7 +135,7 @@ fn row(scene: &Scene, i: usize, step: &Step) -> Row {
             "     inner".to_owned(),
             grouped(step.node as usize),
             step_text::interval(step.t_enter, step.t_exit),
-            step_text::entered(step),
+            step_text::entered_briefly(step),
         ],
         Step::Culled(step) => vec![
             number,
