@@ -138,18 +138,15 @@ pub struct Instance {
     pub lo: [f32; 3],
     pub hi: [f32; 3],
     /// sRGB and line style: 255 for solid edges (full leaves), 0 for dashed edges (empty leaves),
-    /// 128 for dotted edges (undecided cells).
+    /// 128 for dotted edges (undecided cells); 223, 32 and 96 for the same in faint colors.
     pub color: [u8; 4],
 }
 
 /// The color of undecided cells of an unfinished tree. No coloring of leaves uses it.
 pub const UNDECIDED_COLOR: [u8; 3] = [235; 3];
 
-/// Behind the boxes: the color maps are made for a dark ground.
-pub const GROUND: [u8; 3] = [24, 27, 33];
-
-/// The share of its color that a faded box keeps.
-const FADED: f64 = 0.22;
+/// What the line style of a faint box differs by, toward dotted edges.
+const FAINT: u8 = 32;
 
 /// The boxes of a tree's leaves.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -282,11 +279,12 @@ impl Drawing<'_> {
     }
 
     fn push(&mut self, cell: &CellOfNode, color: [u8; 3], edges: u8, fades: bool) {
-        let faded = |k: usize| {
-            let [color, ground] = [color[k], GROUND[k]].map(f64::from);
-            (FADED * color + (1.0 - FADED) * ground) as u8
+        let edges = match (fades, edges) {
+            (false, edges) => edges,
+            (true, 0) => FAINT,
+            (true, edges) => edges - FAINT,
         };
-        let [r, g, b] = if fades { [0, 1, 2].map(faded) } else { color };
+        let [r, g, b] = color;
         self.boxes.instances.push(Instance {
             lo: (cell.bounds.lo - self.center).as_vec3().to_array(),
             hi: (cell.bounds.hi - self.center).as_vec3().to_array(),
@@ -416,9 +414,8 @@ mod tests {
             let faded = boxes(with(node, Outside::Faded, None));
             assert_eq!(faded.instances.len(), all.instances.len());
             assert_eq!(faded.instances[..leaves], alone.instances[..]);
-            let brightness = |i: &Instance| i.color[..3].iter().map(|&c| u32::from(c)).sum::<u32>();
-            let brightest = faded.instances[leaves..].iter().map(brightness).max();
-            assert!(brightest < all.instances.iter().map(brightness).max());
+            let is_faint = |i: &Instance| [223, 32].contains(&i.color[3]);
+            assert!(faded.instances[leaves..].iter().all(is_faint));
             let shown = boxes(with(node, Outside::Shown, None));
             assert_eq!(shown.instances.len(), all.instances.len());
             // Below the depth to which cells are shown, the subtree is still divided.

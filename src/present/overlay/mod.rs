@@ -20,7 +20,7 @@ pub use histogram::{
     in_ranges, leaves, ranges_need_visits, ray_bars,
 };
 pub use leaf_boxes::{
-    Filter, Focus, GROUND, Instance, LeafBoxes, Outside, UNDECIDED_COLOR, Visited, leaf_boxes,
+    Filter, Focus, Instance, LeafBoxes, Outside, UNDECIDED_COLOR, Visited, leaf_boxes,
 };
 pub use legend::{Captions, HeatPicture, with_legend};
 pub use lines::{BOX_EDGES, Line, box_lines, frustum_lines, order_color};

@@ -15,7 +15,7 @@ use egui::{Color32, Rect, vec2};
 use std::sync::Arc;
 
 /// Behind everything, in both themes: the color maps are made for a dark ground.
-pub const GROUND: [u8; 3] = overlay::GROUND;
+pub const GROUND: [u8; 3] = [24, 27, 33];
 
 /// Boxes that a processor can draw fast enough to follow the mouse, and at rest.
 const BOXES_IN_SOFTWARE: [u32; 2] = [12_000, 250_000];
