@@ -120,14 +120,20 @@ impl Marks {
             let at = rect.center() + vec2(x as f32, -y as f32) * rect.height() * 0.5;
             rect.shrink(8.0).contains(at).then_some(at)
         };
-        // The first of these points that can be seen.
-        let write = |points: &[Vec3], text: String, [r, g, b]: [u8; 3], anchor: Align2| {
-            let Some(at) = points.iter().find_map(on_screen) else {
-                return;
-            };
+        // The first of these points that can be seen and has no text yet.
+        let mut taken: Vec<Rect> = Vec::new();
+        let mut write = |points: &[Vec3], text: String, [r, g, b]: [u8; 3], anchor: Align2| {
             let font = egui::FontId::proportional(12.0);
             let galley = painter.layout_no_wrap(text, font, Color32::from_rgb(r, g, b));
-            let place = anchor.anchor_size(at, galley.size());
+            let seen = points.iter().filter_map(on_screen);
+            let places = seen.map(|at| anchor.anchor_size(at, galley.size()).expand(2.0));
+            let places: Vec<Rect> = places.collect();
+            let is_free = |place: &&Rect| !taken.iter().any(|other| other.intersects(**place));
+            let Some(place) = places.iter().find(is_free).or(places.first()) else {
+                return;
+            };
+            let place = place.shrink(2.0);
+            taken.push(place.expand(2.0));
             painter.rect_filled(place.expand(2.0), 2.0, Color32::from_black_alpha(190));
             painter.galley(place.min, galley, Color32::WHITE);
         };
