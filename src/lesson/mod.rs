@@ -56,6 +56,8 @@ lessons! {
     "empty-space"
     "how-deep"
     "speed-and-accuracy"
+    "planes-or-boxes"
+    "when-planes-win"
 }
 
 /// Why a lesson could not be opened.

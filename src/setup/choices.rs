@@ -11,13 +11,18 @@ fn choice(name: &'static str, about: &'static str) -> Choice {
         name,
         old_name: None,
         about,
+        group: "",
     }
 }
 
 pub fn methods() -> Vec<Choice> {
-    Method::all()
-        .map(|m| choice(m.info().name, m.info().summary))
-        .collect()
+    let of_family = |(group, methods): (&'static str, Vec<Method>)| {
+        methods.into_iter().map(move |method| Choice {
+            group,
+            ..choice(method.info().name, method.info().summary)
+        })
+    };
+    Method::families().into_iter().flat_map(of_family).collect()
 }
 
 pub fn axes() -> Vec<Choice> {
@@ -75,6 +80,7 @@ pub fn kernels() -> Vec<Choice> {
         name: kernel.name(),
         old_name: kernel.old_name(),
         about: about(kernel),
+        group: "",
     };
     KernelChoice::ALL.map(choice).to_vec()
 }

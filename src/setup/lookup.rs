@@ -3,6 +3,7 @@
 use super::setting::{Affects, Group, Setting};
 use super::{SETTINGS, Setup};
 use crate::structure::Method;
+use crate::structure::split::Structure;
 
 /// The setting of this name or alias, the constants of build methods left out.
 pub fn setting(name: &str) -> Option<&'static Setting> {
@@ -38,6 +39,18 @@ impl Setup {
             .chain(all().filter(structure))
             .chain(method.info().constants.iter().map(Setting::of_constant))
             .chain(all().filter(|s| matches!(s.group, Group::Picture | Group::Camera)))
+    }
+
+    /// Whether a setting has an effect with this method. Grids have no depth and no leaf size, and a bounding
+    /// volume hierarchy has neither cells nor planes.
+    pub fn applies(&self, setting: &Setting) -> bool {
+        let (structure, has_limits) = (self.build.method.structure, self.build.method.has_limits);
+        match setting.name {
+            "d-max" | "n-oilf" => has_limits,
+            "first-axis" => matches!(structure, Structure::Bintree | Structure::Octree),
+            "overlap" => structure != Structure::Bvh,
+            _ => true,
+        }
     }
 
     /// The setting of this name: a constant of the method, or one of [`SETTINGS`] by its name or

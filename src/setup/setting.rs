@@ -101,6 +101,9 @@ pub struct Choice {
     /// The name in earlier versions.
     pub old_name: Option<&'static str>,
     pub about: &'static str,
+    /// The heading under which lists have it; empty in lists without headings. Choices with the same heading
+    /// follow each other.
+    pub group: &'static str,
 }
 
 /// The value of a setting.

@@ -40,6 +40,15 @@ impl Structure {
         (limit - limit % self.levels()).saturating_sub(depth)
     }
 
+    /// Returns the heading under which lists of methods have it.
+    pub const fn family(self) -> &'static str {
+        match self {
+            Structure::Bintree => "kd-trees",
+            Structure::Octree | Structure::Grid => "Octree and grid",
+            Structure::Bvh => "Bounding volume hierarchies",
+        }
+    }
+
     /// Returns advice on how to get a smaller tree.
     pub(super) fn how_to_shrink(self) -> &'static str {
         match self {

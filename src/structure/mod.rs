@@ -28,7 +28,7 @@ mod voxels;
 pub use box_node::{BoxNode, MAX_WIDTH};
 pub use build::{BuildError, Inseparable};
 pub use construct::build;
-pub use cost::{CostCurve, NodeCost, SplitCost};
+pub use cost::{CostCurve, Division, NodeCost, SplitCost};
 pub use find::{Field, Order, Query};
 pub use frame::{Frame, ObjectPlanes, is_inside};
 pub use index::{NodeFacts, TreeIndex};

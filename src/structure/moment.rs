@@ -30,8 +30,18 @@ impl Tree {
 
     /// Returns the cells into which the root cell was divided at this moment, in array order, and
     /// whether each was already decided to be a leaf.
+    /// Boxes of a hierarchy may overlap, and need not fill the root; every object is in the subtree of one of them.
     pub fn cells_at(&self, moment: Moment) -> impl Iterator<Item = (CellOfNode, bool)> + '_ {
-        let mut stack = vec![self.root()];
+        self.cells_below(self.root(), moment)
+    }
+
+    /// As [`Tree::cells_at`], but only the cells into which this one was divided.
+    pub fn cells_below(
+        &self,
+        cell: CellOfNode,
+        moment: Moment,
+    ) -> impl Iterator<Item = (CellOfNode, bool)> + '_ {
+        let mut stack = vec![cell];
         std::iter::from_fn(move || {
             loop {
                 let cell = stack.pop()?;
@@ -50,6 +60,8 @@ impl Tree {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::primitive::Shape;
+    use crate::structure::index::TreeIndex;
     use crate::structure::index::tests::small;
 
     #[test]
@@ -67,9 +79,53 @@ mod tests {
         }
     }
 
+    /// Boxes overlap and leave space free, but every object is in the subtree of one.
+    #[test]
+    fn boxes_of_every_moment_hold_all_objects() {
+        let (scene, tree) = small("balls:2", "bvh-sweep");
+        let objects = scene.objects().len();
+        let index = TreeIndex::new(&tree, objects);
+        let nodes = tree.nodes().len() as u32;
+        let depths = (0..=tree.depth_reached()).map(Moment::Depth);
+        for moment in depths.chain((0..=nodes).map(Moment::Node)) {
+            let cells: Vec<_> = tree.cells_at(moment).map(|(cell, _)| cell).collect();
+            let held: u32 = cells.iter().map(|cell| index.of(cell.node).objects).sum();
+            assert_eq!(held as usize, objects, "{moment:?}");
+            for cell in cells {
+                let below = tree.references_below(cell.node, index.of(cell.node).end);
+                for &object in &tree.references()[below] {
+                    let bounds = scene.objects()[object as usize].bounds();
+                    let within = cell.bounds.union(&bounds);
+                    assert_eq!((within.lo, within.hi), (cell.bounds.lo, cell.bounds.hi));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_cells_below_a_node_are_those_of_its_subtree() {
+        for method in ["sah-cut", "bvh-sweep"] {
+            let (_, tree) = small("balls:1", method);
+            for cell in tree.cells() {
+                let end = tree.end_of(cell.node);
+                let all = Moment::Depth(u32::MAX);
+                let below = tree.cells_below(cell, all).map(|(cell, _)| cell.node);
+                let leaves = tree.cells_at(all).map(|(cell, _)| cell.node);
+                let expected = leaves.filter(|leaf| (cell.node..end).contains(leaf));
+                assert_eq!(below.collect::<Vec<_>>(), expected.collect::<Vec<_>>());
+            }
+        }
+    }
+
     #[test]
     fn every_step_decides_one_node() {
-        let (_, tree) = small("balls:1", "sah-cut");
+        for method in ["sah-cut", "bvh-sweep"] {
+            every_step_decides_one(method);
+        }
+    }
+
+    fn every_step_decides_one(method: &str) {
+        let (_, tree) = small("balls:1", method);
         let nodes = tree.nodes().len() as u32;
         let open = |next| {
             let cells = tree.cells_at(Moment::Node(next));
@@ -90,7 +146,7 @@ mod tests {
 
     #[test]
     fn the_last_depth_shows_the_finished_tree() {
-        for method in ["midpoint", "sah-cut", "none"] {
+        for method in ["midpoint", "sah-cut", "none", "bvh-sweep"] {
             let (_, tree) = small("balls:1", method);
             let cells = tree.cells_at(Moment::Depth(tree.depth_reached()));
             let shown: Vec<_> = cells.map(|(cell, decided)| (cell.node, decided)).collect();

@@ -11,6 +11,20 @@ impl Method {
         SPLIT_RULES.iter().chain(BVH_BUILDERS).map(Method::new)
     }
 
+    /// Returns all methods by the family of their structure ([`super::method::Structure::family`]). Families
+    /// and the methods of each are in the order of the registries.
+    pub fn families() -> Vec<(&'static str, Vec<Method>)> {
+        let mut families: Vec<(&str, Vec<Method>)> = Vec::new();
+        for method in Method::all() {
+            let family = method.structure.family();
+            match families.iter_mut().find(|(known, _)| *known == family) {
+                Some((_, methods)) => methods.push(method),
+                None => families.push((family, vec![method])),
+            }
+        }
+        families
+    }
+
     /// Returns the method with this name.
     ///
     /// # Errors

@@ -53,6 +53,15 @@ impl Tree {
         self.nodes.children(node)
     }
 
+    /// Returns one past the last node of a subtree.
+    pub fn end_of(&self, node: u32) -> u32 {
+        let mut last = node;
+        while let Some(child) = self.child_nodes(last).last() {
+            last = child;
+        }
+        last + 1
+    }
+
     /// Returns the objects that a leaf refers to, in ascending order; empty for inner nodes.
     pub fn leaf_objects(&self, node: u32) -> &[u32] {
         match self.kind(node) {

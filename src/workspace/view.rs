@@ -4,7 +4,7 @@ use super::names;
 use crate::geometry::Axis;
 use crate::measure::heat::{RayFilter, heatmaps};
 use crate::measure::model::Region;
-use crate::present::overlay::{COLORINGS, COLORMAPS, HISTOGRAMS, Scale, Visited};
+use crate::present::overlay::{COLORINGS, COLORMAPS, HISTOGRAMS, Outside, Scale, Visited};
 use crate::scene::Camera;
 use crate::structure::Moment;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -280,6 +280,8 @@ pub struct View3dSettings {
     pub empty_leaves: bool,
     /// Filter by whether rays of the picture visited the leaves.
     pub visited: Visited,
+    /// How cells outside of the selected subtree are shown.
+    pub outside: Outside,
     /// Minimum depth of displayed leaves.
     pub least_depth: u32,
     /// Maximum depth of displayed leaves; `None` for all.
@@ -307,6 +309,7 @@ impl Default for View3dSettings {
             full_leaves: true,
             empty_leaves: true,
             visited: Visited::default(),
+            outside: Outside::default(),
             least_depth: 0,
             greatest_depth: None,
             only_visited: false,

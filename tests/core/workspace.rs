@@ -3,7 +3,7 @@
 
 use bspscope::geometry::{Axis, Vec3};
 use bspscope::measure::model::Region;
-use bspscope::present::overlay::Visited;
+use bspscope::present::overlay::{Outside, Visited};
 use bspscope::scene::{Camera, Cylinders, Sampling, SceneRequest, SceneSource};
 use bspscope::setup::Setup;
 use bspscope::structure::{BuildSettings, MaxDepth, Method, Moment, OverlapRule, RootMargin};
@@ -99,6 +99,7 @@ fn changed() -> Workspace {
             full_leaves: false,
             empty_leaves: false,
             visited: Visited::Never,
+            outside: Outside::Hidden,
             least_depth: 3,
             greatest_depth: Some(9),
             only_visited: true,

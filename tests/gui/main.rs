@@ -6,6 +6,7 @@ mod support;
 
 mod acceptance;
 mod accuracy;
+mod boxes;
 mod build;
 mod compare;
 mod contrast;

@@ -177,3 +177,86 @@ fn the_menu_of_scenes_looks_as_it_did() {
     click(&mut window, "Scene: balls:1");
     look(&mut window, "scenes");
 }
+
+/// A window with a hierarchy.
+fn with_boxes<'a>(key: Key) -> Window<'a> {
+    let mut start = small("balls:1");
+    start
+        .setup
+        .build
+        .set_method(Method::named("bvh-sweep").unwrap());
+    let mut window = opened(start);
+    press(&mut window, Modifiers::COMMAND, key);
+    finish(&mut window);
+    window
+}
+
+#[test]
+fn boxes_look_as_they_did_in_explore() {
+    let mut window = with_boxes(Key::Num1);
+    click(&mut window, "Outline");
+    click(&mut window, "Unfold node 2");
+    click(&mut window, "node 3");
+    let view = window.get_by_label("3D view of scene and tree").rect();
+    window.hover_at(view.center());
+    press(&mut window, Modifiers::NONE, Key::H);
+    look(&mut window, "boxes_explore");
+    click(&mut window, "Split cost");
+    look(&mut window, "boxes_cost");
+    press(&mut window, Modifiers::COMMAND, Key::G);
+    press(&mut window, Modifiers::ALT, Key::ArrowRight);
+    press(&mut window, Modifiers::ALT, Key::ArrowRight);
+    look(&mut window, "boxes_build");
+}
+
+#[test]
+fn boxes_look_as_they_did_beside_a_ray() {
+    let mut start = small("teaching");
+    start
+        .setup
+        .build
+        .set_method(Method::named("bvh-sweep").unwrap());
+    let mut window = opened(start);
+    press(&mut window, Modifiers::COMMAND, Key::Num2);
+    window.get_by_label("Traced picture").click();
+    window.run_steps(3);
+    finish(&mut window);
+    look(&mut window, "boxes_ray");
+    // After the first hit, a node is culled, and another one is visited because boxes overlap.
+    for _ in 0..6 {
+        press(&mut window, Modifiers::NONE, Key::Period);
+    }
+    look(&mut window, "boxes_ray_culled");
+}
+
+#[test]
+fn boxes_look_as_they_did_beside_planes() {
+    let mut window = with_boxes(Key::Num3);
+    wait(&mut window, "the gate", |w| has(w, "Fair comparison"));
+    look_without(&mut window, "boxes_compare", |window| {
+        let names = ["Build time", "Render time", "Time spent traversing"];
+        names.map(|name| values_of(window, name)).into()
+    });
+}
+
+#[test]
+fn the_list_of_methods_looks_as_it_did() {
+    let mut window = with_boxes(Key::Num1);
+    window
+        .get_by_role_and_label(egui::accesskit::Role::ComboBox, "Method")
+        .click();
+    window.run_steps(3);
+    look(&mut window, "methods");
+}
+
+#[test]
+fn a_lesson_on_boxes_looks_as_it_did() {
+    let mut start = small("balls:1");
+    let lesson = LESSONS
+        .iter()
+        .find(|lesson| lesson.name == "planes-or-boxes");
+    start.lesson = Some(lesson.unwrap().read());
+    let mut window = open_sized(start, SIZE, true);
+    wait(&mut window, "the picture", |w| w.state().is_finished());
+    look(&mut window, "boxes_lesson");
+}

@@ -15,12 +15,16 @@ use egui::containers::menu::MenuButton;
 /// Below this width, in points, tasks become a menu and the slider is short.
 const NARROW: f32 = 1100.0;
 
+/// The width of the buttons of two trees, in points.
+const TREES: f32 = 190.0;
+
 /// The width of the list of methods, in points.
 const METHOD: f32 = 150.0;
 
 /// Shows the bar.
 pub fn show(ui: &mut egui::Ui, doc: &mut Document, files: &mut Files, edits: &mut Edits) {
-    let narrow = ui.available_width() < NARROW;
+    let room = if names_trees(doc) { TREES } else { 0.0 };
+    let narrow = ui.available_width() < NARROW + room;
     ui.horizontal_centered(|ui| {
         files.menu(ui, doc);
         which(ui, doc);
@@ -106,9 +110,14 @@ pub fn set_theme(ctx: &egui::Context, dark: bool) {
     });
 }
 
+/// Whether there are two trees, and no pane tells which of them the settings are about.
+fn names_trees(doc: &Document) -> bool {
+    doc.other.is_some() && doc.task != "compare"
+}
+
 /// Which of two trees the settings are about, where no pane tells.
 fn which(ui: &mut egui::Ui, doc: &mut Document) {
-    if doc.other.is_none() || doc.task == "compare" {
+    if !names_trees(doc) {
         return;
     }
     for which in Which::BOTH {

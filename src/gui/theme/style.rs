@@ -26,6 +26,8 @@ pub(super) fn style(theme: Theme) -> Style {
 fn spacing() -> Spacing {
     Spacing {
         item_spacing: vec2(8.0, 4.0),
+        // So high that the list of methods is whole on the smallest screen.
+        default_area_size: vec2(600.0, 640.0),
         window_margin: Margin::same(12),
         menu_margin: Margin::same(4),
         button_padding: vec2(8.0, 4.0),

@@ -1,5 +1,6 @@
 //! Widgets that several panes share.
 
+pub mod choice_list;
 pub mod color_text;
 pub mod coloring_bar;
 pub mod common;

@@ -5,6 +5,7 @@ use crate::geometry::Vec3;
 use crate::gui::action::tip;
 use crate::gui::edits::Edits;
 use crate::gui::theme::{ROW, hint};
+use crate::gui::widgets::choice_list;
 use crate::gui::widgets::common::sentence;
 use crate::scene::{Camera, Cylinders};
 use crate::setup::{Choice, Kind, Range, Setting, Setup, Value};
@@ -45,6 +46,9 @@ pub fn rows(
         ui.horizontal_wrapped(|ui| {
             label(ui, &setting, setup);
             show(ui, &setting, setup, around, edits);
+            if !setup.applies(&setting) {
+                unused(ui, setup);
+            }
             if let Some([note, about]) = (around.note)(&setting, setup) {
                 // As a whole on one line, so that all of it is under the pointer.
                 ui.add(egui::Label::new(egui::RichText::new(note).weak()).extend())
@@ -67,11 +71,21 @@ pub fn show(
         name: &name(setting),
         about: &about(setting, setup),
     };
-    let value = ui.name_inputs(said.name, |ui| control(ui, setting, before, said, around));
-    if let Some(value) = value.filter(|value| *value != before) {
+    let applies = setup.applies(setting);
+    let value = ui.add_enabled_ui(applies, |ui| {
+        ui.name_inputs(said.name, |ui| control(ui, setting, before, said, around))
+    });
+    if let Some(value) = value.inner.filter(|value| *value != before) {
         let setting = *setting;
         edits.add(move |doc| setting.store(&mut doc.wanted, value));
     }
+}
+
+/// Says that a setting has no effect.
+fn unused(ui: &mut egui::Ui, setup: &Setup) {
+    let method = setup.build.method.name;
+    ui.label(hint("not used"))
+        .on_hover_text(format!("It has no effect on the trees of method {method}."));
 }
 
 /// What is said of a setting.
@@ -233,10 +247,23 @@ fn choice(
         // Without scrolling: a list that hides its last item hides that there is one.
         .height(f32::INFINITY)
         .show_ui(ui, |ui| {
+            let mut group = "";
+            choice_list::close_together(ui);
             for choice in choices {
-                let item = ui.selectable_value(&mut chosen, choice.name, choice.name);
-                if !choice.about.is_empty() {
-                    item.on_hover_text(choice.about);
+                if choice.group != group {
+                    group = choice.group;
+                    choice_list::group(ui, group);
+                }
+                // With headings there are so many that each says what it is.
+                let about = if group.is_empty() { "" } else { choice.about };
+                let item = choice_list::item(ui, choice.name == now, choice.name, about);
+                if item.clicked() {
+                    chosen = choice.name;
+                    ui.close();
+                }
+                if about.is_empty() && !choice.about.is_empty() {
+                    item.on_hover_text(choice.about)
+                        .accessible_name(choice.name);
                 }
             }
         });

@@ -3,8 +3,8 @@
 use crate::primitive::Primitive;
 use crate::scene::Scene;
 use crate::trace::{
-    BoxTest, BoxesStep, Children, CulledStep, Fate, InnerStep, LeafStep, RayKind, RayPath, Step,
-    TestStep,
+    BoxTest, BoxesStep, Children, CulledStep, Fate, InnerStep, LeafOutcome, LeafStep, RayKind,
+    RayPath, Step, TestStep,
 };
 
 use super::symbol::grouped;
@@ -122,27 +122,124 @@ pub fn entered(step: &BoxesStep) -> String {
     }
 }
 
+/// The same in a few characters.
+pub fn entered_briefly(step: &BoxesStep) -> String {
+    let (entered, all) = (step.entered(), step.tests.len());
+    match entered.first() {
+        None => format!("0 of {all} entered"),
+        Some(first) => format!(
+            "{} of {all} entered, {} first",
+            entered.len(),
+            grouped(first.node as usize)
+        ),
+    }
+}
+
+/// What becomes of a child, in a word or two.
+pub fn fate(step: &BoxesStep, test: &BoxTest) -> String {
+    if test.fate != Fate::Entered {
+        return test.fate.text().to_owned();
+    }
+    let order = step.entered();
+    match order.iter().position(|other| other.node == test.node) {
+        Some(0) => "visited first".to_owned(),
+        place => format!("pending, number {}", place.map_or(0, |place| place + 1)),
+    }
+}
+
 /// The test of a child's box.
 pub fn box_test(step: &BoxesStep, test: &BoxTest) -> String {
-    let node = grouped(test.node as usize);
+    let (node, fate) = (grouped(test.node as usize), fate(step, test));
     let [enter, exit] = test.within;
     match test.fate {
-        Fate::Missed => format!("Node {node}: {}", test.fate.text()),
+        Fate::Missed => format!("Node {node}: the ray misses its box"),
         Fate::BeyondHit => format!(
-            "Node {node}: {}, {}",
-            interval(enter, exit),
-            test.fate.text()
+            "Node {node}: {} units, {fate} so far: not visited",
+            interval(enter, exit)
         ),
-        Fate::Entered => {
-            let order = step.entered();
-            let place = order.iter().position(|other| other.node == test.node);
-            let when = match place {
-                Some(0) => "visited first".to_owned(),
-                place => format!("pending, number {}", place.map_or(0, |place| place + 1)),
-            };
-            format!("Node {node}: {}, {when}", interval(enter, exit))
-        }
+        Fate::Entered => format!("Node {node}: {} units, {fate}", interval(enter, exit)),
     }
+}
+
+/// Why a traversal goes on after a leaf although the closest hit so far lies in it; `None` after other steps.
+pub fn overlap(path: &RayPath, step: usize) -> Option<String> {
+    let Step::Leaf(leaf) = path.steps.get(step)? else {
+        return None;
+    };
+    if leaf.outcome != LeafOutcome::OverlapAhead {
+        return None;
+    }
+    let rest = path.steps[step + 1..].iter();
+    let next = rest
+        .into_iter()
+        .find(|next| !matches!(next, Step::Culled(_)))?;
+    let hit = closest_until(path, step)?;
+    Some(format!(
+        "Boxes overlap: node {} is pending and begins at {} units, before the closest hit so far at {}. It may \
+         hold a closer one",
+        grouped(next.node() as usize),
+        short(next.interval()[0]),
+        short(hit)
+    ))
+}
+
+/// The closest hit up to a step.
+fn closest_until(path: &RayPath, step: usize) -> Option<f64> {
+    let leaves = path
+        .steps
+        .iter()
+        .take(step + 1)
+        .filter_map(|step| match step {
+            Step::Leaf(leaf) => Some(leaf),
+            _ => None,
+        });
+    let hits = leaves
+        .flat_map(|leaf| &leaf.tests)
+        .filter_map(|test| test.hit);
+    hits.reduce(f64::min)
+}
+
+/// Whether the first hit was the closest, and what it took to know; `None` of rays in trees of planes, of
+/// shadow rays and of rays without a hit.
+pub fn first_hit(path: &RayPath) -> Option<String> {
+    let has_boxes = path.steps.iter().any(|step| matches!(step, Step::Boxes(_)));
+    if !has_boxes || path.kind == RayKind::Shadow {
+        return None;
+    }
+    let hit_in = |step: &Step| match step {
+        Step::Leaf(leaf) => leaf
+            .tests
+            .iter()
+            .filter_map(|test| test.hit)
+            .reduce(f64::min),
+        _ => None,
+    };
+    let mut hits = path.steps.iter().enumerate();
+    let (first, t) = hits.find_map(|(i, step)| Some((i, hit_in(step)?)))?;
+    let closest = path.hit.t;
+    let number = first + 1;
+    if closest < t {
+        let steps = path.steps.iter();
+        let found = steps.rev().position(|step| hit_in(step) == Some(closest))?;
+        return Some(format!(
+            "The first hit, at {} units in step {number}, is not the closest: boxes overlap, and step {} \
+             finds one at {}.",
+            short(t),
+            path.steps.len() - found,
+            short(closest)
+        ));
+    }
+    let after = path.steps[first + 1..].iter();
+    let visited = after.filter(|step| !matches!(step, Step::Culled(_)));
+    Some(match visited.count() {
+        0 => format!(
+            "The first hit, in step {number}, ends the search: no pending box begins before it."
+        ),
+        more => format!(
+            "The first hit, in step {number}, is the closest. To know that takes {}, because boxes overlap.",
+            count(more as u32, "more node", "more nodes")
+        ),
+    })
 }
 
 /// Why a pending node is skipped.

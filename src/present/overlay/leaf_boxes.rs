@@ -42,6 +42,39 @@ impl Visited {
     }
 }
 
+/// How cells outside of a subtree are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outside {
+    /// As those within.
+    #[default]
+    Shown,
+    /// In faint colors.
+    Faded,
+    Hidden,
+}
+
+impl Outside {
+    pub const ALL: [Outside; 3] = [Outside::Shown, Outside::Faded, Outside::Hidden];
+
+    /// Returns the display name.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Outside::Shown => "Shown",
+            Outside::Faded => "Faded",
+            Outside::Hidden => "Hidden",
+        }
+    }
+}
+
+/// A subtree that stands out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Focus {
+    /// The root of the subtree.
+    pub node: u32,
+    pub outside: Outside,
+}
+
 /// A filter of leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Filter {
@@ -55,6 +88,8 @@ pub struct Filter {
     /// Of a finished tree, the depth at which cells stand in for the leaves below; `None` for leaves
     /// alone.
     pub to_depth: Option<u32>,
+    /// The subtree that stands out; the depth at which cells stand in for leaves counts from its root there.
+    pub focus: Option<Focus>,
     /// Ranges of the histograms.
     pub ranges: Ranges,
 }
@@ -69,6 +104,7 @@ impl Default for Filter {
             visited: Visited::default(),
             moment: None,
             to_depth: None,
+            focus: None,
             ranges: Ranges::default(),
         }
     }
@@ -102,17 +138,22 @@ pub struct Instance {
     pub lo: [f32; 3],
     pub hi: [f32; 3],
     /// sRGB and line style: 255 for solid edges (full leaves), 0 for dashed edges (empty leaves),
-    /// 128 for dotted edges (undecided cells).
+    /// 128 for dotted edges (undecided cells); 223, 32 and 96 for the same in faint colors.
     pub color: [u8; 4],
 }
 
 /// The color of undecided cells of an unfinished tree. No coloring of leaves uses it.
 pub const UNDECIDED_COLOR: [u8; 3] = [235; 3];
 
+/// What the line style of a faint box differs by, toward dotted edges.
+const FAINT: u8 = 32;
+
 /// The boxes of a tree's leaves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LeafBoxes {
     pub instances: Vec<Instance>,
+    /// So many of them at the beginning are of the subtree that stands out; all if none does.
+    pub focused: usize,
     /// Number of leaves in the tree, including hidden ones.
     pub leaves: usize,
     /// Number of boxes of undecided cells.
@@ -150,37 +191,106 @@ pub fn leaf_boxes(
     let to_depth = filter.to_depth.filter(|_| filter.moment.is_none());
     let end = Moment::Depth(to_depth.unwrap_or(u32::MAX));
     let moment = filter.moment.unwrap_or(end);
-    for (cell, decided) in tree.cells_at(moment) {
-        let mut add = |[r, g, b]: [u8; 3], edges: u8| {
-            boxes.instances.push(Instance {
-                lo: (cell.bounds.lo - center).as_vec3().to_array(),
-                hi: (cell.bounds.hi - center).as_vec3().to_array(),
-                color: [r, g, b, edges],
-            });
-        };
-        let [lowest, highest] = filter.depth;
-        if !decided && to_depth.is_none() {
-            if (lowest..=highest).contains(&cell.depth) {
-                add(UNDECIDED_COLOR, 128);
-                boxes.undecided += 1;
-            }
-            continue;
+    let mut drawing = Drawing {
+        tree,
+        filter,
+        to_depth,
+        coloring,
+        visits,
+        center,
+        boxes,
+    };
+    let focus = filter.focus.and_then(|focus| {
+        let built = filter.moment.unwrap_or(Moment::Depth(u32::MAX));
+        Some((focus.outside, cell_at(tree, focus.node, built)?))
+    });
+    let Some((outside, root)) = focus else {
+        for (cell, decided) in tree.cells_at(moment) {
+            drawing.add(&cell, decided, false);
         }
-        let leaf = if decided {
-            Leaf::of(tree, &cell, visits)
-        } else {
-            boxes.coarse += 1;
-            Some(below(tree, &cell, visits))
-        };
-        if let Some(leaf) = leaf
-            && let Some(value) = coloring.value(&leaf)
-            && filter.passes(&leaf)
-        {
-            let edges = if leaf.objects == 0 { 0 } else { 255 };
-            add(coloring.color(value, range), edges);
+        drawing.boxes.focused = drawing.boxes.instances.len();
+        return drawing.boxes;
+    };
+    let end = Moment::Depth(to_depth.map_or(u32::MAX, |depth| root.depth + depth));
+    for (cell, decided) in tree.cells_below(root, filter.moment.unwrap_or(end)) {
+        drawing.add(&cell, decided, false);
+    }
+    drawing.boxes.focused = drawing.boxes.instances.len();
+    if outside != Outside::Hidden {
+        let within = root.node..tree.end_of(root.node);
+        let others = tree.cells_at(moment);
+        for (cell, decided) in others.filter(|(cell, _)| !within.contains(&cell.node)) {
+            drawing.add(&cell, decided, outside == Outside::Faded);
         }
     }
-    boxes
+    drawing.boxes
+}
+
+/// Returns the cell of a node; `None` if it does not exist yet at this moment.
+fn cell_at(tree: &Tree, node: u32, moment: Moment) -> Option<CellOfNode> {
+    let mut cell = tree.root();
+    while cell.node != node {
+        if !tree.is_decided(cell.node, cell.depth, moment) {
+            return None;
+        }
+        let children = tree.children(&cell).take_while(|child| child.node <= node);
+        cell = children.last()?;
+    }
+    Some(cell)
+}
+
+/// Boxes in the making.
+struct Drawing<'a> {
+    tree: &'a Tree,
+    filter: &'a Filter,
+    /// The depth at which cells stand in for leaves.
+    to_depth: Option<u32>,
+    coloring: &'a Coloring,
+    visits: Option<&'a Visits>,
+    center: Vec3,
+    boxes: LeafBoxes,
+}
+
+impl Drawing<'_> {
+    /// Adds the box of a cell if it passes the filter.
+    fn add(&mut self, cell: &CellOfNode, decided: bool, fades: bool) {
+        let [lowest, highest] = self.filter.depth;
+        if !decided && self.to_depth.is_none() {
+            if (lowest..=highest).contains(&cell.depth) {
+                self.push(cell, UNDECIDED_COLOR, 128, fades);
+                self.boxes.undecided += 1;
+            }
+            return;
+        }
+        let leaf = if decided {
+            Leaf::of(self.tree, cell, self.visits)
+        } else {
+            self.boxes.coarse += 1;
+            Some(below(self.tree, cell, self.visits))
+        };
+        if let Some(leaf) = leaf
+            && let Some(value) = self.coloring.value(&leaf)
+            && self.filter.passes(&leaf)
+        {
+            let edges = if leaf.objects == 0 { 0 } else { 255 };
+            let color = self.coloring.color(value, self.boxes.range);
+            self.push(cell, color, edges, fades);
+        }
+    }
+
+    fn push(&mut self, cell: &CellOfNode, color: [u8; 3], edges: u8, fades: bool) {
+        let edges = match (fades, edges) {
+            (false, edges) => edges,
+            (true, 0) => FAINT,
+            (true, edges) => edges - FAINT,
+        };
+        let [r, g, b] = color;
+        self.boxes.instances.push(Instance {
+            lo: (cell.bounds.lo - self.center).as_vec3().to_array(),
+            hi: (cell.bounds.hi - self.center).as_vec3().to_array(),
+            color: [r, g, b, edges],
+        });
+    }
 }
 
 /// Returns the cell of an inner node as if it were a leaf.
@@ -273,6 +383,52 @@ mod tests {
             .sum();
         let root = tree.root_cell().volume();
         assert!((volume - root).abs() < 1e-4 * root, "{volume} of {root}");
+    }
+
+    #[test]
+    fn a_subtree_stands_out_and_counts_its_own_depth() {
+        use crate::progress::Progress;
+        use crate::scene::{SceneRequest, load};
+        use crate::structure::{BuildSettings, Method, build};
+        let progress = Progress::new();
+        let scene = load(&SceneRequest::parse("balls:2"), &progress).unwrap();
+        let depth = coloring("depth").unwrap();
+        for method in ["midpoint", "bvh-sweep"] {
+            let settings = BuildSettings::for_method(Method::named(method).unwrap());
+            let tree = build(&scene, &settings, &progress).unwrap();
+            let boxes = |filter: Filter| leaf_boxes(&tree, &filter, depth, None, Vec3::ZERO);
+            let all = boxes(Filter::default());
+            assert_eq!(all.focused, all.instances.len());
+            // The deepest inner node of the first branch.
+            let node = (0..).take_while(|&n| tree.kind(n) == NodeKind::Inner);
+            let node = node.last().unwrap();
+            let with = |node: u32, outside: Outside, to_depth: Option<u32>| Filter {
+                to_depth,
+                focus: Some(Focus { node, outside }),
+                ..Filter::default()
+            };
+            let leaves = (node..tree.end_of(node)).filter(|&n| tree.kind(n) != NodeKind::Inner);
+            let leaves = leaves.count();
+            let alone = boxes(with(node, Outside::Hidden, None));
+            assert_eq!((alone.instances.len(), alone.focused), (leaves, leaves));
+            let faded = boxes(with(node, Outside::Faded, None));
+            assert_eq!(faded.instances.len(), all.instances.len());
+            assert_eq!(faded.instances[..leaves], alone.instances[..]);
+            let is_faint = |i: &Instance| [223, 32].contains(&i.color[3]);
+            assert!(faded.instances[leaves..].iter().all(is_faint));
+            let shown = boxes(with(node, Outside::Shown, None));
+            assert_eq!(shown.instances.len(), all.instances.len());
+            // Below the depth to which cells are shown, the subtree is still divided.
+            let coarse = boxes(with(node, Outside::Faded, Some(1)));
+            assert!(coarse.focused >= 2, "{method}: {}", coarse.focused);
+            assert!(coarse.instances.len() - coarse.focused <= 2);
+            // Before it is reached, nothing stands out.
+            let early = Filter {
+                moment: Some(Moment::Node(0)),
+                ..with(node, Outside::Hidden, None)
+            };
+            assert_eq!(boxes(early).undecided, 1);
+        }
     }
 
     #[test]

@@ -19,11 +19,14 @@ pub use histogram::{
     Bars, HISTOGRAM_COUNT, HISTOGRAMS, Histogram, HistogramAxis, NODES_PER_RAY, Ranges, Spread,
     in_ranges, leaves, ranges_need_visits, ray_bars,
 };
-pub use leaf_boxes::{Filter, Instance, LeafBoxes, UNDECIDED_COLOR, Visited, leaf_boxes};
+pub use leaf_boxes::{
+    Filter, Focus, Instance, LeafBoxes, Outside, UNDECIDED_COLOR, Visited, leaf_boxes,
+};
 pub use legend::{Captions, HeatPicture, with_legend};
 pub use lines::{BOX_EDGES, Line, box_lines, frustum_lines, order_color};
 pub use rays::{RayStyle, RaysShown, ray_lines, ray_style};
 pub use selection::{
-    CELL_COLOR, FaceCorner, PLANE_COLOR, REFERRING_COLOR, cell_faces, cell_lines, cells_along,
+    CELL_COLOR, FaceCorner, OVERLAP_COLOR, PLANE_COLOR, REFERRING_COLOR, cell_faces, cell_lines,
+    cells_along, child_lines, overlap_faces, overlap_share,
 };
-pub use walk::{INTERVAL, WAITING, step_lines, visited_lines};
+pub use walk::{CULLED, INTERVAL, WAITING, step_lines, visited_lines};

@@ -18,6 +18,9 @@ pub struct FaceCorner {
 pub const CELL_COLOR: [u8; 3] = [255, 176, 0];
 pub const PLANE_COLOR: [u8; 3] = [90, 200, 255];
 
+/// The color of what the boxes of a node's children have in common.
+pub const OVERLAP_COLOR: [u8; 3] = [200, 160, 255];
+
 /// The color of the leaves that contain the selected object.
 pub const REFERRING_COLOR: [u8; 3] = [255, 80, 70];
 
@@ -59,6 +62,59 @@ pub fn cell_faces(cell: &Aabb, plane: Option<(Axis, f64)>, center: Vec3) -> Vec<
     faces
 }
 
+/// Returns the edges of the boxes of a node's children.
+pub fn child_lines(children: &[Aabb], center: Vec3) -> Vec<Line> {
+    let [r, g, b] = PLANE_COLOR;
+    let lines = children.iter();
+    lines
+        .flat_map(|child| box_lines(child, center, [r, g, b, 255], 2.0))
+        .collect()
+}
+
+/// Returns the faces of what boxes have in common, as triangles.
+pub fn overlap_faces(boxes: &[Aabb], center: Vec3) -> Vec<FaceCorner> {
+    let [r, g, b] = OVERLAP_COLOR;
+    let quads = overlaps(boxes).into_iter().flat_map(|shared| {
+        let sides = move |axis: Axis| [shared.lo[axis.index()], shared.hi[axis.index()]];
+        Axis::ALL
+            .into_iter()
+            .flat_map(move |axis| sides(axis).map(|at| quad(&shared, axis, at)))
+    });
+    quads
+        .flat_map(|quad| [0, 1, 2, 0, 2, 3].map(|corner| quad[corner]))
+        .map(|corner| FaceCorner {
+            place: (corner - center).as_vec3().to_array(),
+            color: [r, g, b, 80],
+        })
+        .collect()
+}
+
+/// Returns what each two of these boxes have in common. Boxes that only touch have nothing in common; the
+/// boxes of a tree are a little larger than what they hold.
+pub fn overlaps(boxes: &[Aabb]) -> Vec<Aabb> {
+    /// The share of the smaller box's width that a common part has at least.
+    const LEAST: f64 = 1e-3;
+    let mut found = Vec::new();
+    for (i, a) in boxes.iter().enumerate() {
+        for b in &boxes[i + 1..] {
+            let shared = a.intersection(b);
+            let least = LEAST * a.size().min(b.size());
+            if (shared.hi - shared.lo).cmpge(least).all() && shared.surface_area() > 0.0 {
+                found.push(shared);
+            }
+        }
+    }
+    found
+}
+
+/// Returns the volume of what each two of these boxes have in common, as a share of the volume of a box around
+/// them; `None` if that box has no volume.
+pub fn overlap_share(around: &Aabb, boxes: &[Aabb]) -> Option<f64> {
+    let volume = around.volume();
+    let shared: f64 = overlaps(boxes).iter().map(Aabb::volume).sum();
+    (volume > 0.0).then(|| shared / volume)
+}
+
 /// Returns the rectangle where a plane intersects a cell, as corners in order.
 fn quad(cell: &Aabb, axis: Axis, at: f64) -> [Vec3; 4] {
     let (k, u, v) = (
@@ -75,11 +131,11 @@ fn quad(cell: &Aabb, axis: Axis, at: f64) -> [Vec3; 4] {
     })
 }
 
-/// Returns the leaves that a ray passes through, nearest first; below a depth, the cells at that depth.
-/// Objects do not stop the ray. The cell in which the ray starts is not included.
-pub fn cells_along(tree: &Tree, ray: &Ray, depth: u32) -> Vec<CellOfNode> {
+/// Returns the leaves in a cell that a ray passes through, nearest first; below a depth, the cells at that
+/// depth. Objects do not stop the ray. The cell in which the ray starts is not included.
+pub fn cells_along(tree: &Tree, from: CellOfNode, ray: &Ray, depth: u32) -> Vec<CellOfNode> {
     let mut found: Vec<(f64, CellOfNode)> = Vec::new();
-    let mut stack = vec![tree.root()];
+    let mut stack = vec![from];
     while let Some(cell) = stack.pop() {
         let Some(enter) = entry(&cell.bounds, ray) else {
             continue;
@@ -131,14 +187,31 @@ mod tests {
         let root = tree.root_cell();
         let direction = Vec3::new(0.31, 0.84, -0.05).normalize();
         let ray = Ray::new(root.center() - direction * root.size().length(), direction);
-        let leaves = cells_along(&tree, &ray, u32::MAX);
+        let leaves = cells_along(&tree, tree.root(), &ray, u32::MAX);
         assert!(leaves.len() > 2);
         for pair in leaves.windows(2) {
             let gap = pair[0].bounds.intersection(&pair[1].bounds);
             assert!(gap.lo.cmple(gap.hi + 1e-9).all());
         }
         let away = Ray::new(ray.origin, -direction);
-        assert!(cells_along(&tree, &away, u32::MAX).is_empty());
+        assert!(cells_along(&tree, tree.root(), &away, u32::MAX).is_empty());
+    }
+
+    #[test]
+    fn boxes_overlap_where_they_have_more_than_a_face_in_common() {
+        let at = |x: f64| Aabb::new(Vec3::new(x, 0.0, 0.0), Vec3::new(x + 1.0, 1.0, 1.0));
+        let around = Aabb::new(Vec3::ZERO, Vec3::new(1.5, 1.0, 1.0));
+        assert_eq!(overlap_share(&around, &[at(0.0), at(0.5)]), Some(0.5 / 1.5));
+        assert_eq!(overlap_faces(&[at(0.0), at(0.5)], Vec3::ZERO).len(), 36);
+        for apart in [1.0, 0.9999, 2.0] {
+            assert!(overlaps(&[at(0.0), at(apart)]).is_empty(), "{apart}");
+        }
+        // Three boxes have three pairs.
+        assert_eq!(overlaps(&[at(0.0), at(0.25), at(0.5)]).len(), 3);
+        let flat = |x: f64| Aabb::new(Vec3::new(x, 0.0, 0.0), Vec3::new(x + 1.0, 1.0, 0.0));
+        assert_eq!(overlaps(&[flat(0.0), flat(0.5)]).len(), 1);
+        assert_eq!(overlap_share(&flat(0.0), &[flat(0.0)]), None);
+        assert_eq!(child_lines(&[at(0.0), at(0.5)], Vec3::ZERO).len(), 24);
     }
 
     #[test]

@@ -10,6 +10,9 @@ pub const INTERVAL: [u8; 3] = [90, 255, 120];
 /// Color of the pending cells.
 pub const WAITING: [u8; 3] = [200, 200, 200];
 
+/// Color of the nodes that were culled, and of the part of the ray before the current one of them.
+pub const CULLED: [u8; 3] = [255, 120, 90];
+
 const SOLID: u8 = 255;
 const DASHED: u8 = 0;
 
@@ -35,7 +38,7 @@ pub fn visited_lines(path: &RayPath, step: usize, center: Vec3) -> Vec<Line> {
     lines
 }
 
-/// Returns one step: the pending cells, and the part of the ray inside the node's cell. The cell
+/// Returns one step: the pending cells, the nodes that were culled so far, and the part of the ray inside the node's cell. The cell
 /// itself is drawn as the selected node's. Returns no lines if there is no such step.
 pub fn step_lines(tree: &Tree, path: &RayPath, step: usize, center: Vec3) -> Vec<Line> {
     let Some(current) = path.steps.get(step) else {
@@ -45,6 +48,18 @@ pub fn step_lines(tree: &Tree, path: &RayPath, step: usize, center: Vec3) -> Vec
     for waiting in path.pending(step) {
         let bounds = tree.cell_of(waiting.node).bounds;
         lines.extend(box_lines(&bounds, center, rgba(WAITING, DASHED), 1.0));
+    }
+    for culled in path.steps.iter().take(step + 1) {
+        if let Step::Culled(culled) = culled {
+            let bounds = tree.cell_of(culled.node).bounds;
+            lines.extend(box_lines(&bounds, center, rgba(CULLED, DASHED), 1.0));
+        }
+    }
+    if let Step::Culled(culled) = current {
+        // From the closest hit to where the box begins: what the ray does not visit.
+        let [from, to] = [culled.limit, culled.t_enter].map(|t| path.ray.at(t));
+        lines.push(Line::new(from, to, center, rgba(CULLED, DASHED), 5.0));
+        return lines;
     }
     let [t_enter, t_exit] = current.interval();
     if t_enter.is_finite() && t_exit.is_finite() {

@@ -193,7 +193,7 @@ fn tree(report: &Report, run: &Measurement) -> String {
     for setting in setup.settings().filter(|s| s.group == Group::Structure) {
         match setting.name {
             "method" => {}
-            "d-max" | "n-oilf" if !build.method.has_limits => {
+            _ if !setup.applies(&setting) => {
                 words.push(format!("{} (does not apply)", with_value(&setting, &setup)));
             }
             "d-max" if build.d_max == MaxDepth::Automatic => {

@@ -1,8 +1,9 @@
 //! Binning: objects are sorted into bins by their centers, and splits between bins are tried.
 
 use super::binary::Binary;
-use super::builder::{BvhBuilder, Costs, Input, center};
+use super::builder::{BvhBuilder, Input, center};
 use super::constants::{BLOCK, COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::costs::Costs;
 use super::sweep::bounds_of;
 use super::top_down::{self, Divide, Split};
 use crate::geometry::{Aabb, Vec3};

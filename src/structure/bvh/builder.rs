@@ -4,7 +4,6 @@ use super::binary::Binary;
 use crate::geometry::{Aabb, Vec3};
 use crate::primitive::Primitive;
 use crate::progress::{Cancelled, Progress};
-use crate::structure::settings::BuildSettings;
 
 /// Builds a binary hierarchy. The result must not depend on the number of threads.
 pub trait BvhBuilder: Send + Sync {
@@ -51,37 +50,4 @@ impl Input<'_> {
 /// Returns the center of a box, which does not overflow.
 pub fn center(bounds: &Aabb) -> Vec3 {
     bounds.lo * 0.5 + bounds.hi * 0.5
-}
-
-/// Costs of the surface-area heuristic (SAH), as all builders count them.
-#[derive(Clone, Copy, Debug)]
-pub struct Costs {
-    /// Cost of an inner node.
-    pub traversal: f64,
-    /// Cost of the test of a block of objects.
-    pub test: f64,
-    /// Objects per block.
-    pub block: usize,
-    /// A leaf with more objects is always split.
-    pub max_leaf: usize,
-    /// A node with at most this many objects is a leaf, `N_OILF`.
-    pub min_leaf: usize,
-}
-
-impl Costs {
-    /// Reads the constants `cost-traversal`, `cost-test`, `block` and `max-leaf` of a method.
-    pub fn of(settings: &BuildSettings) -> Costs {
-        Costs {
-            traversal: settings.constant("cost-traversal"),
-            test: settings.constant("cost-test"),
-            block: settings.constant("block") as usize,
-            max_leaf: settings.constant("max-leaf") as usize,
-            min_leaf: settings.n_oilf as usize,
-        }
-    }
-
-    /// Returns the number of blocks that objects take.
-    pub fn blocks(&self, objects: usize) -> f64 {
-        objects.div_ceil(self.block) as f64
-    }
 }

@@ -1,7 +1,7 @@
 //! Leaves for builders that merge: subtrees that cost more than a leaf become one.
 
 use super::binary::{Binary, Content};
-use super::builder::Costs;
+use super::costs::Costs;
 use crate::progress::{Cancelled, Progress};
 use crate::structure::node::StopReason;
 
@@ -23,7 +23,7 @@ pub fn collapse(full: &Binary, costs: Costs, progress: &Progress) -> Result<Bina
     for (node, subtree) in full.nodes.iter().zip(&mut subtrees) {
         if let Content::Leaf { count, .. } = node.content {
             let count = count as usize;
-            let cost = costs.test * count as f64 * node.bounds.surface_area();
+            let cost = costs.test * costs.blocks(count) * node.bounds.surface_area();
             *subtree = Subtree {
                 count,
                 cost,
@@ -39,7 +39,7 @@ pub fn collapse(full: &Binary, costs: Costs, progress: &Progress) -> Result<Bina
         let area = full.nodes[node as usize].bounds.surface_area();
         let count = a.count + b.count;
         let split = costs.traversal * area + a.cost + b.cost;
-        let leaf = costs.test * count as f64 * area;
+        let leaf = costs.test * costs.blocks(count) * area;
         let becomes = if count <= costs.min_leaf {
             Some(StopReason::FewObjects)
         } else {

@@ -1,9 +1,10 @@
 //! Linear bounding volume hierarchies (LBVH): a radix tree over Morton codes.
 
 use super::binary::Binary;
-use super::builder::{BvhBuilder, Costs, Input};
+use super::builder::{BvhBuilder, Input};
 use super::collapse::collapse;
-use super::constants::{COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::constants::{BLOCK, COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::costs::Costs;
 use super::morton;
 use crate::progress::Cancelled;
 use crate::structure::method::Structure;
@@ -23,7 +24,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper_spheres_exactly: false,
     structure: Structure::Bvh,
     has_limits: false,
-    constants: &[WIDTH, MAX_LEAF, COST_TRAVERSAL, COST_TEST],
+    constants: &[WIDTH, MAX_LEAF, BLOCK, COST_TRAVERSAL, COST_TEST],
     builder: Builder::Boxes(|settings| Box::new(Lbvh::new(settings))),
 };
 

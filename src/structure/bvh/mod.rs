@@ -8,6 +8,7 @@ mod binned;
 pub(super) mod builder;
 mod collapse;
 mod constants;
+mod costs;
 mod layout;
 mod lbvh;
 mod morton;

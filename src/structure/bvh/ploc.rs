@@ -1,9 +1,10 @@
 //! Parallel locally-ordered clustering (PLOC): nearest neighbors in Morton order are merged.
 
 use super::binary::Binary;
-use super::builder::{BvhBuilder, Costs, Input};
+use super::builder::{BvhBuilder, Input};
 use super::collapse::collapse;
-use super::constants::{COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::constants::{BLOCK, COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::costs::Costs;
 use super::morton;
 use crate::geometry::Aabb;
 use crate::progress::Cancelled;
@@ -26,7 +27,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper_spheres_exactly: false,
     structure: Structure::Bvh,
     has_limits: false,
-    constants: &[WIDTH, MAX_LEAF, RADIUS, COST_TRAVERSAL, COST_TEST],
+    constants: &[WIDTH, MAX_LEAF, BLOCK, RADIUS, COST_TRAVERSAL, COST_TEST],
     builder: Builder::Boxes(|settings| Box::new(Ploc::new(settings))),
 };
 

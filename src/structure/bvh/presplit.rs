@@ -2,7 +2,7 @@
 
 use super::binary::{Binary, Content};
 use super::builder::{BvhBuilder, Input};
-use super::constants::{COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::constants::{BLOCK, COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
 use super::sweep::Sweep;
 use crate::geometry::Aabb;
 use crate::primitive::Shape;
@@ -22,7 +22,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     paper_spheres_exactly: false,
     structure: Structure::Bvh,
     has_limits: true,
-    constants: &[WIDTH, MAX_LEAF, BUDGET, COST_TRAVERSAL, COST_TEST],
+    constants: &[WIDTH, MAX_LEAF, BLOCK, BUDGET, COST_TRAVERSAL, COST_TEST],
     builder: Builder::Boxes(|settings| Box::new(Presplit::new(settings))),
 };
 

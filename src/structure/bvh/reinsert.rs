@@ -2,9 +2,10 @@
 
 use super::binary::{Binary, Content};
 use super::binned::{BINS, Binned};
-use super::builder::{BvhBuilder, Costs, Input};
+use super::builder::{BvhBuilder, Input};
 use super::collapse::collapse;
-use super::constants::{COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::constants::{BLOCK, COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::costs::Costs;
 use super::lbvh::radix_tree;
 use super::ploc::{RADIUS, clustered};
 use super::sweep::Sweep;
@@ -32,6 +33,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     constants: &[
         WIDTH,
         MAX_LEAF,
+        BLOCK,
         START,
         BATCH,
         ROUNDS,

@@ -2,8 +2,9 @@
 
 use super::binary::Binary;
 use super::binned::{Bins, costs_between};
-use super::builder::{BvhBuilder, Costs, Input, center};
-use super::constants::{COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::builder::{BvhBuilder, Input, center};
+use super::constants::{BLOCK, COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::costs::Costs;
 use super::top_down::{self, Divide, Split};
 use crate::geometry::{Aabb, Vec3};
 use crate::primitive::Shape;
@@ -25,6 +26,7 @@ pub(super) const METHOD: MethodInfo = MethodInfo {
     constants: &[
         WIDTH,
         MAX_LEAF,
+        BLOCK,
         BINS,
         ALPHA,
         BUDGET,
@@ -92,6 +94,7 @@ impl BvhBuilder for Spatial {
         let bounds = input.bounds.iter();
         let root = bounds.fold(Aabb::EMPTY, |all, bounds| all.union(bounds));
         let splitting = Splitting {
+            costs: self.costs,
             bins: self.bins,
             least_overlap: self.alpha * root.surface_area(),
             spare: ((self.budget - 1.0) * input.bounds.len() as f64) as usize,
@@ -149,6 +152,7 @@ enum How {
 }
 
 struct Splitting {
+    costs: Costs,
     bins: usize,
     least_overlap: f64,
     /// The spare references of the root.
@@ -219,7 +223,9 @@ impl Divide for Splitting {
                 let (left, right) = list.into_iter().partition(is_left);
                 [left, right]
             }
-            How::Parts { axis, plane, sides } => divide_at(input, list, axis, plane, sides, spare),
+            How::Parts { axis, plane, sides } => {
+                divide_at(&self.costs, input, list, axis, plane, sides, spare)
+            }
         };
         let spare = spare - (left.len() + right.len() - count);
         if left.is_empty() || right.is_empty() {
@@ -280,7 +286,7 @@ impl Splitting {
                 *bounds = bounds.union(&reference.bounds);
                 *count += 1;
             }
-            for (first_right, cost) in costs_between(&held) {
+            for (first_right, cost) in costs_between(&held, &self.costs) {
                 if best.is_none_or(|(least, ..)| cost < least) {
                     let union = |held: &[(Aabb, usize)]| {
                         held.iter()
@@ -354,8 +360,7 @@ impl Splitting {
                 let (bounds, [begins, _]) = &held[bin - 1];
                 left = (left.0.union(bounds), left.1 + begins);
                 let right = rest[bin];
-                let cost =
-                    left.0.surface_area() * left.1 as f64 + right.0.surface_area() * right.1 as f64;
+                let cost = self.costs.of_part(left) + self.costs.of_part(right);
                 let more = left.1 + right.1 - count;
                 let is_possible = left.1 > 0 && right.1 > 0 && more <= references.spare;
                 if is_possible && cost < least && plane(bin) > lo && plane(bin) < hi {
@@ -376,6 +381,7 @@ impl Splitting {
 /// Divides references at a plane. A reference that crosses it goes to one side as a whole where that is cheaper
 /// than to divide it ("reference unsplitting"), or if as many as `spare` are divided already.
 fn divide_at(
+    costs: &Costs,
     input: &Input<'_>,
     list: Vec<Reference>,
     axis: usize,
@@ -399,7 +405,7 @@ fn divide_at(
             reference.part(input, axis, plane, f64::INFINITY),
         ];
         let whole = match parts {
-            [Some(_), Some(_)] => cheaper_whole(&sides, &reference.bounds, spare > 0),
+            [Some(_), Some(_)] => cheaper_whole(costs, &sides, &reference.bounds, spare > 0),
             [None, Some(_)] => Some(1),
             _ => Some(0),
         };
@@ -426,8 +432,13 @@ fn divide_at(
 
 /// Returns the side on which a reference as a whole is cheaper than its parts on both; `None` if its parts are and
 /// it may be divided.
-fn cheaper_whole(sides: &[(Aabb, usize); 2], bounds: &Aabb, may_be_divided: bool) -> Option<usize> {
-    let cost = |bounds: Aabb, count: usize| bounds.surface_area() * count as f64;
+fn cheaper_whole(
+    costs: &Costs,
+    sides: &[(Aabb, usize); 2],
+    bounds: &Aabb,
+    may_be_divided: bool,
+) -> Option<usize> {
+    let cost = |bounds: Aabb, count: usize| costs.of_part((bounds, count));
     let [(left, on_left), (right, on_right)] = *sides;
     let divided = cost(left, on_left) + cost(right, on_right);
     let costs = [

@@ -1,8 +1,9 @@
 //! A full sweep: every division of the objects sorted by their centers is tried, along each axis.
 
 use super::binary::Binary;
-use super::builder::{BvhBuilder, Costs, Input};
+use super::builder::{BvhBuilder, Input};
 use super::constants::{BLOCK, COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
+use super::costs::Costs;
 use super::top_down::{self, Divide, Split};
 use crate::geometry::Aabb;
 use crate::progress::Cancelled;

@@ -1,7 +1,8 @@
 //! Builders that divide the objects of a node again and again: termination, threads, order.
 
 use super::binary::Binary;
-use super::builder::{Costs, Input};
+use super::builder::Input;
+use super::costs::Costs;
 use crate::geometry::Aabb;
 use crate::progress::Cancelled;
 use crate::structure::node::StopReason;

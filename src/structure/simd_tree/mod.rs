@@ -4,6 +4,7 @@
 mod block;
 mod boxes;
 mod build;
+mod build_wide;
 mod layout;
 mod pages;
 mod spheres;

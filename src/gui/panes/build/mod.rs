@@ -1,5 +1,6 @@
 //! The build of the tree, step by step: buttons, and a sentence about the current step.
 
+use crate::geometry::Aabb;
 use crate::gui::action::{actions, tip};
 use crate::gui::document::Document;
 use crate::gui::document::RATES;
@@ -8,7 +9,9 @@ use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::name_widget;
 use crate::gui::widgets::symbol::grouped;
 use crate::gui::widgets::transport::{self, Button, Transport};
-use crate::structure::{Moment, NodeKind};
+use crate::present::number::Digits;
+use crate::present::overlay::overlap_share;
+use crate::structure::{Moment, NodeKind, Tree};
 
 /// The build of the tree on view.
 #[derive(Default)]
@@ -201,9 +204,11 @@ fn sentence(doc: &Document, ctx: &egui::Context) -> String {
                             "is split at {axis} = {plane:.5}: {below} objects below, {above} above"
                         ),
                         (Some((axis, plane)), _) => format!("is split at {axis} = {plane:.5}"),
-                        (None, Some(parts)) => {
-                            format!("is divided into boxes of {} objects", parts.join(" + "))
-                        }
+                        (None, Some(parts)) => format!(
+                            "is divided into boxes of {} objects{}",
+                            parts.join(" + "),
+                            overlap(tree, next)
+                        ),
                         (None, None) => "is divided".to_owned(),
                     }
                 }
@@ -214,5 +219,19 @@ fn sentence(doc: &Document, ctx: &egui::Context) -> String {
             };
             format!("node {at} of {of} {what}")
         }
+    }
+}
+
+/// How much the boxes of a node's children overlap, to end a sentence.
+fn overlap(tree: &Tree, node: u32) -> String {
+    let cell = tree.cell_of(node);
+    let boxes: Vec<Aabb> = tree.children(&cell).map(|child| child.bounds).collect();
+    match overlap_share(&cell.bounds, &boxes) {
+        Some(share) if share > 0.0 => format!(
+            ", which overlap in {} of its volume",
+            Digits::Three.percent(share)
+        ),
+        Some(_) => ", which do not overlap".to_owned(),
+        None => String::new(),
     }
 }

@@ -5,6 +5,7 @@ use crate::gui::document::Document;
 use crate::gui::document::comparing::Which;
 use crate::gui::edits::Edits;
 use crate::gui::theme::{hint, strong, tokens};
+use crate::gui::widgets::choice_list;
 use crate::setup::Setup;
 use crate::structure::Method;
 
@@ -57,19 +58,24 @@ fn method(ui: &mut egui::Ui, doc: &Document, which: Which, setup: &Setup, edits:
     egui::ComboBox::from_id_salt(("method of", which.name()))
         .selected_text(method.name)
         .width(ui.available_width() - 16.0)
+        // Without scrolling: a list that hides its last item hides that there is one.
+        .height(f32::INFINITY)
         .show_ui(ui, |ui| {
-            for other in Method::all() {
-                let item = ui.selectable_label(other == method, other.name);
-                let item = item.on_hover_text(format!(
-                    "{}\n{}\nSource: {}",
-                    other.summary, other.about, other.source
-                ));
-                if item.clicked() {
-                    edits.add(move |doc| {
-                        let behind = doc.other.as_mut().filter(|_| !is_in_front);
-                        let wanted = behind.map_or(&mut doc.wanted, |other| &mut other.wanted);
-                        wanted.build.set_method(other);
-                    });
+            choice_list::close_together(ui);
+            for (family, methods) in Method::families() {
+                choice_list::group(ui, family);
+                for other in methods {
+                    let item = choice_list::item(ui, other == method, other.name, other.summary);
+                    let about = format!("{}\nSource: {}", other.about, other.source);
+                    let item = item.on_hover_text(about).accessible_name(other.name);
+                    if item.clicked() {
+                        ui.close();
+                        edits.add(move |doc| {
+                            let behind = doc.other.as_mut().filter(|_| !is_in_front);
+                            let wanted = behind.map_or(&mut doc.wanted, |other| &mut other.wanted);
+                            wanted.build.set_method(other);
+                        });
+                    }
                 }
             }
         })

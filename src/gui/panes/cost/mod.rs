@@ -1,5 +1,5 @@
 //! What splitting the selected node costs at every plane along x, y and z, with the plane chosen
-//! and a plane of one's own to try.
+//! and a plane of one's own to try. In a hierarchy, a plane divides the objects by their centers into two boxes.
 
 use crate::geometry::Axis;
 use crate::gui::action::{Gesture, actions, tip};
@@ -36,14 +36,14 @@ struct Drawn {
 impl Pane for CostPane {
     const ID: &'static str = "split-cost";
     const TITLE: &'static str = "Split cost";
-    const ABOUT: &'static str = "The cost of every plane that could split the selected node.";
+    const ABOUT: &'static str = "The cost of every split of the selected node.";
     const REVEALS: &'static [Fact] = &[Fact::Tree];
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
-        "split-cost.undo-what-if" Here NONE [Delete] "Remove the tried plane" => |_, cx| cx.edits.add(|doc| doc.inspect.what_if = None);
+        "split-cost.undo-what-if" Here NONE [Delete] "Remove the tried split" => |_, cx| cx.edits.add(|doc| doc.inspect.what_if = None);
     };
     const GESTURES: &'static [Gesture] = &[Gesture {
         gesture: "Drag",
-        about: "Try a plane; it changes no tree",
+        about: "Try a split; it changes no tree",
     }];
 
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
@@ -71,7 +71,7 @@ impl Pane for CostPane {
         let mut tried = before;
         words(ui, &cost, &mut tried);
         if cost.objects == 0 {
-            ui.weak("The cell is empty: there is nothing to split.");
+            ui.weak("The node is empty: there is nothing to split.");
             tried = None;
         } else {
             let size = crate::gui::widgets::common::rest_of(ui);
@@ -94,12 +94,21 @@ impl Pane for CostPane {
 /// The numbers of the node, of the plane chosen and of the plane tried, on lines of their own.
 fn words(ui: &mut egui::Ui, cost: &NodeCost, tried: &mut Option<WhatIf>) {
     let leaf = cost.leaf_cost();
-    let text = match &cost.chosen {
-        Some((axis, chosen)) => format!(
-            "node {}: chosen {} · {} compared with the leaf's {} tests",
+    let chosen = match (&cost.chosen, &cost.division) {
+        (Some((axis, chosen)), _) => Some((plane_text(cost, *axis, chosen), chosen.cost)),
+        (None, Some(division)) => {
+            let parts: Vec<_> = division.objects.iter().map(|&n| grouped(n)).collect();
+            let parts = parts.join(" + ");
+            let text = format!("{parts} objects, cost {} tests", short(division.cost));
+            Some((text, division.cost))
+        }
+        (None, None) => None,
+    };
+    let text = match &chosen {
+        Some((text, chosen)) => format!(
+            "node {}: chosen {text} · {} compared with the leaf's {} tests",
             cost.node,
-            plane_text(*axis, chosen),
-            Digits::Three.signed_percent((chosen.cost - leaf) / leaf.max(1.0)),
+            Digits::Three.signed_percent((chosen - leaf) / leaf.max(1.0)),
             short(leaf),
         ),
         None => format!(
@@ -108,20 +117,41 @@ fn words(ui: &mut egui::Ui, cost: &NodeCost, tried: &mut Option<WhatIf>) {
             counted(cost.objects, "object"),
             short(leaf),
             cost.cheapest()
-                .map(|(axis, s)| format!("; the cheapest split is {}", plane_text(axis, &s)))
+                .map(|(axis, s)| format!("; the cheapest split is {}", plane_text(cost, axis, &s)))
                 .unwrap_or_default(),
         ),
     };
-    ui.add(egui::Label::new(&text).wrap()).on_hover_text(
+    let about = if cost.has_boxes {
+        format!(
+            "Cost: intersection tests that a ray through the box is expected to make if both parts \
+             become leaves (MacDonald and Booth 1990), and {} for the tests of their boxes. The objects \
+             are sorted by the centers of their bounds; every object is in one part.",
+            short(cost.traversal)
+        )
+    } else {
         "Cost: intersection tests that a ray through the cell is expected to make if both parts \
          become leaves (MacDonald and Booth 1990). Objects count by their bounds; those that meet the \
-         plane count on both sides.",
-    );
+         plane count on both sides."
+            .to_owned()
+    };
+    ui.add(egui::Label::new(&text).wrap()).on_hover_text(about);
+    let chosen = chosen.map(|(_, cost)| cost);
+    let (what, try_it) = if cost.has_boxes {
+        (
+            "the chosen boxes",
+            "Drag or click in a curve to try other boxes.",
+        )
+    } else {
+        (
+            "the chosen plane",
+            "Drag or click in a curve to try a plane.",
+        )
+    };
     ui.horizontal_wrapped(|ui| {
         let some = tried.is_some();
         if ui
             .add_enabled(some, egui::Button::new("Undo what-if"))
-            .on_hover_text(tip("Remove the tried plane.", "split-cost.undo-what-if"))
+            .on_hover_text(tip("Remove the tried split.", "split-cost.undo-what-if"))
             .clicked()
         {
             *tried = None;
@@ -129,25 +159,34 @@ fn words(ui: &mut egui::Ui, cost: &NodeCost, tried: &mut Option<WhatIf>) {
         ui.label(match tried {
             Some(what_if) => {
                 let s = cost.curves[what_if.axis.index()].at(what_if.plane);
-                let (other, than) = match &cost.chosen {
-                    Some((_, chosen)) => (chosen.cost, "the chosen plane"),
+                let (other, than) = match chosen {
+                    Some(chosen) => (chosen, what),
                     None => (leaf, "the leaf"),
                 };
                 let sign = if s.cost > other { "more" } else { "fewer" };
                 format!(
                     "what if {} · {} tests {sign} than {than}",
-                    plane_text(what_if.axis, &s),
+                    plane_text(cost, what_if.axis, &s),
                     short((s.cost - other).abs())
                 )
             }
-            None => "Drag or click in a curve to try a plane.".to_owned(),
+            None => try_it.to_owned(),
         });
     });
 }
 
-/// A plane with its cost in words.
-fn plane_text(axis: Axis, s: &SplitCost) -> String {
+/// A split with its cost in words.
+fn plane_text(cost: &NodeCost, axis: Axis, s: &SplitCost) -> String {
     let [below, above] = s.objects;
+    if cost.has_boxes {
+        return format!(
+            "centers at {axis} = {:.5}: {} + {} objects, cost {} tests",
+            s.plane,
+            grouped(below),
+            grouped(above),
+            short(s.cost)
+        );
+    }
     format!(
         "{axis} = {:.5}: {} below, {} above, cost {} tests",
         s.plane,
@@ -242,7 +281,12 @@ impl Drawn {
             label(hi, leaf, "as a leaf ", color);
             label(curve.spatial_median, top * 0.0, " middle", color);
             if let Some(median) = curve.object_median {
-                label(median, top * 0.075, " object median ", color);
+                let what = if cost.has_boxes {
+                    " median center "
+                } else {
+                    " object median "
+                };
+                label(median, top * 0.075, what, color);
             }
             if let Some((_, s)) = chosen {
                 label(s.plane, top * 0.93, " chosen ", CHOSEN);
@@ -291,7 +335,7 @@ impl Drawn {
         let pointer = response.interact_pointer_pos();
         let tried = pointer.filter(|_| tries).map(plane_at);
         if let Some(at) = response.hover_pos().or(pointer).map(plane_at) {
-            response.on_hover_text_at_pointer(plane_text(axis, &curve.at(at)));
+            response.on_hover_text_at_pointer(plane_text(cost, axis, &curve.at(at)));
         }
         tried
     }

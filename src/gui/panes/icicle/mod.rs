@@ -412,7 +412,12 @@ fn about(tree: &Tree, index: &TreeIndex, node: u32) -> String {
     let kind = match (tree.kind(node), tree.plane(node)) {
         (NodeKind::Leaf { stop, .. }, _) => format!("a leaf: {}", stop.text()),
         (_, Some((axis, at))) => format!("split at {axis} = {at:.6}"),
-        _ => String::new(),
+        _ => {
+            let children = tree.child_nodes(node);
+            let objects = children.map(|child| grouped(index.of(child).objects as usize));
+            let parts: Vec<String> = objects.collect();
+            format!("divided into boxes of {} objects", parts.join(" + "))
+        }
     };
     format!(
         "node {node}, depth {}, {kind}\n{}, {}\nvolume {}, area {} of the root's",

@@ -15,7 +15,7 @@ use crate::gui::widgets::tree_rows::Rows;
 use crate::gui::widgets::visits_note::visits_note;
 use crate::jobs::PictureVisits;
 use crate::present::number::{Digits, counted};
-use crate::structure::{NodeKind, Tree, TreeIndex};
+use crate::structure::{NodeKind, Nodes, Tree, TreeIndex};
 use egui::{Align, Sense};
 use egui_extras::{Column, TableBuilder, TableRow};
 use std::sync::Arc;
@@ -82,6 +82,13 @@ const COLUMNS: [(&str, [f32; 2], &str); 9] = [
     ),
     ("visits", [104.0, 150.0], visits::ABOUT),
 ];
+
+/// The column of planes, and its title and meaning in a hierarchy.
+const SPLIT: usize = 2;
+const BOXES: (&str, &str) = (
+    "boxes, or why a leaf",
+    "Objects in the box of each child; or why the node was not divided",
+);
 
 /// The widths of the columns in a table of this width: as usual, or down to the least where there is
 /// less room.
@@ -324,7 +331,12 @@ impl Table<'_> {
                 }
                 builder
                     .header(height, |mut header| {
-                        for (title, _, about) in COLUMNS {
+                        let has_boxes = matches!(self.tree.nodes(), Nodes::Boxes(_));
+                        for (i, (title, _, about)) in COLUMNS.into_iter().enumerate() {
+                            let (title, about) = match i {
+                                SPLIT if has_boxes => BOXES,
+                                _ => (title, about),
+                            };
                             header.col(|ui| {
                                 ui.strong(title).on_hover_text(about);
                             });
@@ -358,8 +370,11 @@ impl Table<'_> {
             _ if !decided => ("not decided yet".to_owned(), facts.objects),
             NodeKind::Inner => {
                 let plane = self.tree.plane(node);
-                let text = plane.map(|(axis, at)| format!("{axis} = {at:.6}"));
-                (text.unwrap_or_default(), facts.objects)
+                let text = match plane {
+                    Some((axis, at)) => format!("{axis} = {at:.6}"),
+                    None => self.parts_text(node),
+                };
+                (text, facts.objects)
             }
             NodeKind::Leaf { count, stop, .. } => (format!("leaf: {}", stop.text()), count),
         };
@@ -383,6 +398,16 @@ impl Table<'_> {
         if row.response().clicked() {
             *self.selected = Some(node);
         }
+    }
+
+    /// The number of objects in each child.
+    fn parts_text(&self, node: u32) -> String {
+        let objects = self.tree.child_nodes(node).map(|child| {
+            let objects = self.index.of(child).objects;
+            grouped(objects as usize)
+        });
+        let parts: Vec<String> = objects.collect();
+        format!("{} objects", parts.join(" + "))
     }
 
     /// Number of visits and their share of all rays; a dash where they are not counted.

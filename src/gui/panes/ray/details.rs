@@ -46,8 +46,10 @@ fn step(ui: &mut Ui, scene: &Scene, picked: &Picked) {
         }
         Step::Boxes(step) => {
             ui.strong(format!("Step {number}: inner node {index}"));
+            let tests = step_text::count(step.tests.len() as u32, "child", "children");
+            ui.label(format!("Tests the boxes of its {tests}:"));
             for test in &step.tests {
-                ui.label(step_text::box_test(step, test));
+                wrapped(ui, step_text::box_test(step, test));
             }
         }
         Step::Culled(step) => {
@@ -66,6 +68,9 @@ fn step(ui: &mut Ui, scene: &Scene, picked: &Picked) {
                 format!("x {x}, y {y}, z {z} units; a leaf because: {stop}"),
             );
             wrapped(ui, format!("Then: {}.", leaf.outcome.text()));
+            if let Some(why) = step_text::overlap(picked.path(), picked.step) {
+                wrapped(ui, format!("{why}."));
+            }
             tests(ui, scene, picked.path(), &leaf.tests);
         }
     }
@@ -91,8 +96,8 @@ fn stack(ui: &mut Ui, picked: &Picked) {
         step_text::count(pending.len() as u32, "node", "nodes")
     ))
     .on_hover_text(
-        "Far children that are visited later: after a leaf, the traversal continues with the first of \
-         them.",
+        "Children that are visited later: after a leaf, the traversal continues with the first of them. In a \
+         hierarchy, those that begin beyond the closest hit are culled.",
     );
     for (i, node) in pending.iter().rev().enumerate() {
         let next = if i == 0 { " (next)" } else { "" };
@@ -106,15 +111,26 @@ fn stack(ui: &mut Ui, picked: &Picked) {
 fn summary(ui: &mut Ui, path: &RayPath) {
     let counts = path.counts();
     ui.strong("Whole ray");
+    let has_boxes = path.steps.iter().any(|step| matches!(step, Step::Boxes(_)));
+    let tests = step_text::count(counts.tests, "intersection test", "intersection tests");
+    let tests = if has_boxes {
+        let boxes = step_text::count(counts.box_tests, "box test", "box tests");
+        let culled = step_text::count(counts.culled, "pending node", "pending nodes");
+        format!("{boxes} and {tests}. It culls {culled}")
+    } else {
+        tests
+    };
     wrapped(
         ui,
         format!(
-            "The {} ray visits {} ({} empty) and {}, and makes {}.",
+            "The {} ray visits {} ({} empty) and {}, and makes {tests}.",
             path.kind.name(),
             step_text::count(counts.leaves, "leaf", "leaves"),
             counts.empty_leaves,
             step_text::count(counts.inner_nodes, "inner node", "inner nodes"),
-            step_text::count(counts.tests, "intersection test", "intersection tests"),
         ),
     );
+    if let Some(first) = step_text::first_hit(path) {
+        wrapped(ui, first);
+    }
 }

@@ -20,8 +20,8 @@ const COLUMNS: &[Column] = &[
     },
     Column {
         title: "what",
-        about: "Inner node (a fork), full leaf (a filled square in the color of its box) or empty \
-                leaf (a hollow one)",
+        about: "Inner node (a fork), full leaf (a filled square in the color of its box), empty leaf (a \
+                hollow one), or a pending node that is culled (a cross)",
         width: 84.0,
     },
     Column {
@@ -36,7 +36,8 @@ const COLUMNS: &[Column] = &[
     },
     Column {
         title: "result",
-        about: "The plane and which children are visited, or the tests and the closest hit of a leaf",
+        about: "The plane and which children are visited, the box tests and which child is visited first, or \
+                the tests and the closest hit of a leaf",
         width: 110.0,
     },
 ];
@@ -134,7 +135,7 @@ fn row(scene: &Scene, i: usize, step: &Step) -> Row {
             "     inner".to_owned(),
             grouped(step.node as usize),
             step_text::interval(step.t_enter, step.t_exit),
-            step_text::entered(step),
+            step_text::entered_briefly(step),
         ],
         Step::Culled(step) => vec![
             number,

@@ -1,9 +1,10 @@
-//! The steps of a ray along its parameter t: a block per step. Leaves lie on the ray one after the other;
-//! the inner nodes that lead to a leaf stand above it.
+//! The steps of a ray: a block per step, in order. Leaves are as wide as the ray is long in them; in a tree of
+//! planes they lie on the ray one after the other, and boxes may overlap. The inner nodes that lead to a leaf
+//! stand above it, and so do the nodes that are culled after it, with a cross.
 
 use crate::gui::theme::Tokens;
 use crate::gui::widgets::step_text;
-use crate::present::overlay::order_color;
+use crate::present::overlay::{CULLED, order_color};
 use crate::trace::{RayPath, Step};
 use egui::{Align2, Color32, Rect, Sense, Stroke, StrokeKind, Theme, Ui, pos2, vec2};
 use std::ops::Range;
@@ -20,6 +21,10 @@ const GROUND: Color32 = Color32::from_rgb(24, 27, 33);
 
 /// The least width of a leaf's block in points.
 const LEAST: f32 = 4.0;
+
+/// The width of a step after the last leaf in points, and the most that all of them take of the strip.
+const AFTER: f32 = 10.0;
+const MOST_AFTER: f32 = 0.2;
 
 /// A block of the strip.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +43,14 @@ struct Layout {
 }
 
 impl Layout {
-    fn new(path: &RayPath, width: f32) -> Self {
+    fn new(path: &RayPath, whole: f32) -> Self {
+        let is_leaf = |step: &&Step| matches!(step, Step::Leaf(_));
+        let after = path.steps.iter().rev().take_while(|step| !is_leaf(step));
+        // In a hierarchy, pending nodes are left when the closest hit is known.
+        let width = match after.count() {
+            n if n == path.steps.len() => 0.0,
+            n => whole - (AFTER * n as f32).min(MOST_AFTER * whole),
+        };
         let spans: Vec<Range<f64>> = path
             .leaves()
             .map(|leaf| leaf.t_enter..leaf.t_exit)
@@ -80,9 +92,7 @@ impl Layout {
                 }
             }
         }
-        // The ray ends below these: they have the end of the strip.
-        let end = layout.leaves.last().map_or(0.0, |(_, x)| x.start);
-        layout.blocks.extend(side_by_side(&inner, end..width));
+        layout.blocks.extend(side_by_side(&inner, width..whole));
         layout
     }
 
@@ -95,6 +105,23 @@ impl Layout {
             .or(self.leaves.last())?;
         let part = (t - span.start) / (span.end - span.start).max(f64::MIN_POSITIVE);
         Some(x.start + (part.clamp(0.0, 1.0) as f32) * (x.end - x.start))
+    }
+
+    /// Where a hit in a leaf lies; `order` is the leaf's number. In the leaf, or beyond it where the ray
+    /// gets to later.
+    fn place_of_hit(&self, order: usize, t: f64) -> Option<f32> {
+        let (span, x) = self.leaves.get(order)?;
+        if !(span.start..=span.end).contains(&t) {
+            return self.place(t);
+        }
+        let part = (t - span.start) / (span.end - span.start).max(f64::MIN_POSITIVE);
+        Some(x.start + (part as f32) * (x.end - x.start))
+    }
+
+    /// Whether the leaves lie on the ray one after the other.
+    fn is_along(&self) -> bool {
+        let starts = self.leaves.iter().map(|(span, _)| span);
+        starts.is_sorted_by(|a, b| a.start <= b.start && a.end <= b.end)
     }
 
     /// The step at a place; `above` among inner nodes.
@@ -139,18 +166,33 @@ pub fn show(ui: &mut Ui, path: Option<&RayPath>, step: usize, leaves_only: bool)
     };
     let hovered = response.hover_pos().and_then(target);
     if let Some(hovered) = hovered {
-        let at = &path.steps[hovered];
-        let [enter, exit] = at.interval();
-        let interval = step_text::interval(enter, exit);
-        let text = format!(
-            "Step {}: {} {}, t from {interval} units",
-            hovered + 1,
-            step_text::kind(at),
-            at.node()
-        );
-        response.on_hover_text_at_pointer(text);
+        response.on_hover_text_at_pointer(about(hovered, &path.steps[hovered]));
     }
     pointer.and_then(target).filter(|&to| to != step)
+}
+
+/// What a block says under the pointer.
+fn about(number: usize, step: &Step) -> String {
+    let what = format!(
+        "Step {}: {} {}",
+        number + 1,
+        step_text::kind(step),
+        step.node()
+    );
+    let [enter, exit] = step.interval();
+    let interval = step_text::interval(enter, exit);
+    match step {
+        Step::Culled(culled) => format!("{what}: {}", step_text::why_culled(culled)),
+        Step::Boxes(boxes) => {
+            let mut text = format!("{what}, t from {interval} units");
+            for test in &boxes.tests {
+                text += &format!("\n{}", step_text::box_test(boxes, test));
+            }
+            text
+        }
+        Step::Leaf(leaf) => format!("{what}, t from {interval} units\n{}", leaf.outcome.text()),
+        Step::Inner(_) => format!("{what}, t from {interval} units"),
+    }
 }
 
 fn paint(ui: &Ui, rect: Rect, path: &RayPath, layout: &Layout, step: usize, leaves_only: bool) {
@@ -188,6 +230,20 @@ fn paint(ui: &Ui, rect: Rect, path: &RayPath, layout: &Layout, step: usize, leav
                 }
             }
             _ if leaves_only => {}
+            Step::Culled(_) => {
+                let [r, g, b] = CULLED;
+                let stroke = Stroke::new(1.0, Color32::from_rgb(r, g, b));
+                painter.rect_stroke(block_rect, 1.0, stroke, StrokeKind::Inside);
+                // Where there is room for a cross beside the frame.
+                let middle = block_rect.center();
+                let half = 0.5 * block_rect.height() - 1.0;
+                if block_rect.width() > 2.0 * half {
+                    for down in [-half, half] {
+                        let ends = [middle - vec2(half, down), middle + vec2(half, down)];
+                        painter.line_segment(ends, Stroke::new(1.5, stroke.color));
+                    }
+                }
+            }
             _ => {
                 painter.rect_filled(block_rect, 1.0, t.border);
             }
@@ -203,9 +259,12 @@ fn paint(ui: &Ui, rect: Rect, path: &RayPath, layout: &Layout, step: usize, leav
 /// Marks the hits, the closest one with a wedge, and writes where the strip begins and ends.
 fn marks(ui: &Ui, rect: Rect, path: &RayPath, layout: &Layout) {
     let (t, painter) = (Tokens::of(Theme::Dark), ui.painter());
-    let tests = path.leaves().flat_map(|leaf| &leaf.tests);
-    for hit in tests.filter_map(|test| test.hit) {
-        let Some(x) = layout.place(hit) else {
+    let hits = path.leaves().enumerate().flat_map(|(order, leaf)| {
+        let hits = leaf.tests.iter().filter_map(|test| test.hit);
+        hits.map(move |hit| (order, hit))
+    });
+    for (order, hit) in hits {
+        let Some(x) = layout.place_of_hit(order, hit) else {
             continue;
         };
         let x = rect.left() + x;
@@ -219,11 +278,17 @@ fn marks(ui: &Ui, rect: Rect, path: &RayPath, layout: &Layout) {
     }
     let font = egui::FontId::proportional(12.0);
     if let (Some((first, _)), Some((last, _))) = (layout.leaves.first(), layout.leaves.last()) {
-        for (at, align, t_end) in [
-            (rect.left(), Align2::LEFT_BOTTOM, first.start),
-            (rect.right(), Align2::RIGHT_BOTTOM, last.end),
+        // Leaves whose boxes overlap are no axis.
+        let [from, to] = if layout.is_along() {
+            ["t = ", "t = "]
+        } else {
+            ["first leaf from t = ", "last leaf to t = "]
+        };
+        for (at, align, what, t_end) in [
+            (rect.left(), Align2::LEFT_BOTTOM, from, first.start),
+            (rect.right(), Align2::RIGHT_BOTTOM, to, last.end),
         ] {
-            let text = format!("t = {}", step_text::short(t_end));
+            let text = format!("{what}{}", step_text::short(t_end));
             let bottom = pos2(at, rect.bottom() + 3.0);
             painter.text(bottom, align, text, font.clone(), t.hint);
         }
@@ -235,14 +300,21 @@ mod tests {
     use super::*;
     use crate::progress::Progress;
     use crate::scene::{SceneRequest, load};
-    use crate::structure::{BuildSettings, build};
-    use crate::trace::{RenderSettings, record_pixel};
+    use crate::structure::{BuildSettings, Method, build};
+    use crate::trace::{LeafStep, RenderSettings, record_pixel};
 
     #[test]
     fn every_step_has_a_block_and_is_found_at_its_place() {
+        for method in ["midpoint", "bvh-sweep"] {
+            check_blocks(method);
+        }
+    }
+
+    fn check_blocks(method: &str) {
         let progress = Progress::new();
         let scene = load(&SceneRequest::parse("balls:2"), &progress).unwrap();
-        let tree = build(&scene, &BuildSettings::default(), &progress).unwrap();
+        let settings = BuildSettings::for_method(Method::named(method).unwrap());
+        let tree = build(&scene, &settings, &progress).unwrap();
         let render = RenderSettings {
             width: 16,
             height: 16,
@@ -254,15 +326,26 @@ mod tests {
             let steps: Vec<usize> = layout.blocks.iter().map(|block| block.step).collect();
             assert_eq!(steps, (0..ray.path.steps.len()).collect::<Vec<_>>());
             let leaves: Vec<_> = layout.blocks.iter().filter(|block| block.is_leaf).collect();
-            assert!(!leaves.is_empty());
+            if leaves.is_empty() {
+                assert!(method == "bvh-sweep" && !ray.path.hit.is_hit());
+                continue;
+            }
+            if method == "midpoint" {
+                assert!(layout.is_along());
+            }
             assert!(leaves.is_sorted_by(|a, b| a.x.end <= b.x.start));
-            assert!((leaves.last().unwrap().x.end - 800.0).abs() < 0.5);
+            let end = layout.blocks.iter().map(|block| block.x.end);
+            assert!((end.fold(0.0, f32::max) - 800.0).abs() < 0.5);
+            assert!(leaves.last().unwrap().x.end >= 0.8 * 800.0 - 0.5);
             for block in &layout.blocks {
                 let middle = 0.5 * (block.x.start + block.x.end);
                 assert_eq!(layout.at(middle, !block.is_leaf), Some(block.step));
             }
             if ray.path.hit.is_hit() {
-                let x = layout.place(ray.path.hit.t).unwrap();
+                let found =
+                    |leaf: &LeafStep| leaf.tests.iter().any(|t| t.hit == Some(ray.path.hit.t));
+                let order = ray.path.leaves().position(found).unwrap();
+                let x = layout.place_of_hit(order, ray.path.hit.t).unwrap();
                 let last = leaves.last().unwrap();
                 assert!(x <= last.x.end && x >= leaves[0].x.start);
             }

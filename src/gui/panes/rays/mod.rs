@@ -206,13 +206,14 @@ fn row(scene: &Scene, i: usize, ray: &RecordedRay) -> Row {
     });
     Row {
         label: format!(
-            "Ray {}: {}{from}: {outcome}; {}, {} ({} empty), {}, weight {weight}",
+            "Ray {}: {}{from}: {outcome}; {}, {} ({} empty), {}{}, weight {weight}",
             i + 1,
             path.kind.name(),
             step_text::count(counts.inner_nodes, "inner node", "inner nodes"),
             step_text::count(counts.leaves, "leaf", "leaves"),
             counts.empty_leaves,
             step_text::count(counts.tests, "test", "tests"),
+            box_tests(counts.box_tests.into(), counts.culled.into()),
         ),
         cells: vec![
             String::new(),
@@ -227,6 +228,15 @@ fn row(scene: &Scene, i: usize, ray: &RecordedRay) -> Row {
             },
         ],
     }
+}
+
+/// What only rays in a hierarchy do, to end a list; empty in a tree of planes.
+fn box_tests(tests: u64, culled: u64) -> String {
+    if tests == 0 {
+        return String::new();
+    }
+    let [tests, culled] = [tests, culled].map(|n| grouped(n as usize));
+    format!(", {tests} box tests, {culled} culled")
 }
 
 fn percent(share: f64) -> String {
@@ -272,8 +282,14 @@ fn totals(ui: &mut egui::Ui, tallies: &[Tally<u32>; 4]) {
             Row {
                 label: format!(
                     "Total of {name}: {} rays, {} hits, {} tests, {} inner nodes, {} leaves, {} \
-                     empty leaves",
-                    t.rays, t.hits, t.tests, t.inner_nodes, t.leaves, t.empty_leaves
+                     empty leaves{}",
+                    t.rays,
+                    t.hits,
+                    t.tests,
+                    t.inner_nodes,
+                    t.leaves,
+                    t.empty_leaves,
+                    box_tests(t.box_tests, t.culled)
                 ),
                 cells,
             }

@@ -11,6 +11,7 @@ use crate::gui::document::Document;
 use crate::gui::document::comparing::Which;
 use crate::gui::edits::Edits;
 use crate::gui::pane::{Cx, Pane, PaneAction};
+use crate::gui::widgets::choice_list;
 use crate::gui::widgets::common::{busy, no_picture};
 
 use crate::jobs::{End, Scheduler, Standing};
@@ -232,16 +233,19 @@ fn settings(ui: &mut egui::Ui, sweeping: &mut Sweeping, may_change: bool) {
         .on_hover_text("Leaf sizes, separated by commas, such as 1, 2, 4");
     let text = format!("Methods: {}", sweeping.methods.len());
     let methods = |ui: &mut egui::Ui| {
-        for method in Method::all() {
-            let mut chosen = sweeping.methods.contains(&method);
-            if ui
-                .checkbox(&mut chosen, method.name)
-                .on_hover_text(method.summary)
-                .changed()
-            {
-                sweeping.methods.retain(|known| *known != method);
-                if chosen {
-                    sweeping.methods.push(method);
+        for (family, methods) in Method::families() {
+            choice_list::group(ui, family);
+            for method in methods {
+                let mut chosen = sweeping.methods.contains(&method);
+                if ui
+                    .checkbox(&mut chosen, method.name)
+                    .on_hover_text(method.summary)
+                    .changed()
+                {
+                    sweeping.methods.retain(|known| *known != method);
+                    if chosen {
+                        sweeping.methods.push(method);
+                    }
                 }
             }
         }

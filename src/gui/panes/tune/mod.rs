@@ -5,7 +5,8 @@ use crate::gui::document::Document;
 use crate::gui::edits::Edits;
 use crate::gui::pane::{Cx, Pane, PaneAction};
 use crate::gui::theme::{ROW, heading, hint, strong, tokens};
-use crate::gui::widgets::common::no_picture;
+use crate::gui::widgets::choice_list;
+use crate::gui::widgets::common::{no_picture, sentence};
 use crate::jobs::{End, Standing};
 use crate::measure::tune::{Goal, MOST_SLOWDOWN, NAIVE_LIMIT, is_tried};
 use crate::present::number::{Digits, grouped};
@@ -68,23 +69,25 @@ fn goal(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
     }
 }
 
-/// A box per method, in two columns so that all are in view.
+/// A box per method by family, in two columns so that all are in view.
 fn methods(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
     let objects = doc.current.as_ref().map(|c| c.shown.scene.objects().len());
-    let all: Vec<Method> = Method::all().collect();
     let width = ui.available_width() / 2.0;
-    for pair in all.chunks(2) {
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 0.0;
-            for method in pair {
-                let fits = objects.is_none_or(|objects| is_tried(*method, objects));
-                let left = egui::Layout::left_to_right(egui::Align::Center);
-                ui.allocate_ui_with_layout(vec2(width, ROW), left, |ui| {
-                    ui.set_min_size(vec2(width, ROW));
-                    self::method(ui, *method, fits, doc, edits);
-                });
-            }
-        });
+    for (family, methods) in Method::families() {
+        choice_list::group(ui, family);
+        for pair in methods.chunks(2) {
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 0.0;
+                for method in pair {
+                    let fits = objects.is_none_or(|objects| is_tried(*method, objects));
+                    let left = egui::Layout::left_to_right(egui::Align::Center);
+                    ui.allocate_ui_with_layout(vec2(width, ROW), left, |ui| {
+                        ui.set_min_size(vec2(width, ROW));
+                        self::method(ui, *method, fits, doc, edits);
+                    });
+                }
+            });
+        }
     }
 }
 
@@ -93,7 +96,7 @@ fn method(ui: &mut egui::Ui, method: Method, fits: bool, doc: &Document, edits: 
     let choice = egui::Checkbox::new(&mut is_chosen, method.name);
     let choice = ui
         .add_enabled(fits, choice)
-        .on_hover_text(method.about)
+        .on_hover_text(format!("{}.\n{}", sentence(method.summary), method.about))
         .on_disabled_hover_text(format!(
             "Only measured in scenes of up to {} objects.",
             grouped(NAIVE_LIMIT as f64)

@@ -48,6 +48,7 @@ pub const ACTIONS: &[PaneAction<View3d>] = actions! {
         view.settings.cells = Cells::All;
     };
     "view3d.visited-or-not" Here NONE [N] "Show leaves that the picture's rays visited, never visited, or all" => |view, _| view.settings.next_visited();
+    "view3d.outside" Here NONE [H] "Show, fade or hide what is outside of the selected subtree" => |view, _| view.settings.next_outside();
     "view3d.cut" Here NONE [T] "Cut the view open, or not" => |view, _| view.settings.cut.toggle();
     "view3d.cut-axis" Here NONE [Y] "Cut across the next axis" => |view, _| view.settings.cut.turn();
     "view3d.cut-side" Here NONE [U] "Hide the other side of the cut" => |view, _| view.settings.cut.flip();

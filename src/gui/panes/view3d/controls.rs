@@ -5,7 +5,7 @@ use super::view::View3d;
 use crate::gui::action::tip;
 use crate::gui::document::Document;
 use crate::gui::icons;
-use crate::present::overlay::{COLORINGS, Filter, Visited};
+use crate::present::overlay::{COLORINGS, Filter, Outside, Visited};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, PopupCloseBehavior, Ui};
 
@@ -38,6 +38,8 @@ pub fn show(view: &mut View3d, ui: &mut Ui, doc: &Document) {
     );
     let (button, _) = MenuButton::new(title).config(config()).ui(ui, |ui| {
         cells(ui, &mut view.settings);
+        ui.separator();
+        outside(ui, &mut view.settings);
         ui.separator();
         coloring(ui, &mut view.settings);
         ui.separator();
@@ -78,6 +80,23 @@ fn cells(ui: &mut Ui, settings: &mut Settings) {
             "Show only the leaves that the selected ray visited.",
             "view3d.shown",
         ));
+}
+
+/// How the cells outside of the selected subtree are shown.
+fn outside(ui: &mut Ui, settings: &mut Settings) {
+    let about = tip(
+        "Let the subtree of the selected inner node stand out, to tell apart boxes that overlap. A leaf that \
+         is selected in it changes nothing.",
+        "view3d.outside",
+    );
+    ui.strong("Outside of the selected subtree")
+        .on_hover_text(&about);
+    ui.horizontal(|ui| {
+        for outside in Outside::ALL {
+            ui.radio_value(&mut settings.outside, outside, outside.title())
+                .on_hover_text(&about);
+        }
+    });
 }
 
 /// What decides the color of a cell.

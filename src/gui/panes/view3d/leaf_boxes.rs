@@ -41,8 +41,8 @@ pub struct Boxes {
 }
 
 impl Boxes {
-    /// The boxes; `None` while they are being made. While others of the same build are made, those of
-    /// the moment before are given; those of another tree never are.
+    /// The boxes; `None` while they are being made. While others of the same build are made, or others in which
+    /// another subtree stands out, those of before are given; those of another tree never are.
     pub fn get(
         &mut self,
         tree: &Arc<Tree>,
@@ -66,6 +66,7 @@ impl Boxes {
         let (before, boxes) = self.given.as_ref()?;
         let mut now = key;
         now.filter.moment = before.filter.moment;
+        now.filter.focus = before.filter.focus;
         (now == *before).then(|| Arc::clone(boxes))
     }
 
@@ -78,7 +79,9 @@ impl Boxes {
             move || {
                 let visits = key.visits.as_ref().map(|visits| &visits.visits);
                 let mut boxes = leaf_boxes(&key.tree, &key.filter, key.coloring, visits, center);
-                boxes.instances = spread(&boxes.instances);
+                // The subtree that stands out comes first: of edges in the same place, the first is seen.
+                let (within, outside) = boxes.instances.split_at(boxes.focused);
+                boxes.instances = [spread(within), spread(outside)].concat();
                 boxes.instances.truncate(MOST_BOXES);
                 boxes
             }

@@ -7,9 +7,9 @@ use crate::gui::widgets::coloring_bar::color_bar;
 use crate::gui::widgets::step_text;
 use crate::gui::widgets::symbol::grouped;
 use crate::present::overlay::{
-    INTERVAL, LeafBoxes, RaysShown, Visited, WAITING, order_color, ray_style,
+    CULLED, INTERVAL, LeafBoxes, Outside, RaysShown, Visited, WAITING, order_color, ray_style,
 };
-use crate::trace::RayKind;
+use crate::trace::{RayKind, Step};
 use egui::{Color32, Rect, vec2};
 
 /// In a view of this height, in points, the whole legend hides little.
@@ -154,6 +154,12 @@ fn lines(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
         if visited != Visited::Either {
             ui.label(format!("leaves shown: {}", visited.title().to_lowercase()));
         }
+        if let Some(node) = legend.settings.focus {
+            ui.label(match legend.settings.outside {
+                Outside::Hidden => format!("only below node {node}"),
+                _ => format!("bright: below node {node}; faint: all others"),
+            });
+        }
         if boxes.undecided > 0 {
             ui.label(format!(
                 "dotted white: {} not decided yet",
@@ -168,6 +174,10 @@ fn lines(legend: &Legend<'_>, roomy: bool, ui: &mut egui::Ui) {
         );
         ui.label(match (legend.settings.drawn().to_depth, boxes.coarse) {
             (None, _) | (_, 0) => shown,
+            (Some(_), cells) if legend.settings.focus.is_some() => format!(
+                "{} that are split further, {shown}",
+                step_text::count(cells as u32, "cell", "cells")
+            ),
             (Some(depth), cells) => format!(
                 "{} at depth {depth} that are split further, {shown}",
                 step_text::count(cells as u32, "cell", "cells")
@@ -244,6 +254,17 @@ fn path_key(legend: &Legend<'_>, picked: &Picked, ui: &mut egui::Ui) {
                 sample(ui, color, strokes);
                 ui.label(what);
             }
+        });
+    }
+    if path
+        .steps
+        .iter()
+        .any(|step| matches!(step, Step::Culled(_)))
+    {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 5.0;
+            sample(ui, CULLED, &[1.0, 1.0]);
+            ui.label("culled nodes: boxes that begin beyond the hit");
         });
     }
     let rays = picked.record.rays.len();

@@ -72,6 +72,7 @@ impl Pane for View3d {
     fn ui(&mut self, ui: &mut egui::Ui, cx: &mut Cx<'_>) {
         let doc = cx.doc;
         self.follow(doc);
+        self.follow_selection(doc);
         let marks = marks::Marks::of(doc, ui.ctx());
         let size = rest_of(ui);
         let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click_and_drag());

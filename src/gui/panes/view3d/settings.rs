@@ -1,7 +1,7 @@
 //! What the 3D view shows.
 
 use super::cut::Cut;
-use crate::present::overlay::{COLORINGS, Coloring, Filter, Visited};
+use crate::present::overlay::{COLORINGS, Coloring, Filter, Focus, Outside, Visited};
 
 /// The depth that cells are shown to at first: at most 64 cells, which can be told apart.
 pub const FIRST_DEPTH: u32 = 6;
@@ -25,6 +25,10 @@ pub struct Settings {
     pub cells: Cells,
     pub coloring: &'static Coloring,
     pub filter: Filter,
+    /// How cells outside of the selected subtree are shown.
+    pub outside: Outside,
+    /// The root of that subtree, if it stands out.
+    pub focus: Option<u32>,
     /// What is hidden of objects and cells.
     pub cut: Cut,
     /// Whether moving the view moves the picture's camera.
@@ -40,6 +44,8 @@ impl Default for Settings {
             cells: Cells::ToDepth(FIRST_DEPTH),
             coloring: &COLORINGS[0],
             filter: Filter::default(),
+            outside: Outside::default(),
+            focus: None,
             cut: Cut::default(),
             linked: false,
             all_rays: true,
@@ -82,6 +88,11 @@ impl Settings {
         *visited = Visited::ALL[(at.unwrap_or(0) + 1) % Visited::ALL.len()];
     }
 
+    pub fn next_outside(&mut self) {
+        let at = Outside::ALL.iter().position(|o| *o == self.outside);
+        self.outside = Outside::ALL[(at.unwrap_or(0) + 1) % Outside::ALL.len()];
+    }
+
     pub fn next_coloring(&mut self) {
         let at = COLORINGS.iter().position(|c| c.name == self.coloring.name);
         self.coloring = &COLORINGS[(at.unwrap_or(0) + 1) % COLORINGS.len()];
@@ -100,8 +111,11 @@ impl Settings {
             Cells::Visited if self.filter == all => Some(FIRST_DEPTH),
             _ => None,
         };
+        let outside = self.outside;
+        let focus = self.focus.map(|node| Focus { node, outside });
         Filter {
             to_depth,
+            focus,
             ..self.filter
         }
     }

@@ -169,7 +169,10 @@ fn box_fragment(in: BoxOut) -> @location(0) vec4f {
     if in.color.a > 0.25 && in.color.a < 0.75 && fract(in.along * 24.0) > 0.35 {
         discard;
     }
-    return vec4f(in.color.rgb, 0.55);
+    // Outside of the subtree that stands out: 32, 96 and 223 of 255 instead of 0, 128 and 255.
+    let strokes = in.color.a * 255.0;
+    let is_faint = abs(strokes - 32.0) < 8.0 || abs(strokes - 96.0) < 8.0 || abs(strokes - 223.0) < 8.0;
+    return vec4f(in.color.rgb, select(0.55, 0.13, is_faint));
 }
 
 // Translucent faces of the selected cell

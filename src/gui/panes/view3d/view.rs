@@ -7,8 +7,9 @@ use super::{leaf_boxes, ray_lines, scene_mesh};
 use crate::gui::document::Document;
 use crate::gui::document::tasks::Latest;
 use crate::jobs::PictureVisits;
-use crate::present::overlay::{FaceCorner, Filter, Line};
+use crate::present::overlay::{FaceCorner, Filter, Line, Outside};
 use crate::scene::Scene;
+use crate::structure::{NodeKind, Tree};
 use crate::workspace::View3dSettings;
 use egui::Rect;
 use std::sync::Arc;
@@ -21,6 +22,8 @@ pub struct View3d {
     /// Whether the camera was moved away from the picture's.
     pub(super) own: bool,
     pub(super) settings: Settings,
+    /// The tree of which a subtree stands out.
+    pub(super) focused: Option<Arc<Tree>>,
     /// What the task *Ray* changes for as long as it lasts.
     pub(super) ray_task: RayTask,
     /// The scene that the camera was set for.
@@ -67,6 +70,7 @@ impl Default for View3d {
             camera: ViewCamera::default(),
             own: false,
             settings: Settings::default(),
+            focused: None,
             ray_task: RayTask::default(),
             scene: None,
             mesh: Latest::default(),
@@ -97,6 +101,28 @@ impl View3d {
         }
         let visits = doc.inspect.visits.of(current, &doc.jobs);
         Some(visits.ok_or_else(|| doc.inspect.visits.note(current).unwrap_or_default()))
+    }
+
+    /// Lets the subtree of the selected node stand out. A leaf that is selected in it, as by a click on a box,
+    /// changes nothing.
+    pub(super) fn follow_selection(&mut self, doc: &Document) {
+        let current = doc.current.as_ref();
+        let selected = current.and_then(|c| Some((&c.shown.tree, c.selection.node?)));
+        let Some((tree, node)) = selected.filter(|_| self.settings.outside != Outside::Shown)
+        else {
+            self.settings.focus = None;
+            return;
+        };
+        let is_same = self.focused.as_ref().is_some_and(|t| Arc::ptr_eq(t, tree));
+        let focus = self.settings.focus.filter(|_| is_same);
+        let is_leaf = tree.kind(node) != NodeKind::Inner;
+        let is_within = focus.is_some_and(|root| (root..tree.end_of(root)).contains(&node));
+        if !(is_leaf && is_within) {
+            self.settings.focus = Some(node);
+        }
+        if !is_same {
+            self.focused = Some(Arc::clone(tree));
+        }
     }
 
     /// Where it is on the screen; `None` where another pane hides it, or nothing can be drawn.
