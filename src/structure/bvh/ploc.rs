@@ -75,8 +75,11 @@ struct Cluster {
     node: u32,
 }
 
-/// Rounds that merge less than this share of the clusters also merge neighbors.
-const FEW: usize = 32;
+/// If so many rounds do not halve the number of clusters, the next one also merges neighbors.
+const PATIENCE: u32 = 24;
+
+/// So few clusters are merged without impatience.
+const FEW: usize = 64;
 
 /// Builds the hierarchy with one leaf per object.
 ///
@@ -108,9 +111,15 @@ pub fn clustered(input: &Input<'_>, radius: usize) -> Result<Binary, Cancelled> 
         root_area: root.surface_area(),
     };
     let mut nearest = Vec::new();
+    let (mut goal, mut rounds) = (clusters.len() / 2, 0);
     while clusters.len() > 1 {
         scene.nearest_of_all(input, &clusters, &mut nearest)?;
-        merge(&mut clusters, &nearest, &mut built);
+        rounds += 1;
+        let are_all_merged = rounds > PATIENCE && clusters.len() > FEW;
+        merge(&mut clusters, &nearest, are_all_merged, &mut built);
+        if are_all_merged || clusters.len() <= goal {
+            (goal, rounds) = (clusters.len() / 2, 0);
+        }
         input
             .progress
             .set(0.9 * (1.0 - clusters.len() as f64 / all));
@@ -187,14 +196,13 @@ impl Key {
     }
 }
 
-/// Merges the clusters that are nearest to each other. Other nearest neighbors form chains, as those of nested
-/// boxes do, where only the first two find each other. If few pairs are merged, the others are merged two by two
-/// in their order: so the rounds, and the levels of the hierarchy, are at most proportional to the logarithm of
-/// the number of objects.
-fn merge(clusters: &mut Vec<Cluster>, nearest: &[u32], built: &mut Binary) {
+/// Merges the clusters that are nearest to each other, and if `are_all_merged` the others two by two in their order.
+///
+/// Nearest neighbors may form a chain, as those of nested boxes do, where only the first two find each other. A
+/// round for each cluster would take long and make the hierarchy deep. If all are merged from time to time, rounds
+/// and levels are at most proportional to the logarithm of the number of objects.
+fn merge(clusters: &mut Vec<Cluster>, nearest: &[u32], are_all_merged: bool, built: &mut Binary) {
     let is_pair = |i: usize| nearest[nearest[i] as usize] as usize == i;
-    let pairs = (0..clusters.len()).filter(|&i| is_pair(i)).count() / 2;
-    let are_few = pairs < clusters.len() / FEW;
     let mut union = |a: Cluster, b: Cluster| Cluster {
         bounds: a.bounds.union(&b.bounds),
         node: built.inner([a.node, b.node]),
@@ -211,7 +219,7 @@ fn merge(clusters: &mut Vec<Cluster>, nearest: &[u32], built: &mut Binary) {
         } else if let Some(place) = waiting.take() {
             clusters[place] = union(clusters[place], clusters[i]);
         } else {
-            waiting = are_few.then_some(kept);
+            waiting = are_all_merged.then_some(kept);
             clusters[kept] = clusters[i];
             kept += 1;
         }
