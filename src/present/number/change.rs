@@ -31,9 +31,9 @@ const MOST_TIMES: f64 = 1e6;
 impl Parameter {
     /// Describes the change from one value to another; `None` if there is none or one is not finite.
     pub fn change_text(&self, before: Option<f64>, now: Option<f64>) -> Option<ChangeText> {
-        // Symbols with D are depths, and W is a weight: neither is "fewer".
+        // Symbols of numbers begin with N. A depth, a weight or a cost is not "fewer".
         let words = match self.unit {
-            Unit::Count | Unit::Ratio if self.symbol.starts_with(['D', 'W']) => ["lower", "higher"],
+            Unit::Count | Unit::Ratio if !self.symbol.starts_with('N') => ["lower", "higher"],
             unit => words(unit),
         };
         change(self.unit, words, self.less_is_better, before, now)
@@ -224,6 +224,9 @@ mod tests {
             ("V_EMPTY", 1.0, 4.0, "4.0× larger", Neutral),
             ("M_TREE", 1e6, 1e3, "1_000× less", Neutral),
             ("D_REACH", 5.0, 20.0, "4.0× higher", Neutral),
+            ("C_SAH", 5.0, 20.0, "4.0× higher", Worse),
+            ("N_BT", 20.0, 5.0, "4.0× fewer", Better),
+            ("rays/s", 5.0, 20.0, "4.0× faster", Neutral),
         ] {
             assert_eq!(change(symbol, before, now), (text.into(), direction));
         }
