@@ -143,6 +143,20 @@ fn a_subtree_stands_out_in_3d() {
 }
 
 #[test]
+fn the_menu_of_cells_is_whole_on_a_small_screen() {
+    let mut window = open_sized(start("balls:1", "bvh-sweep"), [1280.0, 720.0], true);
+    finish(&mut window);
+    click(&mut window, "Cells");
+    for label in ["None", "Faded", "Visits", "Greatest depth shown"] {
+        let rect = window.get_by_label(label).rect();
+        assert!(
+            rect.top() >= 0.0 && rect.bottom() <= 720.0,
+            "{label}: {rect}"
+        );
+    }
+}
+
+#[test]
 fn the_build_divides_objects_step_by_step() {
     let (tree, index) = expected("balls:1");
     let mut window = opened("balls:1");
