@@ -238,6 +238,9 @@ fn pick(window: &mut Window<'_>, pixel: [u32; 2]) {
             press(window, Modifiers::NONE, key);
         }
     }
+    let [x, y] = pixel;
+    let text = format!("Pixel {x}, {y} (");
+    wait(window, &text, |w| has(w, &text));
     finish(window);
 }
 
@@ -248,6 +251,9 @@ fn every_step_of_a_ray_says_which_boxes_were_hit_and_why_it_goes_on() {
         let mut window = opened("teaching");
         pick(&mut window, pixel);
         let n = path.steps.len();
+        // Recorded once the picture is there.
+        let first = format!("1 of {n}");
+        wait(&mut window, &first, |w| w.query_by_label(&first).is_some());
         let mut seen = [false; 3];
         for (i, step) in path.steps.iter().enumerate() {
             let at = format!("{} of {n}", i + 1);
