@@ -143,6 +143,20 @@ fn a_subtree_stands_out_in_3d() {
 }
 
 #[test]
+fn the_menu_of_cells_is_whole_on_a_small_screen() {
+    let mut window = open_sized(start("balls:1", "bvh-sweep"), [1280.0, 720.0], true);
+    finish(&mut window);
+    click(&mut window, "Cells");
+    for label in ["None", "Faded", "Visits", "Greatest depth shown"] {
+        let rect = window.get_by_label(label).rect();
+        assert!(
+            rect.top() >= 0.0 && rect.bottom() <= 720.0,
+            "{label}: {rect}"
+        );
+    }
+}
+
+#[test]
 fn the_build_divides_objects_step_by_step() {
     let (tree, index) = expected("balls:1");
     let mut window = opened("balls:1");
@@ -224,6 +238,9 @@ fn pick(window: &mut Window<'_>, pixel: [u32; 2]) {
             press(window, Modifiers::NONE, key);
         }
     }
+    let [x, y] = pixel;
+    let text = format!("Pixel {x}, {y} (");
+    wait(window, &text, |w| has(w, &text));
     finish(window);
 }
 
@@ -234,6 +251,9 @@ fn every_step_of_a_ray_says_which_boxes_were_hit_and_why_it_goes_on() {
         let mut window = opened("teaching");
         pick(&mut window, pixel);
         let n = path.steps.len();
+        // Recorded once the picture is there.
+        let first = format!("1 of {n}");
+        wait(&mut window, &first, |w| w.query_by_label(&first).is_some());
         let mut seen = [false; 3];
         for (i, step) in path.steps.iter().enumerate() {
             let at = format!("{} of {n}", i + 1);
