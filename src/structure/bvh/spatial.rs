@@ -62,12 +62,12 @@ const ALPHA: Constant = Constant {
 const BUDGET: Constant = Constant {
     name: "budget",
     default: 2.0,
-    lowest: 1.0,
+    lowest: 0.0,
     highest: 16.0,
     step: 0.0,
     unit: "references per object",
-    about: "References of all leaves at most. A node may spend what its parent leaves to it, in proportion to its \
-            references.",
+    about: "References of all leaves at most; up to 1, no object is divided. A node may spend what its parent leaves \
+            to it, in proportion to its references.",
     source: "Embree, rtcSetSceneBuildQuality and the build arguments",
 };
 
@@ -97,13 +97,13 @@ impl BvhBuilder for Spatial {
             costs: self.costs,
             bins: self.bins,
             least_overlap: self.alpha * root.surface_area(),
-            spare: ((self.budget - 1.0) * input.bounds.len() as f64) as usize,
+            spare: ((self.budget - 1.0).max(0.0) * input.bounds.len() as f64) as usize,
         };
         top_down::build(&splitting, self.costs, input)
     }
 
     fn max_references_per_object(&self) -> f64 {
-        self.budget
+        self.budget.max(1.0)
     }
 }
 
