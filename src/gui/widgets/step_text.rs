@@ -161,7 +161,7 @@ pub fn box_test(step: &BoxesStep, test: &BoxTest) -> String {
     }
 }
 
-/// Why a traversal goes on after a leaf although the closest hit so far lies in it; `None` after other steps.
+/// Why a traversal continues after a leaf although the closest hit so far lies in it; `None` after other steps.
 pub fn overlap(path: &RayPath, step: usize) -> Option<String> {
     let Step::Leaf(leaf) = path.steps.get(step)? else {
         return None;
