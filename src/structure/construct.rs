@@ -6,7 +6,7 @@ use super::frame::Frame;
 use super::method::Structure;
 use super::node::{Node, StopReason};
 use super::nodes::Nodes;
-use super::settings::{BuildSettings, Builder};
+use super::settings::{BuildSettings, Builder, MaxDepth};
 use super::tree::Tree;
 use super::voxels::Voxels;
 use crate::geometry::Aabb;
@@ -115,7 +115,11 @@ fn enclose(scope: &Scope<'_>, builder: &dyn BvhBuilder) -> Result<Laid, BuildErr
         builder.build(&Input {
             objects: scope.objects,
             bounds: scope.bounds,
-            depth_limit: scope.depth_limit,
+            depth_limit: if settings.method.has_limits {
+                scope.depth_limit
+            } else {
+                MaxDepth::LIMIT
+            },
             progress: scope.progress,
         })?
     };

@@ -24,14 +24,6 @@ impl Method {
     pub const fn info(self) -> &'static MethodInfo {
         self.0
     }
-
-    /// Returns whether no leaf is deeper than `D_MAX`.
-    pub fn obeys_d_max(self) -> bool {
-        match self.builder {
-            Builder::Cells(_) => self.structure != Structure::Grid,
-            Builder::Boxes(builder) => builder(&BuildSettings::for_method(self)).obeys_d_max(),
-        }
-    }
 }
 
 impl std::ops::Deref for Method {

@@ -32,11 +32,8 @@ fn the_answer_is_a_setup_with_its_command() {
         assert!(candidate["parameters"]["M_TREE"].as_u64() > Some(0));
         assert!(candidate["tests_per_ray"].as_f64() > Some(0.0));
         assert!(candidate["nodes"].as_u64() > Some(0));
-        let is_grid = candidate["method"] == "grid";
-        assert_eq!(
-            candidate["d_max"].is_null(),
-            is_grid || candidate["method"] == "none"
-        );
+        let method = Method::named(candidate["method"].as_str().unwrap()).unwrap();
+        assert_eq!(candidate["d_max"].is_null(), !method.has_limits);
     }
     // The command measures what is recommended, with the settings that were given.
     let command = report["recommended"]["command"].as_str().unwrap();

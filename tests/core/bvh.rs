@@ -390,13 +390,13 @@ fn builders_from_the_root_keep_to_the_depth_limit_and_others_do_not_need_it() {
             checked(&balls, &settings)
         };
         let shallow = tree(5);
-        if method.obeys_d_max() {
+        if method.has_limits {
             assert!(shallow.depth_reached() <= 5, "{method:?}");
         } else {
             assert!(shallow.depth_reached() > 5, "{method:?}");
         }
     }
-    let obeys = |name: &str| Method::named(name).unwrap().obeys_d_max();
+    let obeys = |name: &str| Method::named(name).unwrap().has_limits;
     for name in ["midpoint", "bvh-sweep", "bvh-spatial", "bvh-presplit"] {
         assert!(obeys(name), "{name}");
     }

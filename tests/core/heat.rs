@@ -106,22 +106,27 @@ fn the_whole_pictures_value_is_the_parameters() {
             );
         }
     }
-    // Seven that the paper has for all rays, and two for all and each of its three kinds.
-    assert_eq!(equalities, SCENES.len() * 2 * (7 + 2 * 4));
+    // Seven that the paper has for all rays and box tests, and two for all and each of its three kinds.
+    assert_eq!(equalities, SCENES.len() * 2 * (8 + 2 * 4));
 }
 
 #[test]
 fn kinds_of_rays_add_up_to_all_and_each_comes_from_its_own_tally() {
     // Only tetra's rays are all primary or shadow rays; balls reflects, teaching also refracts.
     let scene = scene_file("teaching");
-    let tree = tree_by(&scene, "sah-cut");
-    let (counts, _) = counted(&scene, &tree);
+    let of_method = |method| counted(&scene, &tree_by(&scene, method)).0;
+    let (planes, boxes) = (of_method("sah-cut"), of_method("bvh-sweep"));
     for heatmap in heatmaps() {
         assert_eq!(heatmap.filters()[0], RayFilter::All);
         if heatmap.filters().len() == 1 || heatmap.symbol == "N_RPRT" {
             continue;
         }
-        let total = |rays| heatmap.total(&counts, rays).unwrap();
+        let counts = if heatmap.symbol == "N_BT" {
+            &boxes
+        } else {
+            &planes
+        };
+        let total = |rays| heatmap.total(counts, rays).unwrap();
         let parts = [
             RayFilter::Primary,
             RayFilter::Shadow,

@@ -6,7 +6,7 @@ use super::trial::{Outcome, Trial};
 use crate::geometry::Vec3;
 use crate::measure::unsplit;
 use crate::scene::{Camera, CameraError, Material, Scene, SceneParts};
-use crate::structure::{BuildError, BuildSettings, MaxDepth, Tree, build};
+use crate::structure::{BuildSettings, MaxDepth, Tree, build};
 use crate::trace::{
     Picture, RenderError, RenderSettings, TimedRender, render_counted, render_timed, thread_pool,
 };
@@ -76,11 +76,11 @@ fn depths(trial: &Trial<'_>) -> Outcome {
             ..trial.settings()
         };
         match build(&scene, &settings, trial.progress) {
-            Ok(tree) if tree.depth_reached() <= depth || !trial.method.obeys_d_max() => {
+            Ok(tree) if tree.depth_reached() <= depth || !trial.method.has_limits => {
                 trial.check_tree(&scene, &tree, &rays)
             }
             Ok(tree) => Outcome::fail(format!("a leaf at depth {}", tree.depth_reached())),
-            Err(BuildError::MemoryLimit { .. }) => Outcome::Pass { rays: 0 },
+            Err(error) if error.is_too_large() => Outcome::Pass { rays: 0 },
             Err(error) => Outcome::fail(error.to_string()),
         }
         .of(&format!("D_MAX {depth}"))

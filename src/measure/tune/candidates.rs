@@ -145,9 +145,10 @@ mod tests {
     }
 
     #[test]
-    fn limits_do_not_apply_to_grids_and_to_no_tree() {
+    fn limits_do_not_apply_to_grids_to_no_tree_and_to_merged_hierarchies() {
         let without: Vec<_> = Method::all().filter(|m| !m.has_limits).collect();
         let names: Vec<_> = without.iter().map(|m| m.name).collect();
-        assert_eq!(names, ["grid", "none"]);
+        let expected = ["grid", "none", "bvh-lbvh", "bvh-ploc", "bvh-reinsert"];
+        assert_eq!(names, expected);
     }
 }

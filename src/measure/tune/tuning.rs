@@ -186,8 +186,8 @@ impl<'a> Tuning<'a> {
                 }
                 Ok(Some(turn))
             }
-            Err(MeasureError::Build(why @ BuildError::MemoryLimit { .. }))
-                if self.candidates.len() > 1 || !self.rows.is_empty() =>
+            Err(MeasureError::Build(why))
+                if why.is_too_large() && (self.candidates.len() > 1 || !self.rows.is_empty()) =>
             {
                 let setup = self.candidates.remove(self.next).setup;
                 self.left_out.push(LeftOut::Refused { setup, why });

@@ -17,12 +17,6 @@ pub trait BvhBuilder: Send + Sync {
     fn max_references_per_object(&self) -> f64 {
         1.0
     }
-
-    /// Returns whether no leaf of the hierarchy is deeper than `D_MAX`. A builder that merges from the leaves
-    /// upward cannot know the depth.
-    fn obeys_d_max(&self) -> bool {
-        true
-    }
 }
 
 /// The objects of a scene.
@@ -30,7 +24,7 @@ pub struct Input<'a> {
     pub objects: &'a [Primitive],
     /// The bounds of all objects.
     pub bounds: &'a [Aabb],
-    /// Maximum depth of a leaf of the binary hierarchy, for builders that obey `D_MAX`.
+    /// Maximum depth of a leaf of the binary hierarchy, for builders from the root downward.
     pub depth_limit: u32,
     pub progress: &'a Progress,
 }

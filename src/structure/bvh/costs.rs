@@ -26,7 +26,11 @@ impl Costs {
             test: settings.constant("cost-test"),
             block: settings.constant("block") as usize,
             max_leaf: settings.constant("max-leaf") as usize,
-            min_leaf: settings.n_oilf as usize,
+            min_leaf: if settings.method.has_limits {
+                settings.n_oilf as usize
+            } else {
+                1
+            },
         }
     }
 

@@ -44,10 +44,6 @@ impl BvhBuilder for Lbvh {
     fn build(&self, input: &Input<'_>) -> Result<Binary, Cancelled> {
         collapse(&radix_tree(input)?, self.costs, input.progress)
     }
-
-    fn obeys_d_max(&self) -> bool {
-        false
-    }
 }
 
 /// Builds the hierarchy with one leaf per object.

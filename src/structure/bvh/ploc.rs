@@ -62,10 +62,6 @@ impl BvhBuilder for Ploc {
     fn build(&self, input: &Input<'_>) -> Result<Binary, Cancelled> {
         collapse(&clustered(input, self.radius)?, self.costs, input.progress)
     }
-
-    fn obeys_d_max(&self) -> bool {
-        false
-    }
 }
 
 /// A node without a parent.

@@ -136,10 +136,6 @@ impl BvhBuilder for Reinsert {
         }
         collapse(&moving.hierarchy, self.costs, input.progress)
     }
-
-    fn obeys_d_max(&self) -> bool {
-        false
-    }
 }
 
 /// A hierarchy whose subtrees can be moved.
