@@ -138,7 +138,7 @@ fn kinds_of_rays_add_up_to_all_and_each_comes_from_its_own_tally() {
         assert_eq!(parts.iter().sum::<f64>(), total(RayFilter::All));
         assert_eq!(parts[2] + parts[3], total(RayFilter::Secondary));
     }
-    let rays = |filter| one("N_RAYS").total(&counts, filter);
+    let rays = |filter| one("N_RAYS").total(&planes, filter);
     assert_eq!(rays(RayFilter::Primary), Some(f64::from(SIZE[0] * SIZE[1])));
 }
 
