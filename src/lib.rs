@@ -17,9 +17,10 @@
 //! | [`scene`] | objects, materials, lights, camera; the features that a scene requires | |
 //! | [`scene::format`] | readers and writers: NFF, OBJ, PLY, glTF, STL; the load report | a line in [`scene::format::FORMATS`] |
 //! | [`scene::builtin`] | scene generators | a line in [`scene::builtin::BUILTINS`] |
-//! | [`structure`] | 8-byte nodes, the build driver, voxels of grids, moments of the build, validation | |
+//! | [`structure`] | nodes with planes or boxes, the build driver, voxels of grids, moments of the build, validation | |
 //! | [`structure::split`] | build methods: where a cell is split | a line in [`structure::split::SPLIT_RULES`] |
-//! | [`trace`] | traversal of trees and grids in two precisions; timed and counting kernels, scalar and SIMD; shading, rendering, recorded rays | |
+//! | [`structure::bvh`] | build methods of bounding volume hierarchies | a line in [`structure::bvh::BVH_BUILDERS`] |
+//! | [`trace`] | traversal of trees, hierarchies and grids in two precisions; timed and counting kernels, scalar and SIMD; shading, rendering, recorded rays | |
 //! | [`setup`] | the whole experiment: scene, structure, render settings, camera; the command that measures it | a field and an entry of [`setup::SETTINGS`] |
 //! | [`measure`] | counters, which serve as the parameters of the paper's Tables 1 to 3, as heatmaps and as counts per kind of ray; Δ and Λ; verification against testing every object | an entry of [`measure::COUNTERS`] |
 //! | [`measure::model`] | the time model of equation (1), by regression and in place; where the rendering time goes | |

@@ -26,6 +26,12 @@ impl VisitsJob {
         })
     }
 
+    /// Returns whether visits are being counted, or will be without a click.
+    pub fn is_counting(&self, current: &Current) -> bool {
+        let waits = matches!(self.progress(), Progress::Waiting | Progress::Running(_));
+        waits && !is_too_large(current)
+    }
+
     /// Why there are no visits yet, in words; `None` where they are counted.
     pub fn note(&self, current: &Current) -> Option<String> {
         if is_too_large(current) {

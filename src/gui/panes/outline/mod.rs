@@ -172,7 +172,10 @@ impl Pane for Outline {
             if visits_note(ui, &doc.inspect.visits, current) {
                 cx.edits.add(|doc| doc.inspect.visits.cancel_or_restart());
             }
-            summary(ui, current.selection.object, node, &index, &mut self.find);
+            // The row stays one line high while visits are counted.
+            if !doc.inspect.visits.is_counting(current) {
+                summary(ui, current.selection.object, node, &index, &mut self.find);
+            }
         });
         let listed = found.filter(|_| self.find.only);
         let mut scroll = None;
