@@ -7,6 +7,7 @@ use bspscope::primitive::{Precision, Primitive, Triangle};
 use bspscope::progress::Progress;
 use bspscope::scene::{Scene, builtin};
 use bspscope::structure::Method;
+use bspscope::structure::split::Structure;
 use bspscope::trace::thread_pool;
 use std::collections::BTreeSet;
 
@@ -38,8 +39,14 @@ fn assert_right(cells: &[Cell]) {
 }
 
 #[test]
-fn every_case_is_right_by_every_method() {
-    let methods: Vec<Method> = Method::all().filter(|m| m.name != "none").collect();
+fn every_case_is_right_by_every_kind_of_method() {
+    // Of hierarchies, one that keeps objects whole and one that splits them: the others differ in the order of
+    // nodes alone, and `bspscope stability` runs them.
+    let is_tried = |m: &Method| {
+        let is_hierarchy = m.structure == Structure::Bvh;
+        m.name != "none" && (!is_hierarchy || ["bvh-sweep", "bvh-spatial"].contains(&m.name))
+    };
+    let methods: Vec<Method> = Method::all().filter(is_tried).collect();
     let cells = matrix(None, &methods);
     let cases: usize = CASES.iter().map(|(_, cases)| cases.len()).sum();
     assert!(cases >= 30 && methods.len() >= 3);
@@ -51,8 +58,9 @@ fn every_case_is_right_by_every_method() {
         match cell.outcome {
             Outcome::Pass { rays } => {
                 let asks = ["transforms", "rays"].contains(&cell.theme);
-                // Few where a tree has few planes.
-                assert!(!asks || rays >= 20, "{cell:?}");
+                // Few where a tree has few planes; a hierarchy has none.
+                let has_rays = !cell.method.starts_with("bvh") || !cell.case.contains("planes");
+                assert!(!asks || rays >= 20 || !has_rays, "{cell:?}");
             }
             _ => {
                 assert_eq!(cell.precision, Precision::F32);
