@@ -22,6 +22,7 @@ mod sphere;
 mod triangle;
 mod unit_frame;
 
+pub(crate) use clip::cut_off;
 pub use cone::Cone;
 pub(crate) use estimate::Estimate;
 pub use exact::Stage;

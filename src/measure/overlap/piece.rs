@@ -1,7 +1,7 @@
 //! The areas of an object's parts in boxes.
 
 use crate::geometry::{Aabb, Axis, Vec3};
-use crate::primitive::{Cone, Primitive};
+use crate::primitive::{Cone, Primitive, cut_off};
 use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
 
@@ -129,8 +129,7 @@ impl Pieces {
     }
 }
 
-/// Clips an outline with these bounds to a box (I. E. Sutherland and G. W. Hodgman, Reentrant polygon clipping,
-/// 1974).
+/// Clips an outline with these bounds to a box.
 fn clip(outline: &mut Vec<Vec3>, cut: &mut Vec<Vec3>, bounds: &Aabb, cell: &Aabb) {
     for axis in Axis::ALL {
         let k = axis.index();
@@ -138,24 +137,9 @@ fn clip(outline: &mut Vec<Vec3>, cut: &mut Vec<Vec3>, bounds: &Aabb, cell: &Aabb
             (cell.lo[k], 1.0, bounds.lo[k] < cell.lo[k]),
             (cell.hi[k], -1.0, bounds.hi[k] > cell.hi[k]),
         ] {
-            if !is_cut {
-                continue;
+            if is_cut {
+                cut_off(outline, cut, axis, limit, side);
             }
-            let inside = |v: Vec3| (v[k] - limit) * side;
-            cut.clear();
-            for (i, &from) in outline.iter().enumerate() {
-                let to = outline[(i + 1) % outline.len()];
-                let (a, b) = (inside(from), inside(to));
-                if a >= 0.0 {
-                    cut.push(from);
-                }
-                if (a < 0.0) != (b < 0.0) {
-                    let mut point = from + (to - from) * (a / (a - b));
-                    point[k] = limit;
-                    cut.push(point);
-                }
-            }
-            std::mem::swap(outline, cut);
         }
     }
 }

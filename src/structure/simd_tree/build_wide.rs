@@ -97,8 +97,9 @@ impl<B: BlockData> Builder<'_, B> {
         }
         self.set_box(to, place, leaf);
         let (first, blocks) = (self.blocks.len(), held.len().div_ceil(BLOCK));
-        self.wide[to].children[place] = Child::leaf(first, blocks);
-        if Child::leaf(first, blocks).blocks() == 0 {
+        let child = Child::leaf(first, blocks);
+        self.wide[to].children[place] = child;
+        if child.blocks() == 0 {
             self.large_leaves.push((first as u32, blocks as u32));
         }
         for objects in held.chunks(BLOCK) {

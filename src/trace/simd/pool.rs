@@ -176,7 +176,7 @@ pub(super) unsafe fn traverse<S: Simd, N: Eight, B: Block>(
     for k in 0..RAYS {
         free.push(true, k as u32, Child::END);
     }
-    let (mut moving, mut leaves, mut ended) = (List::new(), List::new(), List::new());
+    let (mut moving, mut leaves, mut reached) = (List::new(), List::new(), List::new());
     loop {
         // Start rays.
         while free.count > 0 {
@@ -222,20 +222,20 @@ pub(super) unsafe fn traverse<S: Simd, N: Eight, B: Block>(
         }
         // Rays at the bottom of their stack are done.
         let count = std::mem::take(&mut leaves.count);
-        ended.count = 0;
+        reached.count = 0;
         for i in 0..count {
             let (k, leaf) = (leaves.rays[i], leaves.children[i]);
             prefetch(blocks.wrapping_add(leaf.index()));
             let is_end = leaf == Child::END;
             free.push(is_end, k, leaf);
-            ended.push(!is_end, k, leaf);
+            reached.push(!is_end, k, leaf);
         }
         // Test leaves.
-        let count = ended.count;
+        let count = reached.count;
         candidates.clear();
         for i in 0..count {
-            let k = *ended.rays.get_unchecked(i);
-            let leaf = *ended.children.get_unchecked(i);
+            let k = *reached.rays.get_unchecked(i);
+            let leaf = *reached.children.get_unchecked(i);
             let slot = flights.get_unchecked(k as usize).slot;
             let limit = limits.get_unchecked_mut(k as usize);
             for block in leaf.index()..leaf.index() + wide.blocks(leaf) {
@@ -264,7 +264,7 @@ pub(super) unsafe fn traverse<S: Simd, N: Eight, B: Block>(
             tests.test(rays, candidates, &mut limits);
         }
         for i in 0..count {
-            let k = *ended.rays.get_unchecked(i);
+            let k = *reached.rays.get_unchecked(i);
             let ray = flights.get_unchecked_mut(k as usize);
             let limit = *limits.get_unchecked(k as usize);
             let next = stacks.pop::<N>(&mut ray.top, limit);
