@@ -38,8 +38,14 @@ impl Estimate {
     };
 
     #[inline(always)]
-    pub(super) fn new(t: f64, error: f64) -> Self {
+    pub(crate) fn new(t: f64, error: f64) -> Self {
         Estimate { t, error }
+    }
+
+    /// Returns what [`Estimate::new`] was called with.
+    #[inline(always)]
+    pub(crate) fn parts(self) -> (f64, f64) {
+        (self.t, self.error)
     }
 
     /// Returns whether the line certainly misses, or crosses outside an interval.

@@ -174,7 +174,8 @@ impl SceneBuilder {
     /// Adds a face: a triangle if it has three vertices, a polygon if it has more. A non-planar
     /// polygon is split into triangles. A face with zero area is skipped.
     ///
-    /// A normal of zero length, or one that is not finite, is replaced by that of the face.
+    /// A normal of zero length, or one that is not finite, is replaced by that of the face. A polygon
+    /// with such a normal is split into triangles, so that only those at its vertex change.
     ///
     /// # Errors
     /// A coordinate is not finite, or there are too many faces.
@@ -184,36 +185,36 @@ impl SceneBuilder {
         vertices: &[Vec3],
         normals: Option<&[Vec3]>,
     ) -> Result<(), ReadError> {
-        if let Some(given) = normals
-            && given.iter().any(|n| !is_direction(*n))
-        {
-            let (infinite, zero) = (
-                given.iter().any(|n| !n.is_finite()),
-                given.contains(&Vec3::ZERO),
-            );
-            for (there, text) in [(infinite, INFINITE_NORMAL), (zero, ZERO_NORMAL)] {
-                self.note_times(NoteKind::Changed, text, usize::from(there), place);
-            }
+        let Some(given) = normals.filter(|given| !given.iter().all(|n| is_direction(*n))) else {
+            return self.face_as_noted(place, vertices, normals);
+        };
+        let infinite = given.iter().any(|n| !n.is_finite());
+        let zero = given.contains(&Vec3::ZERO);
+        for (there, text) in [(infinite, INFINITE_NORMAL), (zero, ZERO_NORMAL)] {
+            self.note_times(NoteKind::Changed, text, usize::from(there), place);
         }
-        self.face_as_noted(place, vertices, normals)
+        if vertices.len() == 3 {
+            return self.face_as_noted(place, vertices, normals);
+        }
+        const TEXT: &str = "polygon with a normal of no direction split into triangles";
+        self.split(place, vertices, repaired(given).as_deref(), TEXT)
     }
 
-    /// Adds a face as [`SceneBuilder::face`] does, but without notes on its normals.
+    /// Adds a face as [`SceneBuilder::face`] does, but without notes on its normals and without
+    /// splitting a polygon because of them.
     pub fn face_as_noted(
         &mut self,
         place: Place,
         vertices: &[Vec3],
         normals: Option<&[Vec3]>,
     ) -> Result<(), ReadError> {
-        let mut repaired = Vec::new();
+        let replacement;
         let mut normals = normals;
         if let Some(given) = normals
-            && given.iter().any(|n| !is_direction(*n))
+            && !given.iter().all(|n| is_direction(*n))
         {
-            let direction = |n: &Vec3| if is_direction(*n) { *n } else { Vec3::ZERO };
-            repaired.extend(given.iter().map(direction));
-            let any = repaired.iter().any(|n| *n != Vec3::ZERO);
-            normals = any.then_some(&repaired);
+            replacement = repaired(given);
+            normals = replacement.as_deref();
         }
         if let &[a, b, c] = vertices {
             let normals = normals.map(|n| [n[0], n[1], n[2]]);
@@ -230,20 +231,24 @@ impl SceneBuilder {
             return Err(ReadError::at(place, most, "more"));
         }
         match Polygon::new(vertices.to_vec(), normals.map(<[Vec3]>::to_vec)) {
-            Err(ShapeError::NotPlanar(_)) => self.split(place, vertices, normals),
+            Err(ShapeError::NotPlanar(_)) => {
+                const TEXT: &str = "non-planar polygon split into triangles";
+                self.split(place, vertices, normals, TEXT)
+            }
             polygon => self.object(place, "a polygon", polygon.map(Primitive::Polygon)),
         }
     }
 
-    /// Adds a face as triangles; triangles with zero area are dropped silently.
+    /// Adds a face as triangles, noted with this text; triangles with zero area are dropped silently.
     fn split(
         &mut self,
         place: Place,
         vertices: &[Vec3],
         normals: Option<&[Vec3]>,
+        text: &'static str,
     ) -> Result<(), ReadError> {
         if vertices.len() > MAX_SPLIT_VERTICES {
-            let text = format!("non-planar polygon of more than {MAX_SPLIT_VERTICES} vertices");
+            let text = format!("polygon to split, of more than {MAX_SPLIT_VERTICES} vertices");
             return self.skip_face(place, &text);
         }
         let before = self.objects.len();
@@ -256,8 +261,7 @@ impl SceneBuilder {
             }
         }
         if self.objects.len() > before {
-            const TEXT: &str = "non-planar polygon split into triangles";
-            self.note(NoteKind::Changed, TEXT, place);
+            self.note(NoteKind::Changed, text, place);
             Ok(())
         } else {
             self.skip_face(place, ZERO_AREA)
@@ -434,6 +438,13 @@ fn merge(m: &Material, materials: &mut Vec<Material>, slots: &mut HashMap<[u64; 
         materials.push(*m);
         (materials.len() - 1) as u32
     })
+}
+
+/// Returns the normals with zero in place of those without a direction; `None` if none has one.
+fn repaired(normals: &[Vec3]) -> Option<Vec<Vec3>> {
+    let direction = |n: &Vec3| if is_direction(*n) { *n } else { Vec3::ZERO };
+    let any = normals.iter().any(|n| is_direction(*n));
+    any.then(|| normals.iter().map(direction).collect())
 }
 
 /// Returns whether a normal has a direction.

@@ -20,7 +20,9 @@ pub(super) struct Crossings {
     vertices: [[Column; 3]; 3],
     origin: [Column; 3],
     direction: [Column; 3],
-    estimates: [Estimate; BATCH],
+    /// The estimates: distances and bounds on their errors.
+    t: [f64; BATCH],
+    error: [f64; BATCH],
 }
 
 impl Crossings {
@@ -29,7 +31,8 @@ impl Crossings {
             vertices: [[[0.0; BATCH]; 3]; 3],
             origin: [[0.0; BATCH]; 3],
             direction: [[1.0; BATCH]; 3],
-            estimates: [Estimate::MISS; BATCH],
+            t: [0.0; BATCH],
+            error: [0.0; BATCH],
         }
     }
 
@@ -64,7 +67,7 @@ impl Crossings {
     /// Returns [`PackedTriangle::estimate_rotated`] of a computed pair.
     #[inline(always)]
     pub(super) fn get(&self, k: usize) -> Estimate {
-        self.estimates[k]
+        Estimate::new(self.t[k], self.error[k])
     }
 
     /// # Safety
@@ -83,16 +86,21 @@ impl Crossings {
         self.compute_inline(count);
     }
 
+    /// Whole vectors without a remainder, and results as columns: so the inner loop becomes vectors.
     #[inline(always)]
     fn compute_inline(&mut self, count: usize) {
-        for k in 0..count.next_multiple_of(VECTOR).min(BATCH) {
-            let vector = |columns: &[Column; 3]| Vec3::from(three(|j| f64::from(columns[j][k])));
-            let [a, b, c] = &self.vertices;
-            self.estimates[k] = PackedTriangle::estimate_rotated(
-                [vector(a), vector(b), vector(c)],
-                vector(&self.origin),
-                vector(&self.direction),
-            );
+        for first in (0..count.min(BATCH)).step_by(VECTOR) {
+            for lane in 0..VECTOR {
+                let k = (first + lane) % BATCH;
+                let vector = |columns: &[Column; 3]| Vec3::from(three(|j| f64::from(columns[j][k])));
+                let [a, b, c] = &self.vertices;
+                let estimate = PackedTriangle::estimate_rotated(
+                    [vector(a), vector(b), vector(c)],
+                    vector(&self.origin),
+                    vector(&self.direction),
+                );
+                (self.t[k], self.error[k]) = estimate.parts();
+            }
         }
     }
 }
