@@ -37,6 +37,21 @@ impl Estimate {
         error: f64::INFINITY,
     };
 
+    /// Estimates where a ray from `origin` crosses a triangle with these vertices, as the exact test of a
+    /// triangle does. Coordinates are in cyclic order with the axis of the direction's largest component last.
+    /// Branchless, so that a loop over many triangles becomes vectors.
+    #[inline(always)]
+    pub(crate) fn of_triangle(vertices: [Vec3; 3], origin: Vec3, direction: Vec3) -> Estimate {
+        let [a, b, c] = vertices;
+        let shear = Shear::of_rotated(direction);
+        let estimate = triangle([a - origin, b - origin, c - origin], &shear);
+        if is_workable(direction.z.abs()) {
+            estimate
+        } else {
+            Estimate::UNSURE
+        }
+    }
+
     #[inline(always)]
     pub(crate) fn new(t: f64, error: f64) -> Self {
         Estimate { t, error }

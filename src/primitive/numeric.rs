@@ -107,7 +107,7 @@ impl Shear {
 
 /// Rotates coordinates cyclically so that the one along `axis` is the last.
 #[inline]
-pub(super) fn rotated(v: Vec3, axis: Axis) -> Vec3 {
+pub(crate) fn rotated(v: Vec3, axis: Axis) -> Vec3 {
     match axis {
         Axis::X => Vec3::new(v.y, v.z, v.x),
         Axis::Y => Vec3::new(v.z, v.x, v.y),

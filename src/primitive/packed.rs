@@ -14,7 +14,6 @@
 
 use super::estimate::{self, Estimate};
 use super::exact::{ConeEnds, Known, Root, Surface};
-use super::numeric::Shear;
 use super::{
     Cone, PackedRay, Polygon, Precision, Primitive, Shape, Sphere, Triangle, UnitFrame, cone,
 };
@@ -192,16 +191,6 @@ pub struct PackedTriangle {
 }
 
 impl PackedTriangle {
-    /// Estimates where a ray from `origin` crosses a triangle with these vertices. Coordinates are in cyclic
-    /// order with the axis of the direction's largest component last. Followed by
-    /// [`Estimate::settle`] this is [`Form::intersect_exact`].
-    #[inline(always)]
-    pub(crate) fn estimate_rotated(vertices: [Vec3; 3], origin: Vec3, direction: Vec3) -> Estimate {
-        let [a, b, c] = vertices;
-        let shear = Shear::of_rotated(direction);
-        estimate::triangle([a - origin, b - origin, c - origin], &shear)
-    }
-
     /// [`Form::intersect_exact`] without a limit and without an estimate; `known` as there.
     pub(crate) fn intersect_slowly(&self, known: Known, ray: &Ray) -> Option<f64> {
         Surface::Triangle(&self.wide_vertices()).intersect(known, ray, Precision::F32)

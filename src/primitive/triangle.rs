@@ -2,9 +2,9 @@
 
 use super::clip::{bounds_of_outline, certain};
 use super::estimate::{self, Estimate};
-use super::exact::{Root, Surface};
+use super::exact::{Known, Root, Surface};
 use super::numeric;
-use super::{Shape, ShapeError, SurfacePoint};
+use super::{Precision, Shape, ShapeError, SurfacePoint};
 use crate::geometry::{Aabb, Ray, Vec3};
 
 /// A triangle. `normals`, one unit vector per vertex, are for smooth shading.
@@ -75,6 +75,31 @@ impl Triangle {
     #[inline(always)]
     pub(super) fn estimate(&self, ray: &Ray) -> Estimate {
         estimate::triangle_at(&self.vertices, ray)
+    }
+
+    /// [`Shape::intersect`] with what is known of where the ray's line crosses the triangle: an estimate, and
+    /// the result of [`nearest_in_plane`](super::nearest_in_plane).
+    #[inline(always)]
+    pub(crate) fn settle(
+        &self,
+        estimate: Estimate,
+        nearest: f64,
+        ray: &Ray,
+        t_max: f64,
+    ) -> Option<f64> {
+        let known = Estimate::first(&[estimate], [ray.t_min, ray.t_max], t_max)?;
+        let t = if known == Known::Hit(0) && nearest.is_finite() {
+            Some(nearest)
+        } else {
+            Surface::Triangle(&self.vertices).intersect(known, ray, Precision::F64)
+        };
+        t.filter(|&t| t <= t_max)
+    }
+
+    /// [`Shape::is_hit`] with an estimate of where the ray's line crosses the triangle.
+    #[inline(always)]
+    pub(crate) fn settle_any(&self, estimate: Estimate, ray: &Ray) -> bool {
+        Surface::Triangle(&self.vertices).settle_any([estimate], ray)
     }
 
     /// Returns barycentric coordinates, not negative and of sum 1, of the projection of `point` along the

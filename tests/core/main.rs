@@ -21,6 +21,8 @@ mod leaks;
 mod lessons;
 mod malformed;
 mod malformed_meshes;
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod masked_stores;
 mod measures;
 mod methods;
 mod model;

@@ -1,6 +1,7 @@
 //! Triangles and polygons: where a line crosses the area within an outline.
 
 use super::distance::Distance;
+use super::double_word::DoubleWord;
 use super::number::{Number, Unsure};
 use super::vector::{Vector, minor};
 use crate::geometry::{Axis, Ray, Vec3};
@@ -99,6 +100,22 @@ pub(super) fn plane<N: Number>(
     let normal = normal::<N>([a, b, c]);
     let distance = normal.dot(&Vector::difference(*a, ray.origin));
     Distance::fraction(distance, normal.dot(&Vector::from(ray.direction)))
+}
+
+/// Returns where a line from `origin` crosses the plane of a triangle, as [`plane`], rounded to the nearest
+/// number; NaN if twice the precision does not determine that. Branchless, so that a loop over many triangles
+/// becomes vectors.
+#[inline(always)]
+pub(crate) fn nearest_in_plane<const FMA: bool>(
+    [a, b, c]: [Vec3; 3],
+    origin: Vec3,
+    direction: Vec3,
+) -> f64 {
+    let normal = normal::<DoubleWord<FMA>>([&a, &b, &c]);
+    let over = normal.dot(&Vector::difference(a, origin));
+    let under = normal.dot(&Vector::from(direction));
+    let [lo, hi] = over.over(under).around();
+    if lo == hi { lo } else { f64::NAN }
 }
 
 /// Returns the height of a point above the plane of a triangle, times twice its area.

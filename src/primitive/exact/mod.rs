@@ -21,6 +21,7 @@ mod quadric;
 mod root;
 mod vector;
 
+pub(crate) use flat::nearest_in_plane;
 pub(super) use number::Unsure;
 pub(crate) use quadric::ConeEnds;
 pub use root::Root;

@@ -45,7 +45,7 @@ pub const BLOCK: Constant = Constant {
     unit: "objects",
     about: "Objects that a kernel tests at once. The cost of a leaf counts blocks of this many objects, begun ones \
             as whole ones.",
-    source: "ours: 16 suits the SIMD kernels",
+    source: "ours: 8 suits the SIMD kernel",
 };
 
 pub const MAX_LEAF: Constant = Constant {

@@ -1,8 +1,8 @@
 //! Builds the tree for SIMD kernels from the nodes of a tree and the objects of its scene.
 
-use super::block::{BLOCK, BlockData};
+use super::block::BlockData;
 use super::layout::{
-    ABOVE_EMPTY, AnyBlockTree, BELOW_EMPTY, BlockTree, CHILD_SHIFT, Node, SimdNodes, SimdTree,
+    ABOVE_EMPTY, AnyTree, BELOW_EMPTY, BlockTree, ByKind, CHILD_SHIFT, Node, SimdTree,
 };
 use super::pages::Pages;
 use crate::geometry::{Axis, Vec3};
@@ -28,15 +28,44 @@ impl SimdTree {
     fn new(scene: &Scene, tree: &Tree) -> SimdTree {
         let objects = scene.objects();
         let frame = UnitFrame::around(&scene.bounds());
-        let all = |kind| !objects.is_empty() && objects.iter().all(|o| o.kind() == kind);
-        let tree = if all(PrimitiveKind::Triangle) {
-            AnyBlockTree::Triangles(BlockTree::new(tree, objects, &frame))
-        } else if all(PrimitiveKind::Sphere) {
-            AnyBlockTree::Spheres(BlockTree::new(tree, objects, &frame))
-        } else {
-            AnyBlockTree::Boxes(BlockTree::new(tree, objects, &frame))
+        let (half_thickness, corners) = corners_of(tree, objects, &frame);
+        let trees = match tree.nodes() {
+            Nodes::Planes(nodes) => AnyTree::Planes(by_kind(
+                objects,
+                || BlockTree::of_planes(tree, nodes, objects, &frame),
+                || BlockTree::of_planes(tree, nodes, objects, &frame),
+                || BlockTree::of_planes(tree, nodes, objects, &frame),
+            )),
+            Nodes::Boxes(nodes) => AnyTree::Boxes(by_kind(
+                objects,
+                || BlockTree::of_boxes(tree, nodes, objects, &frame),
+                || BlockTree::of_boxes(tree, nodes, objects, &frame),
+                || BlockTree::of_boxes(tree, nodes, objects, &frame),
+            )),
         };
-        SimdTree { frame, tree }
+        SimdTree {
+            frame,
+            half_thickness,
+            corners,
+            tree: trees,
+        }
+    }
+}
+
+/// Builds the tree with the blocks that suit these objects.
+fn by_kind<T, S, B>(
+    objects: &[Primitive],
+    triangles: impl FnOnce() -> T,
+    spheres: impl FnOnce() -> S,
+    boxes: impl FnOnce() -> B,
+) -> ByKind<T, S, B> {
+    let all = |kind| !objects.is_empty() && objects.iter().all(|o| o.kind() == kind);
+    if all(PrimitiveKind::Triangle) {
+        ByKind::Triangles(triangles())
+    } else if all(PrimitiveKind::Sphere) {
+        ByKind::Spheres(spheres())
+    } else {
+        ByKind::Boxes(boxes())
     }
 }
 
@@ -48,18 +77,11 @@ impl SimdTree {
 /// 1 ε for an origin in `f32`, 4 ε for the arithmetic of the traversal, and 1 ε for a plane.
 const HALF_THICKNESS: f32 = 40.0 * f32::EPSILON;
 
-impl<B: BlockData> BlockTree<B> {
-    /// Builds the tree of one with planes or with boxes.
+impl<B: BlockData> BlockTree<Pages<Node>, B> {
+    /// Builds the tree of one with planes.
     ///
     /// # Panics
-    /// If the tree has more than [`MAX_NODES`] nodes with planes.
-    pub(super) fn new(tree: &Tree, objects: &[Primitive], frame: &UnitFrame) -> Self {
-        match tree.nodes() {
-            Nodes::Planes(nodes) => BlockTree::of_planes(tree, nodes, objects, frame),
-            Nodes::Boxes(nodes) => BlockTree::of_boxes(tree, nodes, objects, frame),
-        }
-    }
-
+    /// If the tree has more than [`MAX_NODES`] nodes.
     fn of_planes(
         tree: &Tree,
         nodes: &[node::Node],
@@ -67,9 +89,8 @@ impl<B: BlockData> BlockTree<B> {
         frame: &UnitFrame,
     ) -> Self {
         assert!(nodes.len() < MAX_NODES, "a tree of 2 GiB of nodes");
-        let (half_thickness, corners) = corners_of(tree, objects, frame);
         let blocks = |node: &node::Node| match node.is_leaf() {
-            true => node.as_leaf().1.div_ceil(BLOCK),
+            true => node.as_leaf().1.div_ceil(B::PLACES),
             false => 0,
         };
         let mut builder = Builder {
@@ -86,22 +107,16 @@ impl<B: BlockData> BlockTree<B> {
         builder.reserve_siblings();
         builder.node(0, 0, [[-1.0, 1.0]; 3], 0);
         BlockTree {
-            nodes: SimdNodes::Planes(builder.nodes),
+            nodes: builder.nodes,
             blocks: builder.blocks,
             max_pending: builder.max_pending,
-            half_thickness,
-            corners,
         }
     }
 }
 
 /// Returns half the thickness of planes and faces, and the corners of the scene's box enlarged by it, in the
 /// unit frame.
-pub(super) fn corners_of(
-    tree: &Tree,
-    objects: &[Primitive],
-    frame: &UnitFrame,
-) -> (f32, [[f32; 3]; 2]) {
+fn corners_of(tree: &Tree, objects: &[Primitive], frame: &UnitFrame) -> (f32, [[f32; 3]; 2]) {
     let bounds = objects
         .iter()
         .map(Shape::bounds)
@@ -190,13 +205,7 @@ impl<B: BlockData> Builder<'_, B> {
         held.clear();
         held.extend(references.iter().filter(|&&o| self.is_held(o, &cell)));
         let first = self.blocks.len();
-        for objects in held.chunks(BLOCK) {
-            let mut block = B::default();
-            for (place, &object) in objects.iter().enumerate() {
-                block.set(place, object, &self.objects[object as usize], self.frame);
-            }
-            self.blocks.push(block);
-        }
+        B::append(&mut self.blocks, &held, self.objects, self.frame);
         self.held = held;
         Node::leaf(first, self.blocks.len() - first)
     }

@@ -1,15 +1,14 @@
 //! Builds the tree for SIMD kernels of a bounding volume hierarchy.
 
-use super::block::{BLOCK, BlockData};
-use super::build::corners_of;
-use super::layout::{BlockTree, SimdNodes};
+use super::block::BlockData;
+use super::layout::BlockTree;
 use super::pages::Pages;
 use super::wide::{Child, WideNode, WideNodes};
 use crate::primitive::{Primitive, UnitFrame};
 use crate::structure::box_node::{BoxNode, MAX_WIDTH};
 use crate::structure::tree::Tree;
 
-impl<B: BlockData> BlockTree<B> {
+impl<B: BlockData> BlockTree<WideNodes, B> {
     /// Builds the tree of a hierarchy.
     pub(super) fn of_boxes(
         tree: &Tree,
@@ -17,9 +16,8 @@ impl<B: BlockData> BlockTree<B> {
         objects: &[Primitive],
         frame: &UnitFrame,
     ) -> Self {
-        let (half_thickness, corners) = corners_of(tree, objects, frame);
         let leaf_blocks = |node: &BoxNode| match node.is_leaf() {
-            true => node.as_leaf().1.div_ceil(BLOCK),
+            true => node.as_leaf().1.div_ceil(B::PLACES),
             false => 0,
         };
         let inner_count = nodes.iter().filter(|node| !node.is_leaf()).count();
@@ -46,14 +44,12 @@ impl<B: BlockData> BlockTree<B> {
             ..
         } = builder;
         BlockTree {
-            nodes: SimdNodes::Boxes(WideNodes {
+            nodes: WideNodes {
                 nodes: wide,
                 large_leaves,
-            }),
+            },
             blocks,
             max_pending: (tree.depth_reached() as usize + 1) * (MAX_WIDTH - 1) + 1,
-            half_thickness,
-            corners,
         }
     }
 }
@@ -96,31 +92,22 @@ impl<B: BlockData> Builder<'_, B> {
             return;
         }
         self.set_box(to, place, leaf);
-        let (first, blocks) = (self.blocks.len(), held.len().div_ceil(BLOCK));
+        let (first, blocks) = (self.blocks.len(), held.len().div_ceil(B::PLACES));
         let child = Child::leaf(first, blocks);
         self.wide[to].children[place] = child;
         if child.blocks() == 0 {
             self.large_leaves.push((first as u32, blocks as u32));
         }
-        for objects in held.chunks(BLOCK) {
-            let mut block = B::default();
-            for (place, &object) in objects.iter().enumerate() {
-                block.set(place, object, &self.objects[object as usize], self.frame);
-            }
-            self.blocks.push(block);
-        }
+        B::append(&mut self.blocks, held, self.objects, self.frame);
     }
 
     /// Sets the box of a child. It is as accurate as `f32`, which the thickness of faces covers.
     fn set_box(&mut self, to: usize, place: usize, child: u32) {
         let bounds = self.tree.box_of(&self.nodes[child as usize]);
-        for (corner, columns) in [bounds.lo, bounds.hi]
-            .into_iter()
-            .zip(&mut self.wide[to].corners)
-        {
+        for (side, corner) in [bounds.lo, bounds.hi].into_iter().enumerate() {
             let corner = self.frame.point(corner).as_vec3();
-            for k in 0..3 {
-                columns[k][place] = corner[k];
+            for (k, faces) in self.wide[to].faces.iter_mut().enumerate() {
+                faces[side][place] = corner[k];
             }
         }
     }

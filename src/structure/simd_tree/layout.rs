@@ -1,6 +1,7 @@
 //! How a tree for SIMD kernels lies in memory: siblings are adjacent, planes are in the coordinates of
 //! the unit frame, and leaves hold blocks of objects, of the kind that suits the scene.
 
+use super::block::{IN_BOXES, IN_PLANES};
 use super::boxes::Boxes;
 use super::pages::Pages;
 use super::spheres::Spheres;
@@ -42,69 +43,62 @@ impl Node {
     }
 }
 
-/// The nodes of a tree.
-pub(crate) enum SimdNodes {
-    Planes(Pages<Node>),
-    Boxes(WideNodes),
-}
-
-impl SimdNodes {
-    /// Returns the nodes with planes; empty for boxes.
-    #[inline(always)]
-    pub(crate) fn planes(&self) -> &[Node] {
-        match self {
-            SimdNodes::Planes(nodes) => nodes,
-            SimdNodes::Boxes(_) => &[],
-        }
-    }
-}
-
-/// A tree prepared for SIMD traversal, with blocks of one kind.
-pub(crate) struct BlockTree<B> {
-    pub(crate) nodes: SimdNodes,
+/// A tree prepared for SIMD traversal, with nodes and blocks of one kind.
+pub(crate) struct BlockTree<N, B> {
+    pub(crate) nodes: N,
     pub(crate) blocks: Pages<B>,
     /// Maximum number of pending nodes on a ray's stack.
     pub(crate) max_pending: usize,
-    /// Half the thickness of every plane and face.
-    pub(crate) half_thickness: f32,
-    /// Lower and upper corner of the scene's box, enlarged by `half_thickness`.
-    pub(crate) corners: [[f32; 3]; 2],
 }
 
-impl<B> BlockTree<B> {
-    /// Returns the memory that nodes and blocks take.
-    pub(crate) fn bytes(&self) -> usize {
-        let nodes = match &self.nodes {
-            SimdNodes::Planes(nodes) => size_of_val(&**nodes),
-            SimdNodes::Boxes(nodes) => size_of_val(&*nodes.nodes),
-        };
-        nodes + size_of_val(&*self.blocks)
-    }
+/// A tree with planes.
+pub(crate) type PlaneTree<B> = BlockTree<Pages<Node>, B>;
+
+/// A hierarchy.
+pub(crate) type BoxTree<B> = BlockTree<WideNodes, B>;
+
+/// One of three trees, by the kind of its blocks.
+pub(crate) enum ByKind<T, S, B> {
+    Triangles(T),
+    Spheres(S),
+    Boxes(B),
 }
+
+/// A tree with the nodes of its structure and the blocks that suit its scene.
+pub(crate) enum AnyTree {
+    Planes(
+        ByKind<
+            PlaneTree<Triangles<IN_PLANES>>,
+            PlaneTree<Spheres<IN_PLANES>>,
+            PlaneTree<Boxes<IN_PLANES>>,
+        >,
+    ),
+    Boxes(
+        ByKind<BoxTree<Triangles<IN_BOXES>>, BoxTree<Spheres<IN_BOXES>>, BoxTree<Boxes<IN_BOXES>>>,
+    ),
+}
+
+/// Evaluates `$body` with `$tree` bound to the tree in a [`ByKind`], monomorphized for each kind of block.
+macro_rules! with_tree {
+    ($by_kind:expr, $tree:ident => $body:expr) => {
+        match $by_kind {
+            $crate::structure::simd_tree::ByKind::Triangles($tree) => $body,
+            $crate::structure::simd_tree::ByKind::Spheres($tree) => $body,
+            $crate::structure::simd_tree::ByKind::Boxes($tree) => $body,
+        }
+    };
+}
+pub(crate) use with_tree;
 
 /// A tree prepared for SIMD kernels, for one scene and both precisions.
 pub struct SimdTree {
     pub(crate) frame: UnitFrame,
-    pub(crate) tree: AnyBlockTree,
+    /// Half the thickness of every plane and face.
+    pub(crate) half_thickness: f32,
+    /// Lower and upper corner of the scene's box, enlarged by `half_thickness`.
+    pub(crate) corners: [[f32; 3]; 2],
+    pub(crate) tree: AnyTree,
 }
-
-pub(crate) enum AnyBlockTree {
-    Triangles(BlockTree<Triangles>),
-    Spheres(BlockTree<Spheres>),
-    Boxes(BlockTree<Boxes>),
-}
-
-/// Evaluates `$body` with `$tree` bound to the [`BlockTree`], monomorphized for each kind of block.
-macro_rules! with_block_tree {
-    ($simd_tree:expr, $tree:ident => $body:expr) => {
-        match &$simd_tree.tree {
-            $crate::structure::simd_tree::AnyBlockTree::Triangles($tree) => $body,
-            $crate::structure::simd_tree::AnyBlockTree::Spheres($tree) => $body,
-            $crate::structure::simd_tree::AnyBlockTree::Boxes($tree) => $body,
-        }
-    };
-}
-pub(crate) use with_block_tree;
 
 impl std::fmt::Debug for SimdTree {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -117,6 +111,13 @@ impl std::fmt::Debug for SimdTree {
 impl SimdTree {
     /// Returns the memory that nodes and blocks take.
     pub fn bytes(&self) -> usize {
-        with_block_tree!(self, tree => tree.bytes())
+        match &self.tree {
+            AnyTree::Planes(by_kind) => with_tree!(by_kind, tree => {
+                size_of_val(&*tree.nodes) + size_of_val(&*tree.blocks)
+            }),
+            AnyTree::Boxes(by_kind) => with_tree!(by_kind, tree => {
+                size_of_val(&*tree.nodes.nodes) + size_of_val(&*tree.blocks)
+            }),
+        }
     }
 }

@@ -11,13 +11,13 @@ mod spheres;
 mod triangles;
 mod wide;
 
-pub(crate) use block::{BLOCK, BlockData, NONE};
+pub(crate) use block::{BlockData, IN_PLANES, NONE};
 pub(crate) use boxes::Boxes;
 pub use layout::SimdTree;
 pub(crate) use layout::{
-    ABOVE_EMPTY, AnyBlockTree, BELOW_EMPTY, BlockTree, CHILD_SHIFT, LEAF, Node, SimdNodes,
-    with_block_tree,
+    ABOVE_EMPTY, AnyTree, BELOW_EMPTY, BoxTree, ByKind, CHILD_SHIFT, LEAF, Node, PlaneTree,
+    with_tree,
 };
 pub(crate) use spheres::Spheres;
 pub(crate) use triangles::Triangles;
-pub(crate) use wide::{Child, WideNode, WideNodes};
+pub(crate) use wide::{Child, WideNode};

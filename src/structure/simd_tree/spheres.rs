@@ -1,28 +1,28 @@
 //! Blocks of spheres, by center and radius.
 
-use super::block::{BLOCK, BlockData, Column, NONE};
+use super::block::{BlockData, NONE};
 use crate::primitive::{PackedSphere, Primitive, UnitFrame};
 
 /// A block of spheres.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
-pub(crate) struct Spheres {
-    pub(crate) center: [Column; 3],
-    pub(crate) radius: Column,
-    pub(crate) objects: [u32; BLOCK],
+pub(crate) struct Spheres<const N: usize> {
+    pub(crate) center: [[f32; N]; 3],
+    pub(crate) radius: [f32; N],
+    pub(crate) objects: [u32; N],
 }
 
-impl Default for Spheres {
+impl<const N: usize> Default for Spheres<N> {
     fn default() -> Self {
         Spheres {
-            center: [[f32::NAN; BLOCK]; 3],
-            radius: [f32::NAN; BLOCK],
-            objects: [NONE; BLOCK],
+            center: [[f32::NAN; N]; 3],
+            radius: [f32::NAN; N],
+            objects: [NONE; N],
         }
     }
 }
 
-impl Spheres {
+impl<const N: usize> Spheres<N> {
     /// Returns the sphere in a place.
     #[inline(always)]
     pub(crate) fn sphere(&self, place: usize) -> PackedSphere {
@@ -32,7 +32,9 @@ impl Spheres {
     }
 }
 
-impl BlockData for Spheres {
+impl<const N: usize> BlockData for Spheres<N> {
+    const PLACES: usize = N;
+
     fn set(&mut self, place: usize, object: u32, primitive: &Primitive, frame: &UnitFrame) {
         let Primitive::Sphere(sphere) = primitive else {
             unreachable!("all objects are spheres");
@@ -45,7 +47,7 @@ impl BlockData for Spheres {
         self.objects[place] = object;
     }
 
-    fn objects(&self) -> &[u32; BLOCK] {
+    fn objects(&self) -> &[u32] {
         &self.objects
     }
 }

@@ -1,27 +1,29 @@
 //! Blocks of triangles, by their vertices.
 
-use super::block::{BLOCK, BlockData, Column, NONE};
+use super::block::{BlockData, NONE};
 use crate::primitive::{Primitive, UnitFrame};
 
 /// A block of triangles.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
-pub(crate) struct Triangles {
+pub(crate) struct Triangles<const N: usize> {
     /// By vertex and axis.
-    pub(crate) vertices: [[Column; 3]; 3],
-    pub(crate) objects: [u32; BLOCK],
+    pub(crate) vertices: [[[f32; N]; 3]; 3],
+    pub(crate) objects: [u32; N],
 }
 
-impl Default for Triangles {
+impl<const N: usize> Default for Triangles<N> {
     fn default() -> Self {
         Triangles {
-            vertices: [[[f32::NAN; BLOCK]; 3]; 3],
-            objects: [NONE; BLOCK],
+            vertices: [[[f32::NAN; N]; 3]; 3],
+            objects: [NONE; N],
         }
     }
 }
 
-impl BlockData for Triangles {
+impl<const N: usize> BlockData for Triangles<N> {
+    const PLACES: usize = N;
+
     fn set(&mut self, place: usize, object: u32, primitive: &Primitive, frame: &UnitFrame) {
         let Primitive::Triangle(triangle) = primitive else {
             unreachable!("all objects are triangles");
@@ -35,7 +37,7 @@ impl BlockData for Triangles {
         self.objects[place] = object;
     }
 
-    fn objects(&self) -> &[u32; BLOCK] {
+    fn objects(&self) -> &[u32] {
         &self.objects
     }
 }

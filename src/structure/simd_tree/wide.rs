@@ -7,8 +7,8 @@ use crate::structure::box_node::MAX_WIDTH;
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
 pub(crate) struct WideNode {
-    /// Lower and upper corners of the children, by axis, in the coordinates of the unit frame.
-    pub(crate) corners: [[[f32; MAX_WIDTH]; 3]; 2],
+    /// By axis, the lower and the upper faces of the children's boxes, in the coordinates of the unit frame.
+    pub(crate) faces: [[[f32; MAX_WIDTH]; 2]; 3],
     pub(crate) children: [Child; MAX_WIDTH],
 }
 
@@ -97,10 +97,7 @@ impl WideNodes {
 
 impl WideNode {
     pub(super) const EMPTY: WideNode = WideNode {
-        corners: [
-            [[f32::INFINITY; MAX_WIDTH]; 3],
-            [[f32::NEG_INFINITY; MAX_WIDTH]; 3],
-        ],
+        faces: [[[f32::INFINITY; MAX_WIDTH], [f32::NEG_INFINITY; MAX_WIDTH]]; 3],
         children: [Child::END; MAX_WIDTH],
     };
 }

@@ -11,7 +11,7 @@ use super::pool::{self, Pool};
 use super::queue::RayQueue;
 use super::ray::RayBuffer;
 use super::stream::{self, Stacks};
-use crate::structure::simd_tree::{BlockTree, WideNodes};
+use crate::structure::simd_tree::{BoxTree, PlaneTree};
 use std::ops::Range;
 
 /// Defines the kernels for an instruction set, as functions that are compiled for it as a whole.
@@ -35,7 +35,7 @@ macro_rules! compiled {
         /// The processor must have the instruction set.
         #[target_feature(enable = $features)]
         unsafe fn $stream<B: Block>(
-            tree: &BlockTree<B>,
+            tree: &PlaneTree<B>,
             rays: &mut RayBuffer,
             ahead: Range<usize>,
             queue: &mut RayQueue<'_>,
@@ -55,7 +55,7 @@ macro_rules! compiled {
         /// The processor must have the instruction set.
         #[target_feature(enable = $features)]
         unsafe fn $packets<B: Block>(
-            tree: &BlockTree<B>,
+            tree: &PlaneTree<B>,
             rays: &RayBuffer,
             ahead: Range<usize>,
             queue: &mut RayQueue<'_>,
@@ -71,8 +71,7 @@ macro_rules! compiled {
         #[target_feature(enable = $features)]
         #[allow(clippy::too_many_arguments)]
         unsafe fn $pool<B: Block>(
-            tree: &BlockTree<B>,
-            nodes: &WideNodes,
+            tree: &BoxTree<B>,
             rays: &mut RayBuffer,
             ahead: Range<usize>,
             queue: &mut RayQueue<'_>,
@@ -82,9 +81,7 @@ macro_rules! compiled {
         ) {
             // SAFETY: the caller's.
             unsafe {
-                pool::traverse::<$simd, Avx2, B>(
-                    tree, nodes, rays, ahead, queue, pool, candidates, tests,
-                )
+                pool::traverse::<$simd, Avx2, B>(tree, rays, ahead, queue, pool, candidates, tests)
             }
         }
     };
@@ -140,7 +137,7 @@ pub(super) unsafe fn refill(
 #[allow(clippy::too_many_arguments)]
 pub(super) unsafe fn stream<B: Block>(
     set: InstructionSet,
-    tree: &BlockTree<B>,
+    tree: &PlaneTree<B>,
     rays: &mut RayBuffer,
     ahead: Range<usize>,
     queue: &mut RayQueue<'_>,
@@ -172,7 +169,7 @@ pub(super) unsafe fn stream<B: Block>(
 /// The processor must have the instruction set.
 pub(super) unsafe fn packets<B: Block>(
     set: InstructionSet,
-    tree: &BlockTree<B>,
+    tree: &PlaneTree<B>,
     rays: &RayBuffer,
     ahead: Range<usize>,
     queue: &mut RayQueue<'_>,
@@ -198,8 +195,7 @@ pub(super) unsafe fn packets<B: Block>(
 #[allow(clippy::too_many_arguments)]
 pub(super) unsafe fn pool<B: Block>(
     set: InstructionSet,
-    tree: &BlockTree<B>,
-    nodes: &WideNodes,
+    tree: &BoxTree<B>,
     rays: &mut RayBuffer,
     ahead: Range<usize>,
     queue: &mut RayQueue<'_>,
@@ -212,14 +208,14 @@ pub(super) unsafe fn pool<B: Block>(
         match set {
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx512 => {
-                pool_avx512(tree, nodes, rays, ahead, queue, pool, candidates, tests);
+                pool_avx512(tree, rays, ahead, queue, pool, candidates, tests);
             }
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx2 => {
-                pool_avx2(tree, nodes, rays, ahead, queue, pool, candidates, tests);
+                pool_avx2(tree, rays, ahead, queue, pool, candidates, tests);
             }
             _ => pool::traverse::<Portable, Portable, _>(
-                tree, nodes, rays, ahead, queue, pool, candidates, tests,
+                tree, rays, ahead, queue, pool, candidates, tests,
             ),
         }
     }

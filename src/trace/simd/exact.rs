@@ -5,8 +5,8 @@ use super::candidate::{Candidate, ExactTests};
 use super::crossings::{BATCH, Crossings};
 use super::instruction_set::InstructionSet;
 use super::ray::{RayBuffer, SimdRay};
-use crate::geometry::Ray;
-use crate::primitive::{Estimate, Form, PackedSphere, PackedTriangle};
+use crate::geometry::{Axis, Ray, Vec3};
+use crate::primitive::{Estimate, Form, PackedSphere, PackedTriangle, Triangle, rotated};
 use crate::structure::simd_tree::{Spheres, Triangles};
 use crate::trace::Hit;
 use crate::trace::query::wins_tie;
@@ -106,8 +106,8 @@ pub(super) trait TestObjects {
     const BATCHED: bool = false;
 
     /// Computes what can be computed for several candidates at once, at most [`BATCH`].
-    /// [`TestObjects::test`] is then called for each of them.
-    fn begin(&mut self, _: &[Candidate], _: &RayBuffer) {}
+    /// [`TestObjects::test`] is then called for each of them, or with `any_hit` [`TestObjects::is_hit`].
+    fn begin(&mut self, _: &[Candidate], _: &RayBuffer, _: &[Ray], _: bool) {}
 
     /// Returns [`Form::intersect_exact`] up to `t_max` of a candidate, the `k`th of those passed to
     /// [`TestObjects::begin`]; NaN for no hit. `world` are the rays in the world.
@@ -131,16 +131,16 @@ pub(super) trait TestObjects {
 }
 
 /// Triangles in their blocks, which are still in the cache.
-pub(super) struct InTriangles<'a> {
-    blocks: &'a [Triangles],
+pub(super) struct InTriangles<'a, const N: usize> {
+    blocks: &'a [Triangles<N>],
     triangles: &'a [PackedTriangle],
-    crossings: Crossings,
+    crossings: Crossings<f32>,
     instructions: InstructionSet,
 }
 
-impl<'a> InTriangles<'a> {
+impl<'a, const N: usize> InTriangles<'a, N> {
     pub(super) fn new(
-        blocks: &'a [Triangles],
+        blocks: &'a [Triangles<N>],
         triangles: &'a [PackedTriangle],
         instructions: InstructionSet,
     ) -> Self {
@@ -153,19 +153,23 @@ impl<'a> InTriangles<'a> {
     }
 }
 
-impl TestObjects for InTriangles<'_> {
+impl<const N: usize> TestObjects for InTriangles<'_, N> {
     type Precision = InF32;
 
     const BATCHED: bool = true;
 
     #[inline(always)]
-    fn begin(&mut self, candidates: &[Candidate], rays: &RayBuffer) {
+    fn begin(&mut self, candidates: &[Candidate], rays: &RayBuffer, _: &[Ray], _: bool) {
         for (k, candidate) in candidates.iter().enumerate() {
             let ray = &rays.rays[candidate.ray as usize];
+            let axes = ray.rotated_axes();
             let block = &self.blocks[candidate.block as usize];
-            self.crossings.set(k, block, candidate.place as usize, ray);
+            let vertices = block.vertices(candidate.place as usize, axes);
+            let [origin, direction] = [ray.origin, ray.direction].map(|v| three(|j| v[axes[j]]));
+            self.crossings.set(k, vertices, origin, direction);
         }
-        self.crossings.compute(self.instructions, candidates.len());
+        let count = candidates.len();
+        self.crossings.compute(self.instructions, count, false);
     }
 
     #[inline(always)]
@@ -177,7 +181,7 @@ impl TestObjects for InTriangles<'_> {
         _: &[Ray],
         t_max: f64,
     ) -> f64 {
-        let estimate = self.crossings.get(k);
+        let estimate = self.crossings.estimate(k);
         let ray = &rays.rays[candidate.ray as usize];
         let interval = [f64::from(ray.t_min), f64::from(ray.t_max)];
         let t = Estimate::settle([estimate], interval, t_max, |known| {
@@ -192,19 +196,85 @@ impl TestObjects for InTriangles<'_> {
     }
 }
 
+/// Triangles of the scene, in `f64`.
+pub(super) struct InWideTriangles<'a> {
+    triangles: &'a [Triangle],
+    crossings: Crossings<f64>,
+    instructions: InstructionSet,
+}
+
+impl<'a> InWideTriangles<'a> {
+    pub(super) fn new(triangles: &'a [Triangle], instructions: InstructionSet) -> Self {
+        InWideTriangles {
+            triangles,
+            crossings: Crossings::new(),
+            instructions,
+        }
+    }
+}
+
+impl TestObjects for InWideTriangles<'_> {
+    type Precision = InF64;
+
+    const BATCHED: bool = true;
+
+    #[inline(always)]
+    fn begin(&mut self, candidates: &[Candidate], rays: &RayBuffer, world: &[Ray], any_hit: bool) {
+        for (k, candidate) in candidates.iter().enumerate() {
+            let ray = &world[rays.index(candidate.ray as usize)];
+            let axis = Axis::of_largest(ray.direction.abs().to_array());
+            let rotate = |v: Vec3| rotated(v, axis).to_array();
+            let vertices = self.triangles[candidate.object as usize]
+                .vertices
+                .map(rotate);
+            let [origin, direction] = [ray.origin, ray.direction].map(rotate);
+            self.crossings.set(k, vertices, origin, direction);
+        }
+        let count = candidates.len();
+        self.crossings.compute(self.instructions, count, !any_hit);
+    }
+
+    #[inline(always)]
+    fn test(
+        &self,
+        k: usize,
+        candidate: &Candidate,
+        rays: &RayBuffer,
+        world: &[Ray],
+        t_max: f64,
+    ) -> f64 {
+        let ray = &world[rays.index(candidate.ray as usize)];
+        let (estimate, nearest) = (self.crossings.estimate(k), self.crossings.nearest(k));
+        let triangle = &self.triangles[candidate.object as usize];
+        let t = triangle.settle(estimate, nearest, ray, t_max);
+        t.unwrap_or(f64::NAN)
+    }
+
+    #[inline(always)]
+    fn is_hit(&self, k: usize, candidate: &Candidate, rays: &RayBuffer, world: &[Ray]) -> bool {
+        let ray = &world[rays.index(candidate.ray as usize)];
+        self.triangles[candidate.object as usize].settle_any(self.crossings.estimate(k), ray)
+    }
+
+    fn wins_tie(&self, candidate: &Candidate, best: &Hit, rays: &RayBuffer, world: &[Ray]) -> bool {
+        let ray = &world[rays.index(candidate.ray as usize)];
+        wins_tie(self.triangles, candidate.object, best, ray)
+    }
+}
+
 /// Spheres in their blocks.
-pub(super) struct InSpheres<'a> {
-    blocks: &'a [Spheres],
+pub(super) struct InSpheres<'a, const N: usize> {
+    blocks: &'a [Spheres<N>],
     spheres: &'a [PackedSphere],
 }
 
-impl<'a> InSpheres<'a> {
-    pub(super) fn new(blocks: &'a [Spheres], spheres: &'a [PackedSphere]) -> Self {
+impl<'a, const N: usize> InSpheres<'a, N> {
+    pub(super) fn new(blocks: &'a [Spheres<N>], spheres: &'a [PackedSphere]) -> Self {
         InSpheres { blocks, spheres }
     }
 }
 
-impl TestObjects for InSpheres<'_> {
+impl<const N: usize> TestObjects for InSpheres<'_, N> {
     type Precision = InF32;
 
     #[inline(always)]
@@ -319,7 +389,7 @@ impl<O: TestObjects> ExactTests for Closest<'_, O> {
 
     fn test(&mut self, rays: &RayBuffer, candidates: &[Candidate], limits: &mut [f32]) {
         for candidates in candidates.chunks(BATCH) {
-            self.objects.begin(candidates, rays);
+            self.objects.begin(candidates, rays, self.rays, false);
             for (k, candidate) in candidates.iter().enumerate() {
                 let (slot, object) = (candidate.ray as usize, candidate.object);
                 let best = &mut self.hits[rays.index(slot)];
@@ -374,7 +444,7 @@ impl<O: TestObjects> ExactTests for Any<'_, O> {
 
     fn test(&mut self, rays: &RayBuffer, candidates: &[Candidate], limits: &mut [f32]) {
         for candidates in candidates.chunks(BATCH) {
-            self.objects.begin(candidates, rays);
+            self.objects.begin(candidates, rays, self.rays, true);
             for (k, candidate) in candidates.iter().enumerate() {
                 if self.objects.is_hit(k, candidate, rays, self.rays) {
                     self.mark_hit(rays, &[candidate.ray]);

@@ -13,7 +13,8 @@
 use super::candidate::{Candidate, ExactTests};
 use super::compiled;
 use super::exact::{
-    Any, Closest, InArray, InF32, InF64, InSpheres, InTriangles, TestObjects, TestPrecision,
+    Any, Closest, InArray, InF32, InF64, InSpheres, InTriangles, InWideTriangles, TestObjects,
+    TestPrecision,
 };
 use super::instruction_set::InstructionSet;
 use super::mode::SimdMode;
@@ -25,7 +26,7 @@ use super::stream::Stacks;
 use crate::geometry::Ray;
 use crate::primitive::{Arrays, Shapes, with_array};
 use crate::structure::Tree;
-use crate::structure::simd_tree::{AnyBlockTree, SimdNodes, SimdTree, with_block_tree};
+use crate::structure::simd_tree::{AnyTree, ByKind, SimdTree, with_tree};
 use crate::trace::{Hit, Scratch, any_hit, closest_hit};
 use std::ops::Range;
 
@@ -35,7 +36,7 @@ macro_rules! with_objects {
     ($kernel:expr, $objects:ident => $body:expr) => {
         match (&$kernel.simd_tree.tree, $kernel.shapes) {
             (
-                AnyBlockTree::Triangles(tree),
+                AnyTree::Planes(ByKind::Triangles(tree)),
                 Shapes::F32 {
                     arrays: Arrays::Triangles(all),
                     ..
@@ -45,7 +46,27 @@ macro_rules! with_objects {
                 $body
             }
             (
-                AnyBlockTree::Spheres(tree),
+                AnyTree::Planes(ByKind::Spheres(tree)),
+                Shapes::F32 {
+                    arrays: Arrays::Spheres(all),
+                    ..
+                },
+            ) => {
+                let $objects = InSpheres::new(&tree.blocks, all);
+                $body
+            }
+            (
+                AnyTree::Boxes(ByKind::Triangles(tree)),
+                Shapes::F32 {
+                    arrays: Arrays::Triangles(all),
+                    ..
+                },
+            ) => {
+                let $objects = InTriangles::new(&tree.blocks, all, $kernel.instructions);
+                $body
+            }
+            (
+                AnyTree::Boxes(ByKind::Spheres(tree)),
                 Shapes::F32 {
                     arrays: Arrays::Spheres(all),
                     ..
@@ -58,6 +79,10 @@ macro_rules! with_objects {
                 let $objects = InArray::<InF32, _>::new(all);
                 $body
             }),
+            (_, Shapes::F64(Arrays::Triangles(all))) => {
+                let $objects = InWideTriangles::new(all, $kernel.instructions);
+                $body
+            }
             (_, Shapes::F64(arrays)) => with_array!(arrays, all => {
                 let $objects = InArray::<InF64, _>::new(all);
                 $body
@@ -158,12 +183,10 @@ impl<'a> SimdKernel<'a> {
     /// Traces all rays except [`RayBuffer::scalar_rays`].
     fn trace<P: TestPrecision>(&mut self, rays: &[Ray], tests: &mut dyn ExactTests) {
         let simd_tree = self.simd_tree;
-        let (half_thickness, corners) =
-            with_block_tree!(simd_tree, tree => (tree.half_thickness, &tree.corners));
         let setup = RaySetup {
             frame: &simd_tree.frame,
-            half_thickness,
-            corners,
+            half_thickness: simd_tree.half_thickness,
+            corners: &simd_tree.corners,
             forward_only: P::FORWARD_ONLY,
         };
         let mut queue = RayQueue::new(setup, rays);
@@ -224,17 +247,16 @@ impl<'a> SimdKernel<'a> {
         let (set, rays, stacks) = (self.instructions, &mut *self.rays, &mut self.stacks);
         let candidates = &mut self.candidates;
         let pool = &mut self.pool;
-        // SAFETY: as above.
-        with_block_tree!(self.simd_tree, tree => unsafe {
-            match &tree.nodes {
-                SimdNodes::Planes(_) => {
-                    compiled::stream(set, tree, rays, ahead, queue, stacks, candidates, tests);
-                }
-                SimdNodes::Boxes(nodes) => {
-                    compiled::pool(set, tree, nodes, rays, ahead, queue, pool, candidates, tests);
-                }
-            }
-        });
+        match &self.simd_tree.tree {
+            // SAFETY: as above.
+            AnyTree::Planes(by_kind) => with_tree!(by_kind, tree => unsafe {
+                compiled::stream(set, tree, rays, ahead, queue, stacks, candidates, tests);
+            }),
+            // SAFETY: as above.
+            AnyTree::Boxes(by_kind) => with_tree!(by_kind, tree => unsafe {
+                compiled::pool(set, tree, rays, ahead, queue, pool, candidates, tests);
+            }),
+        }
     }
 
     /// Traces the entering rays in `ahead` as packets. [`SimdMode::Auto`] decides by their coherence how
@@ -246,7 +268,10 @@ impl<'a> SimdKernel<'a> {
         tests: &mut dyn ExactTests,
     ) {
         let (set, rays, stack) = (self.instructions, &*self.rays, &mut self.packet_stack);
-        let coherence = with_block_tree!(self.simd_tree, tree => {
+        let AnyTree::Planes(by_kind) = &self.simd_tree.tree else {
+            unreachable!("hierarchies are traced as streams");
+        };
+        let coherence = with_tree!(by_kind, tree => {
             // SAFETY: as above.
             unsafe { compiled::packets(set, tree, rays, ahead, queue, stack, tests) }
         });

@@ -30,6 +30,8 @@ mod crossings;
 mod exact;
 mod instruction_set;
 mod kernel;
+mod leaf_pass;
+mod leaves;
 mod mode;
 mod packet;
 mod pool;

@@ -31,12 +31,14 @@ use super::queue::RayQueue;
 use super::ray::RayBuffer;
 use super::ray_packet::{Lanes, Packet, store};
 use crate::structure::simd_tree::{
-    ABOVE_EMPTY, BELOW_EMPTY, BLOCK, BlockTree, CHILD_SHIFT, LEAF, Node,
+    ABOVE_EMPTY, BELOW_EMPTY, CHILD_SHIFT, IN_PLANES, LEAF, Node, PlaneTree,
 };
 use std::ops::Range;
 
-/// Maximum number of pending candidates. A block adds up to [`BLOCK`] per ray.
+/// Maximum number of pending candidates. A ray adds up to a block, and an
+/// object up to one per lane.
 const MAX_CANDIDATES: usize = 256;
+const _: () = assert!(IN_PLANES >= WIDEST);
 
 /// A pending node: the lanes that visit it, and the intervals of their rays within its cell.
 #[derive(Clone, Copy)]
@@ -108,7 +110,7 @@ impl PendingTests<'_> {
     /// Tests all candidates if there is no room for those that another ray or object may add.
     #[inline(always)]
     fn make_room(&mut self, limits: &mut Lanes) {
-        if self.count > MAX_CANDIDATES - BLOCK {
+        if self.count > MAX_CANDIDATES - IN_PLANES {
             self.test(limits);
         }
     }
@@ -147,7 +149,7 @@ impl Coherence {
 /// As [`Simd`].
 #[inline(always)]
 pub(super) unsafe fn traverse<S: Simd, B: Block>(
-    tree: &BlockTree<B>,
+    tree: &PlaneTree<B>,
     rays: &RayBuffer,
     ahead: Range<usize>,
     queue: &mut RayQueue<'_>,
@@ -176,7 +178,7 @@ pub(super) unsafe fn traverse<S: Simd, B: Block>(
 /// Traces one packet.
 #[inline(always)]
 unsafe fn traverse_packet<S: Simd, B: Block>(
-    tree: &BlockTree<B>,
+    tree: &PlaneTree<B>,
     packet: &Packet,
     stack: &mut [PendingNode],
     pending: &mut PendingTests<'_>,
@@ -204,7 +206,7 @@ unsafe fn traverse_packet<S: Simd, B: Block>(
         enter: S::load(packet.t_enter.as_ptr()),
         exit: S::load(packet.t_exit.as_ptr()),
     };
-    let nodes = tree.nodes.planes();
+    let nodes = &*tree.nodes;
     loop {
         pending.coherence.visits += 1;
         pending.coherence.lanes += visit.lanes.count_ones();
@@ -288,7 +290,7 @@ unsafe fn traverse_packet<S: Simd, B: Block>(
 /// Tests the objects of a leaf against the rays of some lanes.
 #[inline(always)]
 unsafe fn test_leaf<S: Simd, B: Block>(
-    tree: &BlockTree<B>,
+    tree: &PlaneTree<B>,
     leaf: Node,
     mut lanes: u32,
     packet: &Packet,

@@ -8,28 +8,30 @@
 //!     start rays until the pool is full
 //!     until enough rays are at a leaf:
 //!         for each ray at an inner node:
-//!             test the boxes of its children                                    (SIMD over children)
-//!             go to the nearest child, push the others, farthest first; or pop
-//!     for each leaf reached, and each of its blocks:
-//!         candidates += objects of the block that the ray may hit               (SIMD over objects)
-//!     exact tests of the candidates; hits lower the limits of their rays
-//!     each of these rays pops a node that begins before its limit, or is done
+//!             push the children whose boxes it meets, the nearest on top        (SIMD over children)
+//!             pop a child that begins before the limit
+//!     test the leaves reached; hits lower the limits of their rays
+//!     each of these rays pops a child that begins before its limit, or is done
 //! ```
 //!
 //! A box is tested as wide as rounding may move rays and objects: the near side of each pair of faces is nearer
 //! by half the thickness, and the far side farther. With `c` = −(origin ± half thickness) / direction, a distance
 //! is `face / direction + c`, computed with one fused multiply–add. It has an error of at most 8 ε along the
 //! axis, which the thickness ([`crate::structure::SimdTree`]) covers.
+//!
+//! Where any hit suffices, a limit only falls to −1, so children are not sorted, and no child begins too late.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
 use super::arithmetic::{Eight, Simd};
 use super::block::Block;
 use super::candidate::{Candidate, ExactTests};
+use super::leaf_pass::test_leaves;
+use super::leaves::{Leaf, Leaves};
 use super::prefetch::prefetch;
 use super::queue::RayQueue;
 use super::ray::{CHUNK, CHUNKS, RayBuffer};
 use crate::structure::MAX_WIDTH;
-use crate::structure::simd_tree::{BLOCK, BlockTree, Child, WideNode, WideNodes};
+use crate::structure::simd_tree::{BoxTree, Child, WideNode};
 use std::hint::select_unpredictable;
 use std::ops::Range;
 
@@ -42,6 +44,9 @@ const ENOUGH: usize = 12;
 /// The bits of a distance that hold a child's place while children are sorted.
 const PLACE: u32 = MAX_WIDTH as u32 - 1;
 
+/// Bytes of the lower or upper faces of one axis in a [`WideNode`].
+const FACES: u32 = size_of::<[f32; MAX_WIDTH]>() as u32;
+
 /// A ray of the pool.
 #[derive(Clone, Copy, Default)]
 #[repr(C, align(64))]
@@ -50,8 +55,8 @@ struct PoolRay {
     t_enter: f32,
     /// Added to a distance from the frame's origin: for the near and the far side of faces.
     shift: [[f32; 3]; 2],
-    /// By axis, 1 if the ray points towards lower coordinates.
-    backward: [u32; 3],
+    /// By axis, the offset in bytes of the near faces in a [`WideNode`].
+    near: [u32; 3],
     /// Slot in the [`RayBuffer`].
     slot: u32,
     /// Index of the first free entry of the stack.
@@ -100,65 +105,82 @@ impl Stacks {
         (ray * self.depth + BOTTOM) as u32
     }
 
-    /// Removes the entries from the top to the first that begins before the limit, and returns that one. The
-    /// bottom is before any limit.
+    /// Pops a child of a ray, or [`Child::END`]: that on top, or the first below it that begins before the limit.
+    /// The bottom is before any limit. Where any hit suffices, a ray that is hit drops all.
     ///
     /// # Safety
-    /// As [`Simd`]; `top` is that of a stack.
+    /// As [`Simd`]; `top` is that of the ray's stack.
     #[inline(always)]
-    unsafe fn pop<N: Eight>(&self, top: &mut u32, limit: f32) -> Child {
+    unsafe fn pop<N: Eight>(&self, ray: usize, top: &mut u32, limit: f32, any_hit: bool) -> Child {
+        let mut at = *top as usize - 1;
+        if any_hit {
+            at = select_unpredictable(limit < 0.0, self.bottom(ray) as usize - 1, at);
+        } else if *self.begins.add(at) > limit {
+            // Rarely: only after a hit.
+            at = self.first_before::<N>(at, limit);
+        }
+        *top = at as u32;
+        *self.children.add(at)
+    }
+
+    /// Returns the index of the last entry below `top` that begins before the limit.
+    ///
+    /// # Safety
+    /// As above.
+    #[inline(always)]
+    unsafe fn first_before<N: Eight>(&self, top: usize, limit: f32) -> usize {
         let limit = N::splat(limit);
-        let mut at = *top as usize - MAX_WIDTH;
+        let mut at = top - MAX_WIDTH;
         loop {
             let before = N::mask_bits(N::le(N::load(self.begins.add(at)), limit));
             if before != 0 {
-                at += before.ilog2() as usize;
-                *top = at as u32;
-                return *self.children.add(at);
+                return at + before.ilog2() as usize;
             }
             at -= MAX_WIDTH;
         }
     }
 }
 
-/// Rays of the pool with a child each, in any order.
+/// Rays of the pool with a child each, in any order. Their number is kept apart, in a register.
 struct List {
     rays: [u32; 2 * RAYS],
     children: [Child; 2 * RAYS],
-    count: usize,
 }
 
 impl List {
-    fn new() -> Self {
-        List {
-            rays: [0; 2 * RAYS],
-            children: [Child::END; 2 * RAYS],
-            count: 0,
-        }
-    }
+    const EMPTY: List = List {
+        rays: [0; 2 * RAYS],
+        children: [Child::END; 2 * RAYS],
+    };
 
-    /// Appends a ray if `is_added`. Branchless: it is stored in any case.
+    /// Appends a ray if `is_added` to the list of `count` rays. Branchless: it is stored in any case.
     ///
     /// # Safety
     /// Fewer than all rays are in the list.
     #[inline(always)]
-    unsafe fn push(&mut self, is_added: bool, ray: u32, child: Child) {
-        *self.rays.get_unchecked_mut(self.count) = ray;
-        *self.children.get_unchecked_mut(self.count) = child;
-        self.count += usize::from(is_added);
+    unsafe fn push(&mut self, count: &mut usize, is_added: bool, ray: u32, child: Child) {
+        *self.rays.get_unchecked_mut(*count) = ray;
+        *self.children.get_unchecked_mut(*count) = child;
+        *count += usize::from(is_added);
+    }
+
+    /// # Safety
+    /// There are more than `k`.
+    #[inline(always)]
+    unsafe fn get(&self, k: usize) -> (u32, Child) {
+        (*self.rays.get_unchecked(k), *self.children.get_unchecked(k))
     }
 }
 
 /// Traces rays through a hierarchy: first the entering rays in `ahead`, then those of the queue as chunks
-/// become free. `S` are the vectors of objects, `N` those of boxes.
+/// become free. `S` are the vectors of rays, `N` those of boxes and objects.
 ///
 /// # Safety
 /// As [`Simd`].
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 pub(super) unsafe fn traverse<S: Simd, N: Eight, B: Block>(
-    tree: &BlockTree<B>,
-    wide: &WideNodes,
+    tree: &BoxTree<B>,
     rays: &mut RayBuffer,
     mut ahead: Range<usize>,
     queue: &mut RayQueue<'_>,
@@ -166,25 +188,27 @@ pub(super) unsafe fn traverse<S: Simd, N: Eight, B: Block>(
     candidates: &mut Vec<Candidate>,
     tests: &mut dyn ExactTests,
 ) {
-    const { assert!(N::LANES == MAX_WIDTH) };
+    const { assert!(N::LANES == MAX_WIDTH && B::PLACES == MAX_WIDTH) };
     let stacks = Stacks::new(pool, tree.max_pending);
-    let (nodes, blocks) = (wide.nodes.as_ptr(), tree.blocks.as_ptr());
+    let (nodes, blocks) = (tree.nodes.nodes.as_ptr(), tree.blocks.as_ptr());
     let any_hit = tests.any_hit_suffices();
+    candidates.resize(RAYS * B::PLACES, Candidate::default());
+    let mut reached = Leaves::<RAYS>::new();
     let mut flights = [PoolRay::default(); RAYS];
     let mut limits = [-1.0_f32; RAYS];
-    let mut free = List::new();
-    for k in 0..RAYS {
-        free.push(true, k as u32, Child::END);
-    }
-    let (mut moving, mut leaves, mut reached) = (List::new(), List::new(), List::new());
+    let mut free: [u32; RAYS] = std::array::from_fn(|k| k as u32);
+    let mut free_count = RAYS;
+    // Rays at a node, and rays at a leaf.
+    let (mut moving, mut leaves) = (List::EMPTY, List::EMPTY);
+    let (mut moving_count, mut leaf_count) = (0, 0);
     loop {
         // Start rays.
-        while free.count > 0 {
+        while free_count > 0 {
             if ahead.is_empty() {
                 if queue.is_empty() {
                     break;
                 }
-                let Some(chunk) = free_chunk(&flights, &free.rays[..free.count]) else {
+                let Some(chunk) = free_chunk(&flights, &free[..free_count]) else {
                     break;
                 };
                 rays.entering.keep_from(ahead.start);
@@ -192,102 +216,80 @@ pub(super) unsafe fn traverse<S: Simd, N: Eight, B: Block>(
                 ahead = 0..rays.entering.count;
                 continue;
             }
-            free.count -= 1;
-            let k = *free.rays.get_unchecked(free.count);
+            free_count -= 1;
+            let k = *free.get_unchecked(free_count);
             let entry = ahead.start;
             ahead.start += 1;
             *flights.get_unchecked_mut(k as usize) =
                 PoolRay::new(rays, entry, stacks.bottom(k as usize));
             *limits.get_unchecked_mut(k as usize) = *rays.entering.t_exit.get_unchecked(entry);
-            moving.push(true, k, Child::default());
+            moving.push(&mut moving_count, true, k, Child::default());
             queue.prefetch(1);
         }
         // Step until enough rays are at a leaf.
-        while moving.count > 0 && leaves.count < ENOUGH {
-            let count = std::mem::take(&mut moving.count);
+        while moving_count > 0 && leaf_count < ENOUGH {
+            let count = std::mem::take(&mut moving_count);
             for i in 0..count {
-                let k = *moving.rays.get_unchecked(i);
-                let at = moving.children.get_unchecked(i).index();
+                let (k, node) = moving.get(i);
                 let ray = flights.get_unchecked_mut(k as usize);
                 let limit = *limits.get_unchecked(k as usize);
-                let next = step::<N>(&*nodes.add(at), ray, &stacks, limit);
-                place(next, k, (nodes, blocks), &mut moving, &mut leaves);
+                push::<N>(&*nodes.add(node.index()), ray, &stacks, limit, any_hit);
+                let next = stacks.pop::<N>(k as usize, &mut ray.top, limit, any_hit);
+                prefetch_child(next, nodes, blocks);
+                moving.push(&mut moving_count, !next.is_leaf(), k, next);
+                leaves.push(&mut leaf_count, next.is_leaf(), k, next);
             }
         }
-        if leaves.count == 0 {
-            if free.count == RAYS && ahead.is_empty() && queue.is_empty() {
+        if leaf_count == 0 {
+            if free_count == RAYS && ahead.is_empty() && queue.is_empty() {
                 return;
             }
             continue;
         }
         // Rays at the bottom of their stack are done.
-        let count = std::mem::take(&mut leaves.count);
-        reached.count = 0;
-        for i in 0..count {
-            let (k, leaf) = (leaves.rays[i], leaves.children[i]);
-            prefetch(blocks.wrapping_add(leaf.index()));
+        let mut waiting = 0;
+        for i in 0..std::mem::take(&mut leaf_count) {
+            let (k, leaf) = leaves.get(i);
             let is_end = leaf == Child::END;
-            free.push(is_end, k, leaf);
-            reached.push(!is_end, k, leaf);
+            *free.get_unchecked_mut(free_count) = k;
+            free_count += usize::from(is_end);
+            prefetch(blocks.wrapping_add(leaf.index()));
+            let at = Leaf {
+                lane: k,
+                block: leaf.index() as u32,
+                left: tree.nodes.blocks(leaf) as u32,
+            };
+            reached.push_one(!is_end, at);
+            leaves.push(&mut waiting, !is_end, k, leaf);
         }
-        // Test leaves.
-        let count = reached.count;
-        candidates.clear();
-        for i in 0..count {
-            let k = *reached.rays.get_unchecked(i);
-            let leaf = *reached.children.get_unchecked(i);
-            let slot = flights.get_unchecked(k as usize).slot;
-            let limit = limits.get_unchecked_mut(k as usize);
-            for block in leaf.index()..leaf.index() + wide.blocks(leaf) {
-                let objects = &*blocks.add(block);
-                let masks = objects.candidates::<S>(rays, slot as usize, *limit, any_hit);
-                if masks.certain != 0 {
-                    tests.mark_hit(rays, &[slot]);
-                    *limit = -1.0;
-                    break;
-                }
-                let mut possible = masks.possible;
-                while possible != 0 {
-                    let place = possible.trailing_zeros() % BLOCK as u32;
-                    possible &= possible - 1;
-                    candidates.push(Candidate {
-                        lane: k,
-                        ray: slot,
-                        block: block as u32,
-                        place,
-                        object: *objects.objects().get_unchecked(place as usize),
-                    });
-                }
-            }
-        }
-        if !candidates.is_empty() {
-            tests.test(rays, candidates, &mut limits);
-        }
-        for i in 0..count {
-            let k = *reached.rays.get_unchecked(i);
+        test_leaves::<N, B, RAYS>(
+            &mut reached,
+            &tree.blocks,
+            rays,
+            |k| flights.get_unchecked(k).slot,
+            &mut limits,
+            candidates,
+            tests,
+        );
+        for i in 0..waiting {
+            let (k, _) = leaves.get(i);
             let ray = flights.get_unchecked_mut(k as usize);
             let limit = *limits.get_unchecked(k as usize);
-            let next = stacks.pop::<N>(&mut ray.top, limit);
-            place(next, k, (nodes, blocks), &mut moving, &mut leaves);
+            let next = stacks.pop::<N>(k as usize, &mut ray.top, limit, any_hit);
+            prefetch_child(next, nodes, blocks);
+            moving.push(&mut moving_count, !next.is_leaf(), k, next);
+            leaves.push(&mut leaf_count, next.is_leaf(), k, next);
         }
     }
 }
 
-/// Appends a ray to the list of those at a node or of those at a leaf, and prefetches the node or the beginning
-/// of the leaf's first block. Branchless: nodes and leaves follow each other without a pattern.
+/// Prefetches a node, or the beginning of a leaf's first block. Branchless: nodes and leaves follow each other
+/// without a pattern.
 #[inline(always)]
-unsafe fn place<B>(
-    next: Child,
-    ray: u32,
-    (nodes, blocks): (*const WideNode, *const B),
-    moving: &mut List,
-    leaves: &mut List,
-) {
-    let node = nodes.wrapping_add(next.index());
-    let block = blocks.wrapping_add(next.index()).cast();
-    prefetch(select_unpredictable(next.is_leaf(), block, node));
-    moving.push(!next.is_leaf(), ray, next);
-    leaves.push(next.is_leaf(), ray, next);
+unsafe fn prefetch_child<B>(child: Child, nodes: *const WideNode, blocks: *const B) {
+    let node = nodes.wrapping_add(child.index());
+    let block = blocks.wrapping_add(child.index()).cast();
+    prefetch(select_unpredictable(child.is_leaf(), block, node));
 }
 
 impl PoolRay {
@@ -308,35 +310,43 @@ impl PoolRay {
             ray.inverse[k] = inverse;
             ray.shift[0][k] = near;
             ray.shift[1][k] = near + thickness * inverse.abs();
-            ray.backward[k] = u32::from(inverse.is_sign_negative());
+            ray.near[k] = (2 * k as u32 + u32::from(inverse.is_sign_negative())) * FACES;
         }
         ray
     }
 }
 
-/// Tests the children of a node. Pushes those that the ray meets before its limit, the nearest on top, and pops
-/// one.
+/// Tests the children of a node, and pushes those that the ray meets before its limit, the nearest on top. Where
+/// any hit suffices, their order does not matter.
 ///
 /// Children are sorted by the distances where their boxes begin, with the child's place in the lowest bits.
 /// Rounded down again, such a distance still is a lower bound.
 #[inline(always)]
-unsafe fn step<N: Eight>(node: &WideNode, ray: &mut PoolRay, stacks: &Stacks, limit: f32) -> Child {
+unsafe fn push<N: Eight>(
+    node: &WideNode,
+    ray: &mut PoolRay,
+    stacks: &Stacks,
+    limit: f32,
+    any_hit: bool,
+) {
+    let faces = node.faces.as_flattened().as_flattened().as_ptr();
     let (mut enter, mut exit) = (N::splat(ray.t_enter), N::splat(limit));
     for k in 0..3 {
         let inverse = N::splat(ray.inverse[k]);
-        let face = |side: u32| {
-            let side = (side ^ ray.backward[k]) as usize;
-            N::load(node.corners.get_unchecked(side).get_unchecked(k).as_ptr())
-        };
-        let near = N::mul_add(face(0), inverse, N::splat(ray.shift[0][k]));
-        let far = N::mul_add(face(1), inverse, N::splat(ray.shift[1][k]));
+        let at = ray.near[k] as usize;
+        let [near, far] = [at, at ^ FACES as usize].map(|at| N::load(faces.byte_add(at)));
+        let near = N::mul_add(near, inverse, N::splat(ray.shift[0][k]));
+        let far = N::mul_add(far, inverse, N::splat(ray.shift[1][k]));
         enter = N::max(near, enter);
         exit = N::min(far, exit);
     }
     let is_met = N::le(enter, exit);
-    let met = N::mask_bits(is_met).count_ones();
-    if met == 0 {
-        return stacks.pop::<N>(&mut ray.top, limit);
+    let children = N::load_u(node.children.as_ptr().cast());
+    let top = ray.top as usize;
+    ray.top += N::mask_bits(is_met).count_ones();
+    if any_hit {
+        N::compress_store(stacks.children.add(top).cast(), is_met, children);
+        return;
     }
     let place = N::splat_u(PLACE);
     let begins = N::and_not_u(N::bits_of(enter), place);
@@ -344,15 +354,11 @@ unsafe fn step<N: Eight>(node: &WideNode, ray: &mut PoolRay, stacks: &Stacks, li
     // The missed ones come last.
     let keys = N::select(is_met, keys, N::splat(f32::NEG_INFINITY));
     let sorted = N::bits_of(N::sort_descending(keys));
-    let children = N::load_u(node.children.as_ptr().cast());
-    let top = ray.top as usize;
     N::store_u(stacks.begins.add(top).cast(), N::and_not_u(sorted, place));
     N::store_u(
         stacks.children.add(top).cast(),
         N::permute_u(children, sorted),
     );
-    ray.top = (top as u32) + met - 1;
-    *stacks.children.add(ray.top as usize)
 }
 
 const PLACES: [u32; MAX_WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7];

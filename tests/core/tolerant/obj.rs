@@ -81,6 +81,11 @@ fn bad_normals_of_obj_never_refuse_a_face() {
         };
         assert!(triangle.normals.is_none());
     }
+    // Normals of a polygon: those that cannot be read split it, those that are not there do not.
+    let bad = format!("{CORNERS}vn nan nan nan\nf 1//1 2//1 3//1 4//1\n");
+    check("obj", &bad, 2, infinite);
+    let missing = format!("{CORNERS}f 1//1 2//1 3//1 4//1\n");
+    check("obj", &missing, 1, "index of a normal that is not defined");
     // The other vertices keep their normals.
     let text = format!("{CORNERS}vn 0 1 0\nf 1//1 2//7 3//1\n");
     let parts = check("obj", &text, 1, "index of a normal");

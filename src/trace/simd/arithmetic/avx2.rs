@@ -10,6 +10,15 @@ pub(crate) struct Avx2;
 /// Only the highest bit of each lane is significant.
 type Mask = __m256i;
 
+/// Returns the vector, and hides where it comes from. Otherwise the compiler turns "load, select, store" into a
+/// masked store, which Zen 2 and Zen 3 execute as microcode.
+#[target_feature(enable = "avx")]
+#[inline]
+unsafe fn opaque(mut x: __m256i) -> __m256i {
+    std::arch::asm!("/* {0} */", inout(ymm_reg) x, options(pure, nomem, nostack, preserves_flags));
+    x
+}
+
 /// Returns the lanes as indices, extracting two at a time.
 #[inline(always)]
 unsafe fn indices(at: __m256i) -> [usize; 8] {
@@ -286,7 +295,7 @@ impl Simd for Avx2 {
         let ranks = _mm_loadl_epi64(RANKS[Self::mask_bits(mask) as usize].as_ptr().cast());
         let packed = _mm256_loadu_si256(from.cast());
         let spread = _mm256_permutevar8x32_epi32(packed, _mm256_cvtepu8_epi32(ranks));
-        Self::select_u(mask, spread, x)
+        opaque(Self::select_u(mask, spread, x))
     }
 
     #[inline(always)]

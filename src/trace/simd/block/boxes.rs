@@ -2,12 +2,12 @@
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
 use super::interface::{Block, HitInterval, HitMasks, T_ERROR, each_vector};
-use crate::structure::simd_tree::{BLOCK, Boxes, NONE};
+use crate::structure::simd_tree::{Boxes, NONE};
 use crate::trace::simd::arithmetic::Simd;
 use crate::trace::simd::ray::RayBuffer;
 use crate::trace::simd::ray_packet::{Lanes, Packet};
 
-impl Block for Boxes {
+impl<const N: usize> Block for Boxes<N> {
     /// Tests slabs; faces are as thick as the planes of the tree.
     #[inline(always)]
     unsafe fn candidates<S: Simd>(

@@ -2,7 +2,7 @@
 //! ray may hit in spite of rounding to `f32`. These few candidates then get the exact test.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use crate::structure::simd_tree::{BLOCK, BlockData, NONE};
+use crate::structure::simd_tree::{BlockData, NONE};
 use crate::trace::simd::arithmetic::Simd;
 use crate::trace::simd::ray::{RayBuffer, SimdRay};
 use crate::trace::simd::ray_packet::{Bundle, Packet};
@@ -13,7 +13,7 @@ macro_rules! each_vector {
     ($simd:ident, $objects:expr, $at:ident => $body:expr) => {{
         let mut found = HitMasks::default();
         let mut $at = 0;
-        while $at < BLOCK && ($at == 0 || $objects[$at] != NONE) {
+        while $at < $objects.len() && ($at == 0 || $objects[$at] != NONE) {
             let masks: HitMasks = $body;
             found.possible |= masks.possible << $at;
             found.certain |= masks.certain << $at;

@@ -2,7 +2,7 @@
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
 use super::interface::{Block, HitInterval, HitMasks, dot, each_vector, splat3};
-use crate::structure::simd_tree::{BLOCK, NONE, Spheres};
+use crate::structure::simd_tree::{NONE, Spheres};
 use crate::trace::simd::arithmetic::Simd;
 use crate::trace::simd::array::three;
 use crate::trace::simd::ray::RayBuffer;
@@ -12,7 +12,7 @@ use crate::trace::simd::ray_packet::{Lanes, Packet};
 /// of [`crate::primitive::PackedSphere`].
 const OFFSET_ERROR: f32 = 96.0 * f32::EPSILON;
 
-impl Block for Spheres {
+impl<const N: usize> Block for Spheres<N> {
     #[inline(always)]
     unsafe fn candidates<S: Simd>(
         &self,

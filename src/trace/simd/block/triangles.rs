@@ -2,7 +2,7 @@
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
 use super::interface::{Block, HitInterval, HitMasks, each_vector, splat3};
-use crate::structure::simd_tree::{BLOCK, NONE, Triangles};
+use crate::structure::simd_tree::{NONE, Triangles};
 use crate::trace::simd::arithmetic::Simd;
 use crate::trace::simd::array::three;
 use crate::trace::simd::ray::RayBuffer;
@@ -16,7 +16,7 @@ use crate::trace::simd::ray_packet::{Lanes, Packet};
 /// errors times the size.
 const EDGE_ERROR: f32 = 48.0 * f32::EPSILON;
 
-impl Block for Triangles {
+impl<const N: usize> Block for Triangles<N> {
     #[inline(always)]
     unsafe fn candidates<S: Simd>(
         &self,
@@ -40,7 +40,7 @@ impl Block for Triangles {
                 let v = self.vertices.get_unchecked(i);
                 three(|k| S::load(v.get_unchecked(axes[k]).as_ptr().add(at)))
             };
-            test.hits([vertex(0), vertex(1), vertex(2)], any_hit)
+            test.hits([vertex(0), vertex(1), vertex(2)], any_hit, S::LANES < N)
         })
     }
 
@@ -80,7 +80,7 @@ impl Block for Triangles {
             let v = self.vertices.get_unchecked(i);
             three(|k| S::splat(*v.get_unchecked(axes[k]).get_unchecked(place)))
         };
-        test.hits([vertex(0), vertex(1), vertex(2)], any_hit)
+        test.hits([vertex(0), vertex(1), vertex(2)], any_hit, S::LANES < N)
     }
 }
 
@@ -115,8 +115,10 @@ impl<S: Simd> TriangleTest<S> {
     /// Σ (e − E) (z − t), which is at most 3 `error` times the span of the z. Limits are compared with
     /// t Σ e, which saves the division. The span is widened by what summation rounds where Σ e is small
     /// compared with `error`.
+    ///
+    /// `is_part` tells whether a block has more triangles than a vector.
     #[inline(always)]
-    unsafe fn hits(&self, [a, b, c]: [[S::F; 3]; 3], any_hit: bool) -> HitMasks {
+    unsafe fn hits(&self, [a, b, c]: [[S::F; 3]; 3], any_hit: bool, is_part: bool) -> HitMasks {
         let zero = S::splat(0.0);
         let HitInterval {
             nearest,
@@ -139,7 +141,7 @@ impl<S: Simd> TriangleTest<S> {
         let sum = S::add(S::add(u, v), w);
         let scale = S::abs(sum);
         // Half a block often has no candidate. For a whole block this branch would mispredict.
-        if S::LANES < BLOCK && S::mask_bits(S::and_not(S::le(zero, scale), missed)) == 0 {
+        if is_part && S::mask_bits(S::and_not(S::le(zero, scale), missed)) == 0 {
             return HitMasks::default();
         }
         let first = S::min(S::min(a[2], b[2]), c[2]);
@@ -171,7 +173,7 @@ impl<S: Simd> TriangleTest<S> {
     }
 }
 
-impl Triangles {
+impl<const N: usize> Triangles<N> {
     /// Returns the vertices of the triangle in a place, with their coordinates along these axes.
     #[inline(always)]
     pub(crate) fn vertices(&self, place: usize, axes: [usize; 3]) -> [[f32; 3]; 3] {

@@ -1,6 +1,5 @@
 //! Streams: every lane traverses the tree with a ray of its own.
 
-mod leaves;
 mod stacks;
 mod traversal;
 

@@ -21,27 +21,16 @@
 //! ```
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use super::leaves::{Leaf, Leaves};
 use super::stacks::{PushBuffer, Stacks};
-use crate::structure::simd_tree::{ABOVE_EMPTY, BELOW_EMPTY, BLOCK, BlockTree, CHILD_SHIFT, LEAF};
+use crate::structure::simd_tree::{ABOVE_EMPTY, BELOW_EMPTY, CHILD_SHIFT, LEAF, PlaneTree};
 use crate::trace::simd::arithmetic::{Simd, WIDEST};
 use crate::trace::simd::block::Block;
 use crate::trace::simd::candidate::{Candidate, ExactTests};
-use crate::trace::simd::prefetch::prefetch;
+use crate::trace::simd::leaf_pass::test_leaves;
+use crate::trace::simd::leaves::Leaves;
 use crate::trace::simd::queue::RayQueue;
 use crate::trace::simd::ray::{CHUNK, CHUNKS, Column, RayBuffer};
-use std::hint::select_unpredictable;
 use std::ops::Range;
-
-/// The objects of a block that the ray in a lane may hit.
-#[derive(Clone, Copy, Default)]
-struct Match {
-    lane: u32,
-    ray: u32,
-    block: u32,
-    /// Mask of the objects.
-    possible: u32,
-}
 
 /// Maximum number of groups.
 const MAX_GROUPS: usize = 5;
@@ -138,7 +127,7 @@ unsafe fn by_axis<S: Simd>(values: &[[f32; WIDEST]; 3], is_1: S::M, is_2: S::M) 
 /// As [`Simd`].
 #[inline(always)]
 pub(crate) unsafe fn traverse<S: Simd, B: Block, const GROUPS: usize>(
-    tree: &BlockTree<B>,
+    tree: &PlaneTree<B>,
     rays: &mut RayBuffer,
     mut ahead: Range<usize>,
     queue: &mut RayQueue<'_>,
@@ -169,60 +158,25 @@ pub(crate) unsafe fn traverse<S: Simd, B: Block, const GROUPS: usize>(
         each_group!(GROUPS, J => states[J].alive = all);
     }
     let mut limits = [[-1.0_f32; WIDEST]; GROUPS];
-    candidates.resize(GROUPS * S::LANES * BLOCK, Candidate::default());
+    candidates.resize(GROUPS * S::LANES * B::PLACES, Candidate::default());
     let mut leaves = Leaves::new();
-    let mut matches = [Match::default(); LEAVES];
-    let mut certain = [0_u32; LEAVES];
-    let any_hit = tests.any_hit_suffices();
     // Leaves are processed once this many lanes idle.
     let enough = (GROUPS * S::LANES * 5 / 8) as u32;
 
     loop {
         leaves.prefetch_all(tree.blocks.as_ptr());
-        // One block of every leaf, then the next block of those that have more.
-        while leaves.len() > 0 {
-            let (mut matched, mut certain_count, mut remaining) = (0, 0, 0);
-            for k in 0..leaves.len() {
-                let leaf = leaves.get(k);
-                let (j, lane) = (leaf.lane as usize / WIDEST, leaf.lane as usize % WIDEST);
-                let group = groups.get_unchecked(j);
-                let ray = *group.ray.get_unchecked(lane);
-                let block = tree.blocks.get_unchecked(leaf.block as usize);
-                let limit = limits.get_unchecked_mut(j).get_unchecked_mut(lane);
-                // Branchless: whether the leaf has another block is unpredictable.
-                let next = leaf.block as usize + usize::from(leaf.left > 1);
-                prefetch(tree.blocks.as_ptr().add(next));
-                let masks = block.candidates::<S>(rays, ray as usize, *limit, any_hit);
-                let is_certain = masks.certain != 0;
-                // Branchless, by storing always and counting where it holds: a branch depends on the
-                // test of the block, and mispredicted it discards the work on all blocks behind it.
-                *certain.get_unchecked_mut(certain_count) = ray;
-                *limit = select_unpredictable(is_certain, -1.0, *limit);
-                certain_count += usize::from(is_certain);
-                *matches.get_unchecked_mut(matched) = Match {
-                    lane: leaf.lane,
-                    ray,
-                    block: leaf.block,
-                    possible: masks.possible,
-                };
-                matched += usize::from((masks.possible != 0) & !is_certain);
-                let rest = Leaf {
-                    block: leaf.block + 1,
-                    left: leaf.left - 1,
-                    ..leaf
-                };
-                leaves.set(remaining, rest);
-                remaining += usize::from((rest.left > 0) & !is_certain);
-            }
-            if certain_count > 0 {
-                tests.mark_hit(rays, &certain[..certain_count]);
-            }
-            let found = list_candidates(&matches[..matched], &tree.blocks, candidates);
-            if found > 0 {
-                tests.test(rays, &candidates[..found], limits.as_flattened_mut());
-            }
-            leaves.truncate(remaining);
-        }
+        test_leaves::<S, B, LEAVES>(
+            &mut leaves,
+            &tree.blocks,
+            rays,
+            |lane| {
+                let group = groups.get_unchecked(lane / WIDEST);
+                *group.ray.get_unchecked(lane % WIDEST)
+            },
+            limits.as_flattened_mut(),
+            candidates,
+            tests,
+        );
         stacks.flush(&mut pushes);
         while ahead.len() < GROUPS * S::LANES && !queue.is_empty() {
             let Some(chunk) = free_chunk(rays, ahead.clone(), &states, &groups) else {
@@ -249,13 +203,15 @@ pub(crate) unsafe fn traverse<S: Simd, B: Block, const GROUPS: usize>(
         // With few rays left, all lanes idle.
         let min_moving = alive.saturating_sub(enough);
         // The next nodes of a group are loaded while the others step.
-        let nodes = tree.nodes.planes().as_ptr().cast();
+        let nodes = tree.nodes.as_ptr().cast();
+        let objects = (&*tree.blocks, S::splat(2.0 * rays.half_thickness));
         let mut fetched = [(S::splat_u(0), S::splat_u(0)); GROUPS];
         each_group!(GROUPS, J => fetched[J] = S::gather_pairs(nodes, states[J].node));
         loop {
             each_group!(GROUPS, J => {
                 let lanes = S::load_u(LANE_INDICES[J].as_ptr());
-                step(&mut states[J], &groups[J], lanes, fetched[J], &mut pushes, &mut leaves, tree);
+                let (state, group) = (&mut states[J], &groups[J]);
+                step(state, group, lanes, fetched[J], &mut pushes, &mut leaves, objects);
                 fetched[J] = S::gather_pairs(nodes, states[J].node);
             });
             let mut moving = 0;
@@ -267,44 +223,6 @@ pub(crate) unsafe fn traverse<S: Simd, B: Block, const GROUPS: usize>(
             }
         }
     }
-}
-
-/// Lists the candidates of matches and returns their number.
-///
-/// # Safety
-/// There is room for them, and every match has one.
-#[inline(always)]
-unsafe fn list_candidates<B: Block>(
-    matches: &[Match],
-    blocks: &[B],
-    candidates: &mut [Candidate],
-) -> usize {
-    let mut found = 0;
-    for &Match {
-        lane,
-        ray,
-        block,
-        mut possible,
-    } in matches
-    {
-        let objects = blocks.get_unchecked(block as usize).objects();
-        loop {
-            let place = possible.trailing_zeros() % BLOCK as u32;
-            *candidates.get_unchecked_mut(found) = Candidate {
-                lane,
-                ray,
-                block,
-                place,
-                object: *objects.get_unchecked(place as usize),
-            };
-            found += 1;
-            possible &= possible.wrapping_sub(1);
-            if possible == 0 {
-                break;
-            }
-        }
-    }
-    found
 }
 
 /// Returns a chunk none of whose rays is in a lane or ahead.
@@ -425,7 +343,7 @@ unsafe fn step<S: Simd, B: Block>(
     (payload, word): (S::U, S::U),
     pushes: &mut PushBuffer,
     leaves: &mut Leaves<LEAVES>,
-    tree: &BlockTree<B>,
+    (blocks, thickness): (&[B], S::F),
 ) {
     let one = S::splat_u(1);
     let (is_1, is_2) = (S::test_bit_u::<0>(word), S::test_bit_u::<1>(word));
@@ -433,12 +351,12 @@ unsafe fn step<S: Simd, B: Block>(
     state.active = S::and_not(state.active, at_leaf);
     let full = S::and_not(at_leaf, S::eq_u(word, S::splat_u(LEAF)));
     leaves.push::<S>(full, lanes, payload, S::shr_u::<2>(word));
-    leaves.prefetch_next(tree.blocks.as_ptr());
+    leaves.prefetch_next(blocks.as_ptr());
     let active = state.active;
     let shifted = by_axis::<S>(&group.shifted, is_1, is_2);
     let inverse = by_axis::<S>(&group.inverse, is_1, is_2);
     let begins = S::mul(S::sub(S::from_bits(payload), shifted), inverse);
-    let ends = S::mul_add(S::abs(inverse), S::splat(2.0 * tree.half_thickness), begins);
+    let ends = S::mul_add(S::abs(inverse), thickness, begins);
     let backward = S::shr_u::<31>(S::bits_of(inverse));
     let near = S::add_u(S::shr_u::<CHILD_SHIFT>(word), backward);
     let far = S::xor_u(near, one);

@@ -1,8 +1,8 @@
 //! The queue of leaves that lanes have reached.
 #![allow(unsafe_op_in_unsafe_fn)] // the contract of `Simd` covers every line
 
-use crate::trace::simd::arithmetic::Simd;
-use crate::trace::simd::prefetch::prefetch;
+use super::arithmetic::Simd;
+use super::prefetch::prefetch;
 
 /// A leaf whose blocks remain to be tested against a lane's ray.
 #[derive(Clone, Copy)]
@@ -54,6 +54,16 @@ impl<const N: usize> Leaves<N> {
         self.count += S::mask_bits(mask).count_ones() as usize;
     }
 
+    /// Appends a leaf if `is_added`. Branchless: it is stored in any case.
+    ///
+    /// # Safety
+    /// A lane has at most one leaf in the queue.
+    #[inline(always)]
+    pub(super) unsafe fn push_one(&mut self, is_added: bool, leaf: Leaf) {
+        self.set(self.count, leaf);
+        self.count += usize::from(is_added);
+    }
+
     /// Prefetches the block of the next leaf. Branchless: where all leaves are prefetched it prefetches
     /// some block again.
     ///
@@ -88,7 +98,7 @@ impl<const N: usize> Leaves<N> {
         }
     }
 
-    /// Replaces a leaf.
+    /// Replaces a leaf, or writes one behind the last.
     ///
     /// # Safety
     /// As above.
