@@ -1,4 +1,7 @@
-//! Everything that a setup asks for: the scene, its tree, the picture with its time, and the counts.
+//! Everything that a setup asks for: the scene, its tree, the picture, the counts, and the time.
+//!
+//! The picture is rendered by the fastest kernel, because all kernels find the same hits. The time is that of the
+//! chosen kernel, which is measured once the picture and the counts are there.
 
 use super::build::Build;
 use super::cache::{Cache, Finished};
@@ -15,7 +18,8 @@ use crate::scene::Scene;
 use crate::setup::Setup;
 use crate::structure::Tree;
 use crate::trace::{
-    Picture, RenderError, RenderSettings, TILE, Tile, TimedRender, preview, render_timed,
+    KernelChoice, Picture, RenderError, RenderSettings, TILE, Tile, TimedRender, preview,
+    render_timed,
 };
 use rayon::ThreadPool;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -54,6 +58,8 @@ pub enum Stage {
     Previewing,
     Rendering,
     Counting,
+    /// Measures the time of the chosen kernel.
+    Timing,
     /// Renders this sample, of so many.
     Refining(u32, u32),
 }
@@ -87,8 +93,8 @@ pub enum Update {
         sample: u32,
         colors: Vec<Vec3>,
     },
-    /// What every pixel cost. Comes right before the complete figures, or with a finished picture
-    /// right after it, except for pictures of more than
+    /// What every pixel cost. Comes right before the final counts, or with a finished picture right
+    /// after it, except for pictures of more than
     /// [`PIXEL_COUNTS_LIMIT`](crate::measure::heat::PIXEL_COUNTS_LIMIT) pixels.
     PixelCounts(Arc<PixelCounts>),
     /// More is known. Figures are provisional until `complete`.
@@ -208,12 +214,20 @@ impl Answer<'_> {
         self.show(finished.picture, last, &measurement);
         self.context
             .send(Update::PixelCounts(finished.pixel_counts));
-        measurement.rendering = Some(self.render_first_sample(|_, _| ())?);
+        measurement.rendering = Some(self.time(|_, _| ())?);
         self.complete(measurement);
         Ok(())
     }
 
-    /// Renders the picture, measures its time and counts what it costs. Returns what can be reused;
+    /// Returns the settings with the kernel that renders pictures.
+    fn fastest(&self) -> RenderSettings {
+        RenderSettings {
+            kernel: KernelChoice::Auto,
+            ..self.setup.render
+        }
+    }
+
+    /// Renders the picture, counts what it costs and measures the time. Returns what can be reused;
     /// `None` if the picture has too many pixels for that.
     fn render(&self) -> Result<Option<Finished>, JobError> {
         let context = self.context;
@@ -234,7 +248,15 @@ impl Answer<'_> {
                 });
             }
         };
-        measurement.rendering = Some(self.render_first_sample(add(0))?);
+        // The fastest kernel is timed while it renders the picture.
+        let is_timed = *render == self.fastest();
+        if is_timed {
+            measurement.rendering = Some(self.time(add(0))?);
+        } else {
+            self.stage(Stage::Rendering);
+            context.stage("rendering");
+            context.unit(|progress| self.render_sample(&self.fastest(), 0, progress, add(0)))?;
+        }
         let CountedPixels {
             mut measurement,
             pixels,
@@ -245,12 +267,21 @@ impl Answer<'_> {
         if let Some(counts) = &pixel_counts {
             context.send(Update::PixelCounts(Arc::clone(counts)));
         }
+        if !is_timed {
+            context.send(Update::Measured {
+                measurement: Box::new(measurement.clone()),
+                complete: false,
+            });
+            measurement.rendering = Some(self.time(|_, _| ())?);
+        }
         self.complete(measurement);
 
         for sample in 1..render.samples {
             self.stage(Stage::Refining(sample, render.samples));
             context.stage(format!("sample {} of {}", sample + 1, render.samples));
-            context.unit(|progress| self.render_sample(sample, progress, add(sample)))?;
+            let settings = self.fastest();
+            context
+                .unit(|progress| self.render_sample(&settings, sample, progress, add(sample)))?;
         }
         let picture = picture.into_inner();
         Ok(pixel_counts.map(|pixel_counts| Finished {
@@ -262,7 +293,7 @@ impl Answer<'_> {
     }
 
     fn preview(&self) -> Result<Picture, JobError> {
-        let (scene, tree, render) = (&self.scene, &self.tree, &self.setup.render);
+        let (scene, tree, render) = (&self.scene, &self.tree, &self.fastest());
         self.stage(Stage::Previewing);
         self.context.stage("first picture");
         self.context.unit(|progress| {
@@ -275,23 +306,27 @@ impl Answer<'_> {
         })
     }
 
-    fn render_first_sample(
+    /// Renders the first sample with the chosen kernel, and measures the time.
+    fn time(
         &self,
         on_tile: impl Fn(&Tile, &[Vec3]) + Sync + Copy,
     ) -> Result<TimedRender, JobError> {
-        self.stage(Stage::Rendering);
-        self.context.stage("rendering (timed)");
+        self.stage(Stage::Timing);
+        let kernel = &self.setup.render.kernel;
         self.context
-            .timed(|progress| self.render_sample(0, progress, on_tile))
+            .stage(format!("timing the {} kernel", kernel.name()));
+        self.context
+            .timed(|progress| self.render_sample(&self.setup.render, 0, progress, on_tile))
     }
 
     fn render_sample(
         &self,
+        render: &RenderSettings,
         sample: u32,
         progress: &Progress,
         on_tile: impl Fn(&Tile, &[Vec3]) + Sync,
     ) -> Result<TimedRender, RenderError> {
-        let (scene, tree, render) = (&self.scene, &self.tree, &self.setup.render);
+        let (scene, tree) = (&self.scene, &self.tree);
         render_timed(scene, tree, render, sample, &self.pool, progress, on_tile)
     }
 

@@ -89,6 +89,7 @@ fn a_request_goes_from_picture_to_complete_figures() {
             Stage::Previewing,
             Stage::Rendering,
             Stage::Counting,
+            Stage::Timing,
             Stage::Refining(1, 2)
         ]
     );
@@ -116,7 +117,10 @@ fn a_request_goes_from_picture_to_complete_figures() {
         .iter()
         .zip(&updates[1..])
         .filter_map(|(update, next)| match (update, next) {
-            (Update::PixelCounts(counts), Update::Measured { complete: true, .. }) => Some(counts),
+            (Update::PixelCounts(counts), Update::Measured { measurement, .. }) => {
+                assert_eq!(measurement.counted, complete[0].counted, "the final counts");
+                Some(counts)
+            }
             (Update::PixelCounts(_), next) => panic!("counts of pixels before {next:?}"),
             _ => None,
         })
@@ -157,6 +161,7 @@ fn a_change_of_a_setting_redoes_exactly_what_the_setting_affects() {
         Stage::Previewing,
         Stage::Rendering,
         Stage::Counting,
+        Stage::Timing,
     ];
     let mut tried = Vec::new();
     for (setting, plain, changed) in crate::settings::changed() {
@@ -182,7 +187,7 @@ fn a_change_of_a_setting_redoes_exactly_what_the_setting_affects() {
             Affects::Scene => &all,
             Affects::Structure => &all[1..],
             Affects::Image => &all[2..],
-            Affects::Time => &[Stage::Rendering],
+            Affects::Time => &[Stage::Timing],
         };
         assert_eq!(redone, expected, "{}", setting.name);
         tried.push(setting.affects);
@@ -228,7 +233,7 @@ fn a_change_of_times_alone_keeps_the_finished_picture_and_its_counts() {
     let [
         Update::Shown(shown),
         Update::PixelCounts(same),
-        Update::Stage(Stage::Rendering),
+        Update::Stage(Stage::Timing),
         Update::Measured { complete: true, .. },
     ] = &second[..]
     else {
@@ -325,7 +330,7 @@ fn the_tree_before_the_last_is_at_hand() {
     for wanted in [&a, &b, &a] {
         let again = served(wanted);
         assert!(!again.contains(&Stage::Loading) && !again.contains(&Stage::Building));
-        assert!(again.contains(&Stage::Rendering));
+        assert!(again.contains(&Stage::Timing));
     }
     // A third takes the place of the one used less lately.
     let third = request("tetra:3", "object-median");
