@@ -20,17 +20,18 @@ mod scenes;
 mod terrain;
 
 use bspscope::structure::SimdTree;
-use bspscope::trace::Hit;
+use bspscope::trace::{Hit, InstructionSet};
 use clap::Parser;
 use kernels::{Found, Kernel, NarrowRay, Rays};
 use rays::{RaySet, ray_sets};
 use serde_json::{Value, json};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Compares our kernels with Embree, obvhs and parry3d: rays per second on five sets of rays
 #[derive(Parser)]
 struct Options {
-    /// Scenes to run: tetra, terrain, balls, balls-tessellated [default: all]
+    /// Scenes to run: tetra, terrain, balls, balls-tessellated, room [default: all]
     #[arg(long, value_name = "NAME")]
     scene: Vec<String>,
     /// Sets of rays to run, by letter: P, D, C, S, A
@@ -82,6 +83,15 @@ fn main() {
         }
     }
     if let Some(path) = &options.json {
+        let report = json!({
+            "processor": processor(),
+            "instruction_sets": InstructionSet::ALL
+                .into_iter()
+                .filter(|set| set.is_available())
+                .map(InstructionSet::name)
+                .collect::<Vec<_>>(),
+            "figures": report,
+        });
         let text = serde_json::to_string_pretty(&report).expect("numbers and text");
         std::fs::write(path, text).expect("the file can be written");
     }
@@ -89,6 +99,22 @@ fn main() {
         println!("{wrong} answers of our kernels differ from those of the scalar one");
         std::process::exit(1);
     }
+}
+
+/// Returns the processor's name, where the system tells it.
+fn processor() -> String {
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let field = |name: &str| {
+        let line = info.lines().find(|line| line.starts_with(name));
+        line.and_then(|line| line.split_once(": "))
+            .map_or("", |(_, value)| value)
+    };
+    format!(
+        "{}, family {}, model {}",
+        field("model name"),
+        field("cpu family"),
+        field("model\t")
+    )
 }
 
 /// Runs all kernels on a scene. Returns the number of wrong answers of ours.
@@ -113,8 +139,8 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
         let simd_tree = SimdTree::of(scene, &tree);
         let build = start.elapsed();
         println!(
-            "our {} tree: {} nodes, {} references, depth {}, {:.1} bytes per object for SIMD kernels",
-            choice.name,
+            "{}: {} nodes, {} references, depth {}, {:.1} bytes per object for SIMD kernels",
+            choice.describe(),
             tree.nodes().len(),
             tree.references().len(),
             tree.depth_reached(),
@@ -123,10 +149,21 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
         (choice, tree, build)
     });
     let mut entrants = Vec::new();
-    match timed("embree i1", &|| {
-        Some(Box::new(embree::Embree::new(scene, 1)?) as _)
-    }) {
-        Some(entrant) => entrants.push(entrant),
+    let start = Instant::now();
+    match embree::Embree::new(scene, 1) {
+        Some(embree) => {
+            let (embree, build) = (Arc::new(embree), start.elapsed());
+            let packets = |name: &str, kernel: Box<dyn Kernel>| Entrant {
+                name: name.to_owned(),
+                kernel,
+                build,
+            };
+            entrants.push(packets("embree i1", Box::new(embree.clone())));
+            let kernel = Box::new(embree::Packets::<8>(embree.clone()));
+            entrants.push(packets("embree i8", kernel));
+            let kernel = Box::new(embree::Packets::<16>(embree));
+            entrants.push(packets("embree i16", kernel));
+        }
         None => println!(
             "Embree is not installed (Debian: libembree3-3); ratios are to the first kernel"
         ),

@@ -1,4 +1,4 @@
-//! Embree 3 or 4, loaded if it is installed: its kernel for single rays.
+//! Embree 3 or 4, loaded if it is installed: its kernels for single rays and for packets.
 
 use super::kernels::{Found, Kernel, NarrowRay, Rays};
 use bspscope::primitive::Primitive;
@@ -6,6 +6,7 @@ use bspscope::scene::Scene;
 use libloading::Library;
 use std::ffi::{c_int, c_void};
 use std::mem::ManuallyDrop;
+use std::sync::Arc;
 
 type Handle = *mut c_void;
 
@@ -44,7 +45,9 @@ pub struct Embree {
     scene: Handle,
 }
 
-// Committed scenes of Embree may be used from any thread.
+// SAFETY: committed scenes of Embree may be used and released from any thread.
+unsafe impl Send for Embree {}
+// SAFETY: as above.
 unsafe impl Sync for Embree {}
 
 /// Names under which the dynamic linker may know Embree, with the version.
@@ -172,7 +175,7 @@ impl Embree {
     }
 }
 
-impl Kernel for Embree {
+impl Kernel for Arc<Embree> {
     fn closest(&self, rays: Rays<'_>, found: &mut Vec<Found>) {
         self.ask(b"rtcIntersect1", rays.narrow, |hit| {
             let is_hit = hit.geometry != u32::MAX;
@@ -184,6 +187,105 @@ impl Kernel for Embree {
         // Embree sets the end of a blocked ray to −∞.
         self.ask(b"rtcOccluded1", rays.narrow, |hit| {
             blocked.push(hit.far < 0.0)
+        });
+    }
+}
+
+/// `RTCRayHit8` or `RTCRayHit16`, with room for the instance identifiers of any build.
+#[repr(C, align(64))]
+struct PacketHit<const N: usize> {
+    origin: [[f32; N]; 3],
+    near: [f32; N],
+    direction: [[f32; N]; 3],
+    time: [f32; N],
+    far: [f32; N],
+    mask: [u32; N],
+    id: [u32; N],
+    flags: [u32; N],
+    normal: [[f32; N]; 3],
+    u: [f32; N],
+    v: [f32; N],
+    primitive: [u32; N],
+    geometry: [u32; N],
+    instances: [[u32; N]; 9],
+}
+
+/// Which rays of a packet there are, with the alignment that Embree requires.
+#[repr(C, align(64))]
+struct Valid<const N: usize>([c_int; N]);
+
+/// Embree's kernels for packets of 8 or 16 rays: rays of a set in their order.
+pub struct Packets<const N: usize>(pub Arc<Embree>);
+
+impl<const N: usize> Packets<N> {
+    fn ask(&self, name: &str, rays: &[NarrowRay], mut found: impl FnMut(&PacketHit<N>, usize)) {
+        let embree = &*self.0;
+        let name = format!("{name}{N}");
+        let mut context = Context {
+            // Version 3: the rays are coherent, or the packet is traced ray by ray.
+            flags: 1,
+            filter: 0,
+            instances: [u32::MAX; 12],
+        };
+        // SAFETY: the types are those of Embree's headers for each version.
+        unsafe {
+            type Ask3<const N: usize> =
+                extern "C" fn(*const Valid<N>, Handle, *mut Context, *mut PacketHit<N>);
+            type Ask4<const N: usize> =
+                extern "C" fn(*const Valid<N>, Handle, *mut PacketHit<N>, *const c_void);
+            let ask3 = embree.library.get::<Ask3<N>>(name.as_bytes());
+            let ask4 = embree.library.get::<Ask4<N>>(name.as_bytes());
+            for rays in rays.chunks(N) {
+                let mut valid = Valid([0; N]);
+                let mut hit = PacketHit::<N> {
+                    origin: [[0.0; N]; 3],
+                    near: [0.0; N],
+                    direction: [[1.0; N]; 3],
+                    time: [0.0; N],
+                    far: [-1.0; N],
+                    mask: [u32::MAX; N],
+                    id: [0; N],
+                    flags: [0; N],
+                    normal: [[0.0; N]; 3],
+                    u: [0.0; N],
+                    v: [0.0; N],
+                    primitive: [u32::MAX; N],
+                    geometry: [u32::MAX; N],
+                    instances: [[u32::MAX; N]; 9],
+                };
+                for (k, ray) in rays.iter().enumerate() {
+                    valid.0[k] = -1;
+                    for axis in 0..3 {
+                        hit.origin[axis][k] = ray.origin[axis];
+                        hit.direction[axis][k] = ray.direction[axis];
+                    }
+                    hit.near[k] = ray.t_min;
+                    hit.far[k] = ray.t_max;
+                }
+                match (embree.version, &ask3, &ask4) {
+                    (3, Ok(ask), _) => ask(&valid, embree.scene, &mut context, &mut hit),
+                    (_, _, Ok(ask)) => ask(&valid, embree.scene, &mut hit, std::ptr::null()),
+                    _ => panic!("Embree lacks a function"),
+                }
+                for k in 0..rays.len() {
+                    found(&hit, k);
+                }
+            }
+        }
+    }
+}
+
+impl<const N: usize> Kernel for Packets<N> {
+    fn closest(&self, rays: Rays<'_>, found: &mut Vec<Found>) {
+        self.ask("rtcIntersect", rays.narrow, |hit, k| {
+            let is_hit = hit.geometry[k] != u32::MAX;
+            found.push(is_hit.then_some((f64::from(hit.far[k]), hit.primitive[k])));
+        });
+    }
+
+    fn any(&self, rays: Rays<'_>, blocked: &mut Vec<bool>) {
+        self.ask("rtcOccluded", rays.narrow, |hit, k| {
+            blocked.push(hit.far[k] < 0.0)
         });
     }
 }

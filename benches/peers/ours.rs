@@ -10,26 +10,56 @@ use bspscope::trace::{
     Batch, Hit, InstructionSet, RayKind, RayTracer, ScalarKernel, SimdKernel, SimdMode,
 };
 
-/// A tree that our kernels are fast with: its name, its method, and settings of the method.
+/// A tree that some of our kernels are fast with: its name, its method, and settings of the method.
 pub struct Choice {
     pub name: &'static str,
     method: &'static str,
     constants: &'static [(&'static str, f64)],
+    /// Whether SIMD kernels trace it; otherwise the scalar one does.
+    is_simd: bool,
 }
 
-/// The trees of all our kernels.
-pub const CHOICES: [Choice; 2] = [
+/// The trees of all our kernels. The first is that of the scalar kernel which the answers of all are compared
+/// with.
+pub const CHOICES: [Choice; 4] = [
     Choice {
         name: "kd",
-        method: "sah",
+        method: "sah-auto",
         constants: &[],
+        is_simd: false,
     },
     Choice {
         name: "bvh",
         method: "bvh-binned",
-        constants: &[("width", 8.0), ("max-leaf", 16.0), ("block", 16.0)],
+        constants: &[("max-leaf", 4.0)],
+        is_simd: false,
+    },
+    Choice {
+        name: "kd",
+        method: "sah",
+        constants: &[],
+        is_simd: true,
+    },
+    Choice {
+        name: "bvh",
+        method: "bvh-binned",
+        constants: &[("width", 8.0), ("block", 8.0)],
+        is_simd: true,
     },
 ];
+
+impl Choice {
+    /// Describes the tree.
+    pub fn describe(&self) -> String {
+        let kernel = if self.is_simd { "SIMD" } else { "scalar" };
+        let constants = self.constants.iter();
+        let constants: String = constants.map(|(name, x)| format!(" {name}={x}")).collect();
+        format!(
+            "{} for {kernel} kernels: {}{constants}",
+            self.name, self.method
+        )
+    }
+}
 
 /// Builds a tree on one thread, as the others do.
 pub fn build(scene: &Scene, choice: &Choice) -> Tree {
@@ -46,7 +76,7 @@ pub fn build(scene: &Scene, choice: &Choice) -> Tree {
     pool.expect("a thread").install(build).expect("a tree")
 }
 
-/// Returns all kernels on a tree; the first is the scalar kernel in `f64`.
+/// Returns all kernels on a tree; of scalar ones the first is that in `f64`.
 pub fn kernels<'a>(
     choice: &Choice,
     scene: &'a Scene,
@@ -56,15 +86,17 @@ pub fn kernels<'a>(
     let mut kernels: Vec<(String, Box<dyn Kernel + 'a>)> = Vec::new();
     for precision in [Precision::F64, Precision::F32] {
         let shapes = scene.shapes(precision);
-        let scalar = Scalar {
-            tree,
-            shapes,
-            progress: Progress::new(),
-        };
-        kernels.push((
-            format!("{} scalar {}", choice.name, precision.name()),
-            Box::new(scalar),
-        ));
+        if !choice.is_simd {
+            let progress = Progress::new();
+            let name = format!("{} scalar {}", choice.name, precision.name());
+            let scalar = Scalar {
+                tree,
+                shapes,
+                progress,
+            };
+            kernels.push((name, Box::new(scalar)));
+            continue;
+        }
         for instructions in InstructionSet::ALL
             .into_iter()
             .filter(|set| set.is_available())

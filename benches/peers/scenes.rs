@@ -3,7 +3,7 @@
 
 use crate::terrain;
 use bspscope::geometry::Vec3;
-use bspscope::primitive::{Primitive, Sphere, Triangle};
+use bspscope::primitive::{Polygon, Primitive, Sphere, Triangle};
 use bspscope::scene::builtin::generate;
 use bspscope::scene::{Camera, Material, Scene, SceneParts};
 
@@ -18,11 +18,12 @@ pub struct Subject {
 type Entry = (&'static str, fn() -> Subject);
 
 /// All scenes.
-pub const SCENES: [Entry; 4] = [
+pub const SCENES: [Entry; 5] = [
     ("tetra", tetra),
     ("terrain", hills),
     ("balls", balls),
     ("balls-tessellated", balls_tessellated),
+    ("room", room),
 ];
 
 fn rounded(v: Vec3) -> Vec3 {
@@ -70,6 +71,30 @@ fn tetra() -> Subject {
     });
     let light = parts.lights[0].position;
     subject("tetra", objects.collect(), parts.camera, light)
+}
+
+/// An architectural scene: the paper's room, with its polygons as triangles.
+fn room() -> Subject {
+    let parts = generate("room", None).expect("a generator");
+    let objects = parts.objects.iter().flat_map(|object| match object {
+        Primitive::Triangle(t) => vec![t.vertices],
+        Primitive::Polygon(p) => {
+            let vertices = p.vertices();
+            let corners = |numbers: [u32; 3]| numbers.map(|i| vertices[i as usize]);
+            Polygon::triangulate(vertices)
+                .into_iter()
+                .map(corners)
+                .collect()
+        }
+        _ => Vec::new(),
+    });
+    let light = parts.lights[0].position;
+    subject(
+        "room",
+        objects.filter_map(triangle).collect(),
+        parts.camera,
+        light,
+    )
 }
 
 /// The spheres of the paper's scene, 7381, without its floor.
