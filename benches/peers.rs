@@ -136,15 +136,19 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
     let trees = ours::CHOICES.map(|choice| {
         let start = Instant::now();
         let tree = ours::build(scene, &choice);
-        let simd_tree = SimdTree::of(scene, &tree);
+        let bytes = if choice.is_simd {
+            SimdTree::of(scene, &tree).bytes()
+        } else {
+            tree.bytes()
+        };
         let build = start.elapsed();
         println!(
-            "{}: {} nodes, {} references, depth {}, {:.1} bytes per object for SIMD kernels",
+            "{}: {} nodes, {} references, depth {}, {:.1} bytes per object",
             choice.describe(),
             tree.nodes().len(),
             tree.references().len(),
             tree.depth_reached(),
-            simd_tree.bytes() as f64 / scene.objects().len() as f64
+            bytes as f64 / scene.objects().len() as f64
         );
         (choice, tree, build)
     });
@@ -180,7 +184,7 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
     }
     let reference = entrants.len();
     for (choice, tree, build) in &trees {
-        for (name, kernel) in ours::kernels(choice, scene, tree, SimdTree::of(scene, tree)) {
+        for (name, kernel) in ours::kernels(choice, scene, tree) {
             entrants.push(Entrant {
                 name,
                 kernel,

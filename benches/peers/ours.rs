@@ -16,7 +16,7 @@ pub struct Choice {
     method: &'static str,
     constants: &'static [(&'static str, f64)],
     /// Whether SIMD kernels trace it; otherwise the scalar one does.
-    is_simd: bool,
+    pub is_simd: bool,
 }
 
 /// The trees of all our kernels. The first is that of the scalar kernel which the answers of all are compared
@@ -65,7 +65,11 @@ impl Choice {
 pub fn build(scene: &Scene, choice: &Choice) -> Tree {
     let constants = choice.constants.iter();
     let settings = BuildSettings {
-        d_max: MaxDepth::Fixed(MaxDepth::LIMIT),
+        d_max: if choice.is_simd {
+            MaxDepth::Fixed(MaxDepth::LIMIT)
+        } else {
+            MaxDepth::Automatic
+        },
         constants: constants
             .map(|(name, value)| ((*name).to_owned(), *value))
             .collect(),
@@ -81,7 +85,6 @@ pub fn kernels<'a>(
     choice: &Choice,
     scene: &'a Scene,
     tree: &'a Tree,
-    simd_tree: &'a SimdTree,
 ) -> Vec<(String, Box<dyn Kernel + 'a>)> {
     let mut kernels: Vec<(String, Box<dyn Kernel + 'a>)> = Vec::new();
     for precision in [Precision::F64, Precision::F32] {
@@ -108,7 +111,7 @@ pub fn kernels<'a>(
             for &mode in modes {
                 let kernel = Simd {
                     tree,
-                    simd_tree,
+                    simd_tree: SimdTree::of(scene, tree),
                     shapes,
                     instructions,
                     mode,
