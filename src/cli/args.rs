@@ -55,6 +55,7 @@ pub enum Command {
     Render(RenderArgs),
     Report(PageArgs),
     Leaves(LeavesArgs),
+    Tree(TreeArgs),
     Sweep(SweepArgs),
     Probe(ProbeArgs),
     Generate(GenerateArgs),
@@ -357,6 +358,24 @@ pub struct PageArgs {
     #[command(flatten)]
     pub settings: SettingArgs<Everything>,
     /// Write the page to this file
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: PathBuf,
+}
+
+/// Write a tree to a file (.bstree) that other programs can read
+///
+/// Options --method and --tree of other commands read such a file, of this or another program:
+/// 'bspscope measure SCENE --tree FILE'. The format is described in docs/formats.md.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope tree balls --method bvh-sweep --set width=8 -o balls.bstree\n\
+    bspscope measure balls --tree balls.bstree\n\
+    bspscope verify balls --tree balls.bstree"))]
+pub struct TreeArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
+    #[command(flatten)]
+    pub settings: SettingArgs<Built>,
+    /// Write to this file; - writes to standard output
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: PathBuf,
 }

@@ -27,6 +27,7 @@ mod resolve;
 mod setting_args;
 mod stability;
 mod sweep;
+mod tree;
 mod tune;
 mod values;
 mod verify;
@@ -51,6 +52,7 @@ pub fn main() -> ExitCode {
         Some(Command::Model(args)) => model::run(args),
         Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Leaves(args)) => leaves::run(args),
+        Some(Command::Tree(args)) => tree::run(args),
         Some(Command::Report(args)) => report::run(args),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Paper(args)) => paper::run(args),

@@ -11,6 +11,7 @@ use crate::primitive::Precision;
 use crate::scene::Scene;
 use crate::scene::builtin::BUILTINS;
 use crate::setup::Setup;
+use crate::structure::tree_file::Faults;
 use crate::structure::{BuildSettings, Invalid, Method, Tree, validate};
 use crate::trace::{RayKind, thread_pool};
 use anyhow::{Context, Result};
@@ -23,20 +24,28 @@ struct Finding {
     method: Method,
     precision: Precision,
     tree: Result<(), Invalid>,
+    /// What is wrong with the tree in its file.
+    file: Faults,
     rays: Verification,
+    /// What the tree of a file found for the first faults, which are not written to files.
+    differences: Vec<String>,
     /// Files with the first faults.
     files: Vec<PathBuf>,
 }
 
 impl Finding {
     fn passed(&self) -> bool {
-        self.tree.is_ok() && self.rays.passed()
+        self.is_valid() && self.rays.passed()
+    }
+
+    fn is_valid(&self) -> bool {
+        self.tree.is_ok() && self.file.is_empty()
     }
 
     /// Returns whether the tree itself is wrong. Where it differs from testing every object, the tree may be
     /// right.
     fn tree_is_wrong(&self) -> bool {
-        self.tree.is_err() || self.rays.tree_wrong > 0
+        !self.is_valid() || self.rays.tree_wrong > 0
     }
 }
 
@@ -114,34 +123,45 @@ fn findings_of(text: &str, args: &VerifyArgs) -> Result<(Vec<Finding>, bool)> {
             method,
             precision,
             tree: validate(&scene, &tree),
+            file: tree.faults().clone(),
             rays: compare(&scene, sample, answers, &found, None),
+            differences: Vec::new(),
             files: Vec::new(),
         });
         if let Some(finding) = findings.last_mut() {
-            finding.files = write_faults(&scene, &setup.build, &finding.rays)?;
+            for case in cases(&scene, &setup.build, &finding.rays)? {
+                if method.is_file() {
+                    finding.differences.push(difference(&case));
+                } else {
+                    finding.files.push(write_fault(case)?);
+                }
+            }
         }
     }
     failures::check_any(&findings, &failed)?;
     Ok((findings, failed.is_empty()))
 }
 
-/// Writes each fault to its own file.
-fn write_faults(
-    scene: &Scene,
-    settings: &BuildSettings,
-    rays: &Verification,
-) -> Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
+/// Returns the faults that occur again.
+fn cases(scene: &Scene, settings: &BuildSettings, rays: &Verification) -> Result<Vec<Case>> {
+    let mut cases = Vec::new();
     for &(kind, ray) in &rays.faults {
-        let Some(case) = Case::of(scene, settings, kind, ray)? else {
-            continue;
-        };
-        let (path, mut file) = output::create_free("fault", "json")?;
-        writeln!(file, "{}", case.shrunk().to_json())
-            .with_context(|| path.display().to_string())?;
-        files.push(path);
+        cases.extend(Case::of(scene, settings, kind, ray)?);
     }
-    Ok(files)
+    Ok(cases)
+}
+
+/// Writes a fault to a file of its own.
+fn write_fault(case: Case) -> Result<PathBuf> {
+    let (path, mut file) = output::create_free("fault", "json")?;
+    writeln!(file, "{}", case.shrunk().to_json()).with_context(|| path.display().to_string())?;
+    Ok(path)
+}
+
+fn difference(case: &Case) -> String {
+    let (kind, origin, direction) = (case.kind.name(), case.ray.origin, case.ray.direction);
+    let answers = both(case.expected, case.found);
+    format!("for the {kind} ray from {origin} along {direction}, {answers}")
 }
 
 /// Repeats the case of a file.
@@ -253,7 +273,7 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
                 finding.scene.clone(),
                 finding.method.name.into(),
                 finding.precision.name().into(),
-                if finding.tree.is_ok() {
+                if finding.is_valid() {
                     "valid".into()
                 } else {
                     "invalid".into()
@@ -268,10 +288,18 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", table.trim_fmt())?;
     for finding in findings.iter().filter(|f| !f.passed()) {
         let name = format!("{}, {}", finding.scene, finding.method.name);
-        if let Err(wrong) = &finding.tree {
-            writeln!(out, "{name}: {wrong}")?;
+        match &finding.tree {
+            Err(wrong) if finding.file.is_empty() => writeln!(out, "{name}: {wrong}")?,
+            _ => {}
         }
-        for (kind, ray) in &finding.rays.faults {
+        for fault in finding.file.list() {
+            writeln!(out, "{name}: {fault}")?;
+        }
+        for difference in &finding.differences {
+            writeln!(out, "{name}: {difference}")?;
+        }
+        let without_details = finding.rays.faults.iter().skip(finding.differences.len());
+        for (kind, ray) in without_details {
             writeln!(
                 out,
                 "{name}: wrong hit for the {} ray from {} along {}",
@@ -321,10 +349,12 @@ mod tests {
             method: Method::of_the_paper()[0],
             precision: Precision::F64,
             tree: Ok(()),
+            file: Faults::default(),
             rays: Verification {
                 rays: [10; 4],
                 ..Verification::default()
             },
+            differences: Vec::new(),
             files: Vec::new(),
         };
         let wrong_tree = Finding {
@@ -359,7 +389,9 @@ mod tests {
             method: Method::of_the_paper()[0],
             precision: Precision::F64,
             tree: Ok(()),
+            file: Faults::default(),
             rays: Verification::default(),
+            differences: Vec::new(),
             files: Vec::new(),
         };
         finding.rays.others[0].faults = 1;

@@ -22,6 +22,7 @@ mod settings;
 pub(crate) mod simd_tree;
 pub mod split;
 mod tree;
+pub mod tree_file;
 mod validate;
 mod voxels;
 

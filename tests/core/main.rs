@@ -35,6 +35,7 @@ mod settings;
 mod simd;
 mod stability;
 mod tolerant;
+mod tree_file;
 mod tune;
 mod visits;
 mod wording;

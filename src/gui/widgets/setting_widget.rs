@@ -8,7 +8,7 @@ use crate::gui::theme::{ROW, hint};
 use crate::gui::widgets::choice_list;
 use crate::gui::widgets::common::sentence;
 use crate::scene::{Camera, Cylinders};
-use crate::setup::{Choice, Kind, Range, Setting, Setup, Value};
+use crate::setup::{Choice, Kind, Range, Setting, Setup, Value, methods};
 use crate::structure::MaxDepth;
 use egui::vec2;
 
@@ -145,6 +145,7 @@ fn control(
         (Kind::Choice(choices), Value::Choice(now)) => {
             choice(ui, said, &choices(), now).map(Value::Choice)
         }
+        (Kind::Method, Value::Choice(now)) => choice(ui, said, &methods(), now).map(Value::Choice),
         (Kind::Switch, Value::Switch(mut on)) => {
             let text = if on { "on (1)" } else { "off (0)" };
             let is_changed = said.of(ui.checkbox(&mut on, text)).changed();
