@@ -19,6 +19,7 @@
 //! | [`scene::builtin`] | scene generators | a line in [`scene::builtin::BUILTINS`] |
 //! | [`structure`] | nodes with planes or boxes, the build driver, voxels of grids, moments of the build, validation | |
 //! | [`structure::split`] | build methods: where a cell is split | a line in [`structure::split::SPLIT_RULES`] |
+//! | [`structure::tree_file`] | trees as files: reader, writer, what is wrong with a tree | |
 //! | [`structure::bvh`] | build methods of bounding volume hierarchies | a line in [`structure::bvh::BVH_BUILDERS`] |
 //! | [`trace`] | traversal of trees, hierarchies and grids in two precisions; timed and counting kernels, scalar and SIMD; shading, rendering, recorded rays | |
 //! | [`setup`] | the whole experiment: scene, structure, render settings, camera; the command that measures it | a field and an entry of [`setup::SETTINGS`] |

@@ -10,6 +10,7 @@ use crate::gui::widgets::common::sentence;
 use crate::scene::{Camera, Cylinders};
 use crate::setup::{Choice, Kind, Range, Setting, Setup, Value, methods};
 use crate::structure::MaxDepth;
+use crate::structure::tree_file::short_name;
 use egui::vec2;
 
 /// The width of the labels in points.
@@ -244,7 +245,7 @@ fn choice(
     let of_chosen = choices.iter().find(|choice| choice.name == now);
     let of_chosen = of_chosen.map_or("", |choice| choice.about);
     let list = egui::ComboBox::from_id_salt(said.name)
-        .selected_text(now)
+        .selected_text(short_name(now))
         // Without scrolling: a list that hides its last item hides that there is one.
         .height(f32::INFINITY)
         .show_ui(ui, |ui| {

@@ -4,6 +4,7 @@ use super::header::{Header, Kind, MAX_HEADER};
 use crate::files;
 use crate::structure::method::{Constant, Structure};
 use crate::structure::settings::{Builder, Method, MethodInfo};
+use std::ffi::OsStr;
 use std::io::Read;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -15,6 +16,12 @@ pub const EXTENSION: &str = "bstree";
 pub fn is_tree_file(text: &str) -> bool {
     let extension = Path::new(text).extension();
     extension.is_some_and(|e| e.eq_ignore_ascii_case(EXTENSION))
+}
+
+/// Returns the name of a method in little space: that of a tree file without its folders.
+pub fn short_name(method: &str) -> &str {
+    let file = Path::new(method).file_name().and_then(OsStr::to_str);
+    file.filter(|_| is_tree_file(method)).unwrap_or(method)
 }
 
 /// Returns the method that reads a file. Of a file that cannot be read, the method exists, too; building its

@@ -58,6 +58,6 @@ mod write;
 pub use error::TreeFileError;
 pub use faults::{Fault, FaultKind, Faults};
 pub(super) use method::of_file;
-pub use method::{EXTENSION, is_of_another_scene, is_tree_file};
+pub use method::{EXTENSION, is_of_another_scene, is_tree_file, short_name};
 pub use read::{FileTree, load, read};
 pub use write::{Origin, write};
