@@ -29,6 +29,7 @@
 //! | [`measure::tune`] | the best tree for a scene: candidates, rounds, ranking with ties | |
 //! | [`measure::paper`] | the paper's printed tables, and its experiment repeated | |
 //! | [`measure::judge`] | exact arithmetic: why two hits differ | |
+//! | [`measure::answers`] | answers of other programs: right, tie, rounding or fault | |
 //! | [`measure::exact`] | every structure and kernel against exact arithmetic, with rays at the limits of rounding | a variant of [`measure::exact::RaySource`] |
 //! | [`measure::stability`] | tests with extreme inputs | an entry of [`measure::stability::CASES`] |
 //! | [`measure::accuracy`] | accuracy vs. time: error and rendering time of each setting | a line in [`measure::accuracy::KNOBS`] |

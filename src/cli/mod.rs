@@ -6,6 +6,7 @@
 mod accuracy;
 mod args;
 mod bar;
+mod check;
 mod compare;
 mod failures;
 mod generate;
@@ -50,6 +51,7 @@ pub fn main() -> ExitCode {
         Some(Command::Merge(args)) => merge::run(args),
         Some(Command::Sweep(args)) => sweep::run(args),
         Some(Command::Model(args)) => model::run(args),
+        Some(Command::Check(args)) => check::run(args),
         Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Leaves(args)) => leaves::run(args),
         Some(Command::Tree(args)) => tree::run(args),

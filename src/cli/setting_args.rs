@@ -103,6 +103,8 @@ offers! {
     }, Methods::One("midpoint"), [];
     /// Only the scene.
     Loaded: |setting| setting.group == Group::Scene, Methods::Paper, [];
+    /// The scene, for answers about rays.
+    Answered: |setting| setting.group == Group::Scene || setting.name == "threads", Methods::Paper, [];
     /// The settings that determine the hits of rays.
     Verified: |setting| {
         !["resolution", "samples-per-pixel"].contains(&setting.name)

@@ -9,6 +9,7 @@ use crate::measure::{Parameter, parameter, parameters};
 use crate::present::export::LEAF_WRITERS;
 use crate::present::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::present::report::WRITERS;
+use crate::primitive::Precision;
 use crate::structure::Method;
 use crate::structure::tree_file::is_tree_file;
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
@@ -88,6 +89,13 @@ impl TypedValueParser for MethodParser {
         let all = Method::all().map(|m| PossibleValue::new(m.name).help(m.summary));
         Some(Box::new(all))
     }
+}
+
+pub fn precision_names() -> impl TypedValueParser<Value = Precision> {
+    PossibleValuesParser::new(Precision::ALL.map(Precision::name)).try_map(|name| {
+        let mut all = Precision::ALL.into_iter();
+        all.find(|p| p.name() == name).ok_or("no such precision")
+    })
 }
 
 pub fn equation_names() -> impl TypedValueParser<Value = Equation> {

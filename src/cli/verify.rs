@@ -3,7 +3,7 @@
 use super::args::VerifyArgs;
 use super::outcome::Outcome;
 use super::{bar, failures, output, resolve, verify_exact};
-use crate::measure::judge::{Answer, Case, Verdict};
+use crate::measure::judge::{Answer, Answerer, Case, Verdict};
 use crate::measure::{Answers, RaySample, Verification, answer, compare, sample_rays, unsplit};
 use crate::present::number::counted;
 use crate::present::report::plain_table;
@@ -152,7 +152,7 @@ fn cases(scene: &Scene, settings: &BuildSettings, rays: &Verification) -> Result
 }
 
 /// Writes a fault to a file of its own.
-fn write_fault(case: Case) -> Result<PathBuf> {
+pub fn write_fault(case: Case) -> Result<PathBuf> {
     let (path, mut file) = output::create_free("fault", "json")?;
     writeln!(file, "{}", case.shrunk().to_json()).with_context(|| path.display().to_string())?;
     Ok(path)
@@ -160,7 +160,7 @@ fn write_fault(case: Case) -> Result<PathBuf> {
 
 fn difference(case: &Case) -> String {
     let (kind, origin, direction) = (case.kind.name(), case.ray.origin, case.ray.direction);
-    let answers = both(case.expected, case.found);
+    let answers = both(name_of(&case.by), case.expected, case.found);
     format!("for the {kind} ray from {origin} along {direction}, {answers}")
 }
 
@@ -169,17 +169,21 @@ fn replay(file: &Path) -> Result<Outcome> {
     let name = file.display();
     let text = std::fs::read_to_string(file).with_context(|| name.to_string())?;
     let case = Case::from_json(&text).with_context(|| name.to_string())?;
-    let (ray, method) = (&case.ray, case.settings.method.name);
+    let (ray, who) = (&case.ray, name_of(&case.by));
+    let by = match &case.by {
+        Answerer::Tree(settings) => settings.method.name,
+        Answerer::Program(_) => "another program",
+    };
     let again = case.replay().with_context(|| name.to_string())?;
     let mut lines = vec![
         format!(
-            "{}, {method}: the {} ray from {} along {}",
+            "{}, {by}: the {} ray from {} along {}",
             counted(case.scene.objects().len(), "object"),
             case.kind.name(),
             ray.origin,
             ray.direction
         ),
-        format!("  in the file: {}", both(case.expected, case.found)),
+        format!("  in the file: {}", both(who, case.expected, case.found)),
     ];
     let outcome = match &again {
         None => {
@@ -187,9 +191,9 @@ fn replay(file: &Path) -> Result<Outcome> {
             Outcome::Done
         }
         Some(again) => {
-            lines.push(format!("  now: {}", both(again.expected, again.found)));
+            lines.push(format!("  now: {}", both(who, again.expected, again.found)));
             let verdict = again.verdict();
-            lines.push(format!("  {}", in_words(verdict)));
+            lines.push(format!("  {}", in_words(who, verdict)));
             if matches!(verdict, Verdict::Fault { .. }) {
                 Outcome::CheckFailed
             } else {
@@ -203,7 +207,16 @@ fn replay(file: &Path) -> Result<Outcome> {
     Ok(outcome)
 }
 
-fn both(expected: Answer, found: Answer) -> String {
+/// Returns what the one who gave an answer is called.
+fn name_of(by: &Answerer) -> &'static str {
+    match by {
+        Answerer::Tree(_) => "the tree",
+        Answerer::Program(_) => "the program",
+    }
+}
+
+/// Returns what testing every object finds and what another one does.
+pub fn both(who: &str, expected: Answer, found: Answer) -> String {
     let said = |answer| match answer {
         Answer::Nearest(hit) if hit.is_hit() => format!("object {} at {:?}", hit.object, hit.t),
         Answer::Nearest(_) => "nothing".to_owned(),
@@ -211,23 +224,23 @@ fn both(expected: Answer, found: Answer) -> String {
         Answer::Blocked(false) => "not blocked".to_owned(),
     };
     format!(
-        "testing every object finds {}, the tree finds {}",
+        "testing every object finds {}, {who} finds {}",
         said(expected),
         said(found)
     )
 }
 
-fn in_words(verdict: Verdict) -> &'static str {
+fn in_words(who: &str, verdict: Verdict) -> String {
     match verdict {
-        Verdict::Tie => "A tie: both are exactly right.",
-        Verdict::Rounding => "Rounding: both are right up to rounding.",
+        Verdict::Tie => "A tie: both are exactly right.".into(),
+        Verdict::Rounding => "Rounding: both are right up to rounding.".into(),
         Verdict::Fault {
             a_is_wrong: false, ..
-        } => "A fault: the tree is wrong.",
+        } => format!("A fault: {who} is wrong."),
         Verdict::Fault {
             b_is_wrong: false, ..
-        } => "A fault: testing every object is wrong.",
-        Verdict::Fault { .. } => "A fault: both are wrong.",
+        } => "A fault: testing every object is wrong.".into(),
+        Verdict::Fault { .. } => "A fault: both are wrong.".into(),
     }
 }
 

@@ -19,7 +19,7 @@ mod surface;
 mod tolerance;
 mod verdict;
 
-pub use case::{Case, CaseError};
+pub use case::{Answerer, Case, CaseError};
 pub(super) use crossing::Line;
 pub(super) use meeting::{Meeting, enlarged};
 pub(super) use surface::Surface;

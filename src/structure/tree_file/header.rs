@@ -87,20 +87,20 @@ pub struct Header {
     pub format: String,
     pub version: u32,
     pub kind: Kind,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub structure: Cells,
-    #[serde(default = "two")]
+    #[serde(default = "two", skip_serializing_if = "is_two")]
     pub width: u32,
     pub objects: u32,
     #[serde(default)]
     pub order: Order,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub split: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub root: Option<Root>,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stops: Vec<StopReason>,
     pub arrays: Vec<Array>,
 }
@@ -109,7 +109,33 @@ fn two() -> u32 {
     2
 }
 
+fn is_two(width: &u32) -> bool {
+    *width == 2
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
 impl Header {
+    /// Creates a header without arrays and with the defaults of all that is optional.
+    pub fn new(kind: Kind, objects: u32, order: Order) -> Header {
+        Header {
+            format: FORMAT.into(),
+            version: VERSION,
+            kind,
+            structure: Cells::default(),
+            width: two(),
+            objects,
+            order,
+            sha256: None,
+            split: false,
+            root: None,
+            stops: Vec::new(),
+            arrays: Vec::new(),
+        }
+    }
+
     /// Reads the header at the beginning of a file. Also returns the data after it.
     ///
     /// # Errors

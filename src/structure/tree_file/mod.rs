@@ -46,10 +46,12 @@
 
 mod boxes;
 mod columns;
+mod data;
 mod error;
 mod faults;
 mod graph;
 mod header;
+mod hierarchy;
 mod method;
 mod planes;
 mod read;
@@ -57,6 +59,7 @@ mod write;
 
 pub use error::TreeFileError;
 pub use faults::{Fault, FaultKind, Faults};
+pub use hierarchy::{Hierarchy, Holds};
 pub(super) use method::of_file;
 pub use method::{EXTENSION, is_of_another_scene, is_tree_file, short_name};
 pub use read::{FileTree, load, read};

@@ -1,6 +1,7 @@
 //! Writes a tree to a file.
 
-use super::header::{ALIGNMENT, Array, Cells, FORMAT, Header, Kind, Number, Order, Root, VERSION};
+use super::data::Data;
+use super::header::{Cells, Header, Kind, Number, Order, Root};
 use crate::geometry::Aabb;
 use crate::primitive::Shape;
 use crate::scene::Scene;
@@ -17,43 +18,6 @@ use std::io::{self, Write};
 pub struct Origin {
     /// SHA-256 of the file of the scene in hexadecimal digits; `None` for a generator.
     pub sha256: Option<String>,
-}
-
-/// Arrays with their bytes.
-#[derive(Default)]
-struct Data {
-    arrays: Vec<Array>,
-    bytes: Vec<u8>,
-}
-
-impl Data {
-    /// Adds an array of rows of `columns` numbers, which `bytes` returns in little-endian order.
-    fn add<const N: usize>(
-        &mut self,
-        (name, number, columns): (&str, Number, u64),
-        bytes: impl Iterator<Item = [u8; N]>,
-    ) {
-        self.bytes
-            .resize(self.bytes.len().next_multiple_of(ALIGNMENT), 0);
-        let offset = self.bytes.len();
-        self.bytes.extend(bytes.flatten());
-        let rows = ((self.bytes.len() - offset) / number.bytes()) as u64 / columns;
-        let shape = if columns == 1 {
-            vec![rows]
-        } else {
-            vec![rows, columns]
-        };
-        self.arrays
-            .push((name.to_owned(), number, shape, offset as u64));
-    }
-
-    fn u8s(&mut self, name: &str, numbers: impl Iterator<Item = u8>) {
-        self.add((name, Number::U8, 1), numbers.map(|n| [n]));
-    }
-
-    fn u32s(&mut self, name: &str, numbers: impl Iterator<Item = u32>) {
-        self.add((name, Number::U32, 1), numbers.map(u32::to_le_bytes));
-    }
 }
 
 /// Writes a tree of a scene. Read again, it is the same tree, bit for bit.
@@ -73,9 +37,6 @@ pub fn write(tree: &Tree, scene: &Scene, origin: &Origin, out: &mut dyn Write) -
     let (center, half) = tree.frame().center_and_half();
     let structure = tree.settings().method.structure;
     let header = Header {
-        format: FORMAT.into(),
-        version: VERSION,
-        kind,
         structure: match structure {
             Structure::Octree => Cells::Octree,
             Structure::Grid => Cells::Grid,
@@ -85,8 +46,6 @@ pub fn write(tree: &Tree, scene: &Scene, origin: &Origin, out: &mut dyn Write) -
             Structure::Bvh => tree.settings().constant("width") as u32,
             _ => 2,
         },
-        objects: scene.objects().len() as u32,
-        order: Order::Object,
         sha256: origin.sha256.clone(),
         split,
         root: Some(Root {
@@ -95,13 +54,9 @@ pub fn write(tree: &Tree, scene: &Scene, origin: &Origin, out: &mut dyn Write) -
             margin: tree.root_margin(),
         }),
         stops: StopReason::ALL.to_vec(),
-        arrays: data.arrays,
+        ..Header::new(kind, scene.objects().len() as u32, Order::Object)
     };
-    let mut line = serde_json::to_vec(&header)?;
-    line.resize((line.len() + 1).next_multiple_of(ALIGNMENT) - 1, b' ');
-    line.push(b'\n');
-    out.write_all(&line)?;
-    out.write_all(&data.bytes)
+    data.write(header, out)
 }
 
 /// Adds what both kinds of trees have.
