@@ -4,6 +4,7 @@
 mod support;
 
 mod accuracy;
+mod answers;
 mod build;
 mod bvh;
 mod compare;

@@ -321,3 +321,28 @@ fn only_lost_objects_lose_hits() {
         "{result:?}"
     );
 }
+
+/// Each is the tree that `examples/export_*` writes for `trimesh.obj`.
+#[test]
+fn trees_of_other_programs_are_valid_and_their_hits_are_right() {
+    let mesh = scene(scenes::asset("trimesh.obj").to_str().unwrap());
+    let (pool, progress) = (thread_pool(2).unwrap(), Progress::new());
+    let everything = unsplit(&mesh, &progress).unwrap();
+    let render = RenderSettings::default();
+    let sample = sample_rays(&mesh, &everything, &render, 1000, &pool, &progress).unwrap();
+    let trace =
+        |tree: &Tree| answer(&mesh, tree, Precision::F64, &sample, &pool, &progress).unwrap();
+    let expected = trace(&everything);
+    for (program, width) in [("obvhs", 2.0), ("embree", 4.0), ("three-mesh-bvh", 2.0)] {
+        let file = scenes::asset(&format!("trimesh-{program}.bstree"));
+        let method = Method::named(file.to_str().unwrap()).unwrap();
+        let settings = BuildSettings::for_method(method);
+        assert_eq!(settings.constant("width"), width, "{program}");
+        let tree = build(&mesh, &settings, &progress).unwrap();
+        assert!(tree.faults().is_empty(), "{program}: {}", tree.faults());
+        assert!(tree.nodes().len() > 10, "{program}");
+        validate(&mesh, &tree).unwrap();
+        let result = compare(&mesh, &sample, &expected, &trace(&tree), None);
+        assert!(result.is_identical(), "{program}: {result:?}");
+    }
+}

@@ -1,7 +1,7 @@
 //! Classes answers as right, tie, rounding or fault.
 
 use crate::geometry::Ray;
-use crate::measure::judge::{Answer, Standing, Tolerance, examine, scale_of};
+use crate::measure::judge::{Answer, Standing, Tolerance, examine_with, scale_of};
 use crate::primitive::Precision;
 use crate::progress::{Cancelled, Progress};
 use crate::scene::Scene;
@@ -97,7 +97,7 @@ pub fn check_answers(
         let exact = exact_answers(scene, tree, rays, answers, progress);
         for (i, (&ray, &found)) in rays.iter().zip(answers).enumerate() {
             let expected = exact[i];
-            let class = class_of(scene, &ray, [expected, found], precision);
+            let class = class_of(scene, tree, &ray, [expected, found], precision);
             result.counts[class as usize] += 1;
             if class == AnswerClass::Fault {
                 result.faults.push(AnswerFault {
@@ -150,6 +150,7 @@ fn exact_answers(
 
 fn class_of(
     scene: &Scene,
+    tree: &Tree,
     ray: &Ray,
     [expected, found]: [Answer; 2],
     precision: Precision,
@@ -165,7 +166,7 @@ fn class_of(
     if is_same {
         return AnswerClass::Right;
     }
-    match examine(scene, ray, found, tolerance) {
+    match examine_with(tree, scene, ray, found, tolerance) {
         Standing::Right if is_same_object(expected, found) => AnswerClass::Right,
         Standing::Right => AnswerClass::Tie,
         Standing::Rounded => AnswerClass::Rounding,
