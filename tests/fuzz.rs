@@ -13,8 +13,8 @@ use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
 use bspscope::scene::format::{BYTES_PER_TRIANGLE, FORMATS, Input};
 use bspscope::scene::{Material, Scene, SceneRequest, load};
-use bspscope::structure::tree_file::{Origin, write};
-use bspscope::structure::{BuildSettings, Method, build, validate};
+use bspscope::structure::tree_file::{self, Origin};
+use bspscope::structure::{BuildSettings, Method, RootMargin, build, validate};
 use random::Random;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
@@ -270,10 +270,27 @@ fn change_words(file: &[u8], random: &mut Random) -> Vec<u8> {
     bytes
 }
 
-/// What can be read is a tree that can be validated and traversed, whatever else it is.
+/// Validates and traverses the tree of a file, whatever it is.
+fn trace(scene: &Scene, file: &Path) {
+    let progress = Progress::new();
+    let settings = BuildSettings::for_method(Method::named(file.to_str().unwrap()).unwrap());
+    let tree = build(scene, &settings, &progress).unwrap();
+    // Bad trees are read, too.
+    let _ = validate(scene, &tree);
+    let from = scene.bounds().center() + Vec3::splat(9.0);
+    let directions = (0..8_u32).map(|i| Vec3::new(-1.0, f64::from(i) / -7.0, -1.0));
+    let rays: Vec<Ray> = directions
+        .map(|direction| Ray::new(from, direction))
+        .collect();
+    for kernel in ExactKernel::all() {
+        kernel.answers(scene, &tree, Precision::F32, &rays, &progress);
+    }
+}
+
+/// What can be read is a tree that can be traversed.
 #[test]
 fn tree_files_survive_mutations() {
-    /// Rays are traced with one of so many trees.
+    /// One of so many trees that could be read is traversed.
     const TRACED: usize = 16;
     let _alone = alone();
     let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/assets/trimesh.obj");
@@ -292,20 +309,11 @@ fn tree_files_survive_mutations() {
         let settings = BuildSettings::for_method(Method::named(method).unwrap());
         let tree = build(&scene, &settings, &progress).unwrap();
         let mut bytes = Vec::new();
-        write(&tree, &scene, &Origin::default(), &mut bytes).unwrap();
+        tree_file::write(&tree, &scene, &Origin::default(), &mut bytes).unwrap();
         corpus.push(bytes);
     }
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("mutated.bstree");
-    let center = scene.bounds().center();
-    let rays: Vec<Ray> = (0..8_u32)
-        .map(|i| {
-            Ray::new(
-                center + Vec3::splat(9.0),
-                Vec3::new(-1.0, f64::from(i) / -7.0, -1.0),
-            )
-        })
-        .collect();
     let (mut read, mut refused) = (0, 0);
     for i in 0..inputs() {
         let mut random = Random(i as u64);
@@ -315,19 +323,15 @@ fn tree_files_survive_mutations() {
             0 => mutate(original, other, &mut random),
             _ => change_words(original, &mut random),
         };
-        std::fs::write(&file, bytes).unwrap();
-        let settings = BuildSettings::for_method(Method::named(file.to_str().unwrap()).unwrap());
         let (start, before) = (Instant::now(), HELD.load(Ordering::Relaxed));
         MOST_HELD.store(before, Ordering::Relaxed);
         let told = Told(i);
-        match build(&scene, &settings, &progress) {
-            Ok(tree) => {
+        match tree_file::read(&bytes, &scene, RootMargin::Automatic, &progress) {
+            Ok(_) => {
                 read += 1;
-                let _ = validate(&scene, &tree);
                 if read % TRACED == 0 {
-                    for kernel in ExactKernel::all() {
-                        kernel.answers(&scene, &tree, Precision::F32, &rays, &progress);
-                    }
+                    std::fs::write(&file, bytes).unwrap();
+                    trace(&scene, &file);
                 }
             }
             Err(error) => {

@@ -375,6 +375,8 @@ impl Document {
     /// Asks for the tree of a file instead of the tree in front. The file is read again if its tree is that in
     /// front.
     pub fn open_tree(&mut self, path: &Path) {
+        // Workspaces keep the path, and can be opened from any folder.
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let Ok(method) = Method::named(&path.to_string_lossy()) else {
             return;
         };

@@ -80,6 +80,8 @@ impl Boxes<'_> {
         if held.is_empty() {
             return NOTHING;
         }
+        // Nothing is outside the root cell, and infinite boxes are of no use.
+        let within = |corners: Sides| corners.map(|corner| corner.map(|c| c.clamp(-2.0, 2.0)));
         let given = self.of(node);
         match (self.split, self.rounded) {
             (false, _) => {
@@ -92,27 +94,32 @@ impl Boxes<'_> {
             (true, true) => {
                 let lo = given.lo - given.lo.abs() * ROUNDING;
                 let hi = given.hi + given.hi.abs() * ROUNDING;
-                sides(self.frame, &Aabb::new(lo, hi))
+                within(sides(self.frame, &Aabb::new(lo, hi)))
             }
-            (true, false) => self.nearest(&given),
+            (true, false) => within(self.nearest(&given)),
         }
     }
 
     /// Returns the smallest box around one in world coordinates, without any margin.
     fn nearest(&self, given: &Aabb) -> Sides {
-        let at = |k: usize, world: f64, is_inside: fn(f64, f64) -> bool, step: fn(f32) -> f32| {
-            let axis = Axis::from_index(k);
-            let mut plane = self.frame.nearest_plane(axis, world);
-            while is_inside(self.frame.to_world(axis, f64::from(plane)), world) && plane.is_finite()
-            {
-                plane = step(plane);
+        let is_at =
+            |k: usize, plane: f32| self.frame.to_world(Axis::from_index(k), f64::from(plane));
+        let nearest = |k: usize, world: f64| self.frame.nearest_plane(Axis::from_index(k), world);
+        let wide = sides(self.frame, given);
+        let mut found = [
+            std::array::from_fn(|k| nearest(k, given.lo[k])),
+            std::array::from_fn(|k| nearest(k, given.hi[k])),
+        ];
+        for k in 0..3 {
+            // Rounded inward.
+            if is_at(k, found[0][k]) > given.lo[k] {
+                found[0][k] = wide[0][k];
             }
-            plane
-        };
-        [
-            std::array::from_fn(|k| at(k, given.lo[k], |at, lo| at > lo, f32::next_down)),
-            std::array::from_fn(|k| at(k, given.hi[k], |at, hi| at < hi, f32::next_up)),
-        ]
+            if is_at(k, found[1][k]) < given.hi[k] {
+                found[1][k] = wide[1][k];
+            }
+        }
+        found
     }
 
     /// Returns the length by which numbers of this size may differ through rounding.

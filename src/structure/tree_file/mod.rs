@@ -40,9 +40,9 @@
 //! program cannot lose hits. With `split` that is impossible. Boxes in `f32` are then widened by their
 //! rounding; boxes in `f64` are used as they are. The box of an inner node is always that around its children.
 //!
-//! What is wrong with a tree is counted and reported with the first place of each kind ([`Faults`]). A file
-//! that is no tree (a cycle, an index out of range) is refused; one that is a bad tree (an object in no leaf)
-//! can be measured, and `bspscope verify` shows which rays miss.
+//! What is wrong with a tree is counted and reported with the first place of each kind ([`Faults`]). A file whose
+//! nodes form no tree (a cycle, an index out of range) is refused. A bad tree (an object in no leaf) can be
+//! measured, and `bspscope verify` shows which rays miss.
 
 mod boxes;
 mod columns;

@@ -165,6 +165,9 @@ fn frame(header: &Header, scene: &Scene, margin: RootMargin) -> Result<Frame, Tr
         "it is empty, or too small for its place",
     ))?;
     let cell = frame.cell().enlarged(frame.slack());
+    if !(cell.lo.is_finite() && cell.hi.is_finite()) {
+        return Err(TreeFileError::Root("it is too large"));
+    }
     if !bounds.is_empty() && !(cell.lo.cmple(bounds.lo).all() && bounds.hi.cmple(cell.hi).all()) {
         return Err(TreeFileError::Root(
             "it does not contain all objects of the scene",
