@@ -14,7 +14,7 @@ use bspscope::progress::Progress;
 use bspscope::scene::format::{BYTES_PER_TRIANGLE, FORMATS, Input};
 use bspscope::scene::{Material, Scene, SceneRequest, load};
 use bspscope::structure::tree_file::{self, Origin};
-use bspscope::structure::{BuildSettings, Method, RootMargin, build, validate};
+use bspscope::structure::{BuildSettings, MaxDepth, Method, RootMargin, build, validate};
 use random::Random;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
@@ -291,7 +291,7 @@ fn trace(scene: &Scene, file: &Path) {
 #[test]
 fn tree_files_survive_mutations() {
     /// One of so many trees that could be read is traversed.
-    const TRACED: usize = 16;
+    const TRACED: usize = 64;
     let _alone = alone();
     let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/assets/trimesh.obj");
     let request = SceneRequest::parse(mesh.to_str().unwrap());
@@ -306,7 +306,11 @@ fn tree_files_survive_mutations() {
         "bvh-sweep",
         "bvh-spatial",
     ] {
-        let settings = BuildSettings::for_method(Method::named(method).unwrap());
+        // Small files are read sooner.
+        let settings = BuildSettings {
+            d_max: MaxDepth::Fixed(6),
+            ..BuildSettings::for_method(Method::named(method).unwrap())
+        };
         let tree = build(&scene, &settings, &progress).unwrap();
         let mut bytes = Vec::new();
         tree_file::write(&tree, &scene, &Origin::default(), &mut bytes).unwrap();

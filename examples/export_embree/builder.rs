@@ -1,7 +1,7 @@
 //! Embree's builder, `rtcBuildBVH`, called for boxes.
 
 use libloading::{Library, Symbol};
-use std::ffi::c_void;
+use std::ffi::{c_char, c_void};
 use std::ptr::null_mut;
 
 type Handle = *mut c_void;
@@ -13,7 +13,7 @@ type Corners = [[f32; 3]; 2];
 #[derive(Default)]
 pub struct Node {
     pub objects: Vec<u32>,
-    pub children: Vec<Box<Node>>,
+    pub children: Vec<Node>,
     pub boxes: Vec<Corners>,
 }
 
@@ -65,7 +65,10 @@ extern "C" fn set_node_children(
     // SAFETY: Embree passes nodes that the callbacks made, each to one parent.
     unsafe {
         let children = std::slice::from_raw_parts(children, count as usize);
-        (*node).children = children.iter().map(|&child| Box::from_raw(child)).collect();
+        (*node).children = children
+            .iter()
+            .map(|&child| *Box::from_raw(child))
+            .collect();
     }
 }
 
@@ -117,7 +120,7 @@ pub fn build(boxes: &[Corners], width: u32) -> Result<Box<Node>, Box<dyn std::er
         let library = names.iter().find_map(|name| Library::new(name).ok());
         // Never unloaded: Embree's threads may still run in it.
         let library: &Library = Box::leak(Box::new(library.ok_or("Embree is not installed")?));
-        let new_device: Symbol<extern "C" fn(*const u8) -> Handle> =
+        let new_device: Symbol<extern "C" fn(*const c_char) -> Handle> =
             library.get(b"rtcNewDevice")?;
         let new_bvh: Symbol<extern "C" fn(Handle) -> Handle> = library.get(b"rtcNewBVH")?;
         let build: Symbol<extern "C" fn(*const Arguments) -> *mut Node> =
@@ -133,7 +136,7 @@ pub fn build(boxes: &[Corners], width: u32) -> Result<Box<Node>, Box<dyn std::er
             max_leaf_size: 8,
             traversal_cost: 1.0,
             intersection_cost: 1.0,
-            bvh: new_bvh(new_device(b"threads=1\0".as_ptr())),
+            bvh: new_bvh(new_device(c"threads=1".as_ptr())),
             primitives: primitives.as_mut_ptr(),
             primitive_count: boxes.len(),
             primitive_capacity: boxes.len(),

@@ -193,6 +193,11 @@ fn files_are_read_in_every_form_and_refused_with_a_reason() {
     let blocked = read_answers(&file("blocked.csv", b"blocked\n1\n0\n")).unwrap();
     assert_eq!(blocked, [Answer::Blocked(true), Answer::Blocked(false)]);
     for (name, bytes, reason) in [
+        (
+            "incomplete.f64",
+            &wide[..41],
+            "the last number is incomplete",
+        ),
         ("short.f64", &wide[..40], "expected 8 numbers per row"),
         (
             "title.csv",

@@ -16,12 +16,14 @@ pub enum AnswerFileError {
     Io { path: PathBuf, reason: io::Error },
     #[error("{}: expected the extension .csv, .f32 or .f64", .0.display())]
     Extension(PathBuf),
-    #[error("{}: expected {columns} numbers per row, found {bytes} bytes", .path.display())]
+    #[error("{}: expected {columns} numbers per row, found {numbers} numbers", .path.display())]
     Size {
         path: PathBuf,
         columns: usize,
-        bytes: usize,
+        numbers: usize,
     },
+    #[error("{}: the last number is incomplete", .0.display())]
+    Incomplete(PathBuf),
     #[error("{}: no column '{name}' in the first line", .path.display())]
     Title { path: PathBuf, name: &'static str },
     #[error("{}:{line}: expected {expected}, found '{found}'", .path.display())]
@@ -119,19 +121,18 @@ fn table(path: &Path) -> Result<Table> {
         .extension()
         .map(|e| e.to_string_lossy().to_ascii_lowercase());
     match extension.as_deref() {
-        Some("f32") => {
-            let numbers = bytes.as_chunks().0.iter();
-            let numbers = numbers.map(|&n| f64::from(f32::from_le_bytes(n)));
-            Ok(Table::Numbers(numbers.collect()))
-        }
-        Some("f64") => {
-            let numbers = bytes.as_chunks().0.iter();
-            Ok(Table::Numbers(
-                numbers.map(|&n| f64::from_le_bytes(n)).collect(),
-            ))
-        }
+        Some("f32") => numbers(path, &bytes, |n| f64::from(f32::from_le_bytes(n))),
+        Some("f64") => numbers(path, &bytes, f64::from_le_bytes),
         Some("csv") => Ok(Table::Text(Text::new(path, bytes)?)),
         _ => Err(AnswerFileError::Extension(path.to_owned())),
+    }
+}
+
+/// Returns numbers of `N` bytes.
+fn numbers<const N: usize>(path: &Path, bytes: &[u8], number: fn([u8; N]) -> f64) -> Result<Table> {
+    match bytes.as_chunks() {
+        (all, []) => Ok(Table::Numbers(all.iter().map(|&n| number(n)).collect())),
+        _ => Err(AnswerFileError::Incomplete(path.to_owned())),
     }
 }
 
@@ -142,7 +143,7 @@ fn rows<const N: usize>(path: &Path, numbers: &[f64]) -> Result<Vec<[f64; N]>> {
         _ => Err(AnswerFileError::Size {
             path: path.to_owned(),
             columns: N,
-            bytes: numbers.len() * size_of::<f64>(),
+            numbers: numbers.len(),
         }),
     }
 }

@@ -171,8 +171,9 @@ impl Boxes<'_> {
     }
 }
 
-fn contains(outer: &Aabb, inner: &Aabb) -> bool {
-    outer.lo.cmple(inner.lo).all() && inner.hi.cmple(outer.hi).all()
+/// Returns whether a box contains another one, which can be empty.
+pub fn contains(outer: &Aabb, inner: &Aabb) -> bool {
+    inner.is_empty() || outer.lo.cmple(inner.lo).all() && inner.hi.cmple(outer.hi).all()
 }
 
 /// Makes the box of every inner node that around its children. The box of a node that holds nothing is a point

@@ -1,6 +1,6 @@
 //! Reads the tree of a file for a scene.
 
-use super::boxes::Boxes;
+use super::boxes::{Boxes, contains};
 use super::columns::Columns;
 use super::error::TreeFileError;
 use super::faults::Faults;
@@ -168,7 +168,7 @@ fn frame(header: &Header, scene: &Scene, margin: RootMargin) -> Result<Frame, Tr
     if !(cell.lo.is_finite() && cell.hi.is_finite()) {
         return Err(TreeFileError::Root("it is too large"));
     }
-    if !bounds.is_empty() && !(cell.lo.cmple(bounds.lo).all() && bounds.hi.cmple(cell.hi).all()) {
+    if !contains(&cell, &bounds) {
         return Err(TreeFileError::Root(
             "it does not contain all objects of the scene",
         ));
