@@ -19,6 +19,7 @@
 //! | [`scene::builtin`] | scene generators | a line in [`scene::builtin::BUILTINS`] |
 //! | [`structure`] | nodes with planes or boxes, the build driver, voxels of grids, moments of the build, validation | |
 //! | [`structure::split`] | build methods: where a cell is split | a line in [`structure::split::SPLIT_RULES`] |
+//! | [`structure::tree_file`] | trees as files: reader, writer, what is wrong with a tree | |
 //! | [`structure::bvh`] | build methods of bounding volume hierarchies | a line in [`structure::bvh::BVH_BUILDERS`] |
 //! | [`trace`] | traversal of trees, hierarchies and grids in two precisions; timed and counting kernels, scalar and SIMD; shading, rendering, recorded rays | |
 //! | [`setup`] | the whole experiment: scene, structure, render settings, camera; the command that measures it | a field and an entry of [`setup::SETTINGS`] |
@@ -28,6 +29,7 @@
 //! | [`measure::tune`] | the best tree for a scene: candidates, rounds, ranking with ties | |
 //! | [`measure::paper`] | the paper's printed tables, and its experiment repeated | |
 //! | [`measure::judge`] | exact arithmetic: why two hits differ | |
+//! | [`measure::answers`] | answers of other programs: right, tie, rounding or fault | |
 //! | [`measure::exact`] | every structure and kernel against exact arithmetic, with rays at the limits of rounding | a variant of [`measure::exact::RaySource`] |
 //! | [`measure::stability`] | tests with extreme inputs | an entry of [`measure::stability::CASES`] |
 //! | [`measure::accuracy`] | accuracy vs. time: error and rendering time of each setting | a line in [`measure::accuracy::KNOBS`] |

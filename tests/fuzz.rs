@@ -7,9 +7,14 @@
 #[allow(dead_code)]
 mod random;
 
+use bspscope::geometry::{Ray, Vec3};
+use bspscope::measure::exact::ExactKernel;
+use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
 use bspscope::scene::format::{BYTES_PER_TRIANGLE, FORMATS, Input};
-use bspscope::scene::{Material, Scene};
+use bspscope::scene::{Material, Scene, SceneRequest, load};
+use bspscope::structure::tree_file::{self, Origin};
+use bspscope::structure::{BuildSettings, MaxDepth, Method, RootMargin, build, validate};
 use random::Random;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::path::Path;
@@ -237,6 +242,114 @@ fn readers_survive_mutated_files() {
         // Mutations of every depth: some files survive them, some do not.
         assert!(read > inputs / 50 && refused > inputs / 50);
     }
+}
+
+/// Replaces up to four words of four bytes, mostly by small numbers and by limits of types.
+fn change_words(file: &[u8], random: &mut Random) -> Vec<u8> {
+    let mut bytes = file.to_vec();
+    let data = 64 * bytes.iter().position(|&b| b == b'\n').unwrap().div_ceil(64);
+    let words = (bytes.len() - data) / 4;
+    for _ in 0..=random.below(4) {
+        let at = data + 4 * random.below(words);
+        let limits = [
+            0,
+            1,
+            0x7fff_ffff,
+            u32::MAX,
+            0x7f80_0000,
+            0x7fc0_0000,
+            0xff7f_ffff,
+        ];
+        let value = match random.below(3) {
+            0 => random.below(200) as u32,
+            1 => random.one_of(&limits),
+            _ => random.bits() as u32,
+        };
+        bytes[at..at + 4].copy_from_slice(&value.to_le_bytes());
+    }
+    bytes
+}
+
+/// Validates and traverses the tree of a file, whatever it is.
+fn trace(scene: &Scene, file: &Path) {
+    let progress = Progress::new();
+    let settings = BuildSettings::for_method(Method::named(file.to_str().unwrap()).unwrap());
+    let tree = build(scene, &settings, &progress).unwrap();
+    // Bad trees are read, too.
+    let _ = validate(scene, &tree);
+    let from = scene.bounds().center() + Vec3::splat(9.0);
+    let directions = (0..8_u32).map(|i| Vec3::new(-1.0, f64::from(i) / -7.0, -1.0));
+    let rays: Vec<Ray> = directions
+        .map(|direction| Ray::new(from, direction))
+        .collect();
+    for kernel in ExactKernel::all() {
+        kernel.answers(scene, &tree, Precision::F32, &rays, &progress);
+    }
+}
+
+/// What can be read is a tree that can be traversed.
+#[test]
+fn tree_files_survive_mutations() {
+    /// One of so many trees that could be read is traversed.
+    const TRACED: usize = 64;
+    let _alone = alone();
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/assets/trimesh.obj");
+    let request = SceneRequest::parse(mesh.to_str().unwrap());
+    let (scene, progress) = (load(&request, &Progress::new()).unwrap(), Progress::new());
+    let mut corpus = corpus(&["bstree"]);
+    assert!(corpus.len() >= 3);
+    for method in [
+        "midpoint",
+        "sah-cut",
+        "octree",
+        "grid",
+        "bvh-sweep",
+        "bvh-spatial",
+    ] {
+        // Small files are read sooner.
+        let settings = BuildSettings {
+            d_max: MaxDepth::Fixed(6),
+            ..BuildSettings::for_method(Method::named(method).unwrap())
+        };
+        let tree = build(&scene, &settings, &progress).unwrap();
+        let mut bytes = Vec::new();
+        tree_file::write(&tree, &scene, &Origin::default(), &mut bytes).unwrap();
+        corpus.push(bytes);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mutated.bstree");
+    let (mut read, mut refused) = (0, 0);
+    for i in 0..inputs() {
+        let mut random = Random(i as u64);
+        let original = &corpus[random.below(corpus.len())];
+        let other = &corpus[random.below(corpus.len())];
+        let bytes = match random.below(4) {
+            0 => mutate(original, other, &mut random),
+            _ => change_words(original, &mut random),
+        };
+        let (start, before) = (Instant::now(), HELD.load(Ordering::Relaxed));
+        MOST_HELD.store(before, Ordering::Relaxed);
+        let told = Told(i);
+        match tree_file::read(&bytes, &scene, RootMargin::Automatic, &progress) {
+            Ok(_) => {
+                read += 1;
+                if read % TRACED == 0 {
+                    std::fs::write(&file, bytes).unwrap();
+                    trace(&scene, &file);
+                }
+            }
+            Err(error) => {
+                refused += 1;
+                assert!(!error.to_string().is_empty());
+            }
+        }
+        std::mem::forget(told);
+        let most = MOST_HELD.load(Ordering::Relaxed).saturating_sub(before);
+        assert!(most < MOST_MEMORY, "input {i} took {most} bytes");
+        assert!(start.elapsed() < HANG, "input {i}: {:?}", start.elapsed());
+    }
+    eprintln!("trees: {} inputs, {read} read, {refused} refused", inputs());
+    assert!(read > inputs() / 50 && refused > inputs() / 50);
 }
 
 /// Whatever a material file contains, the geometry of the file that refers to it is read.

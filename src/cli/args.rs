@@ -2,13 +2,13 @@
 //! ([`super::setting_args`]).
 
 use super::setting_args::{
-    Built, Everything, Extreme, Loaded, Modelled, OneMethod, Reference, Reproduced, SettingArgs,
-    Shared, Swept, Tuned, Verified,
+    Answered, Built, Everything, Extreme, Loaded, Modelled, OneMethod, Reference, Reproduced,
+    SettingArgs, Shared, Swept, Tuned, Verified,
 };
 use super::values::{
     ByColormap, ByHeatmap, ByParameter, colormap_names, equation_names, filter_names, goal_names,
     heatmap_names, knob_names, leaf_writer_names, method_names, paper_scenes, parameter_names,
-    pixel, range, scale_names, seconds, share, writer_names,
+    pixel, precision_names, range, scale_names, seconds, share, writer_names,
 };
 use crate::measure::accuracy::Knob;
 use crate::measure::heat::RayFilter;
@@ -17,6 +17,7 @@ use crate::measure::paper::PaperScene;
 use crate::measure::sweep::Shard;
 use crate::measure::tune::Goal;
 use crate::present::overlay::{Range, Scale};
+use crate::primitive::Precision;
 use crate::scene::builtin::BUILTINS;
 use crate::scene::format::FORMATS;
 use crate::setup::Edits;
@@ -51,10 +52,12 @@ pub enum Command {
     Merge(MergeArgs),
     Model(ModelArgs),
     Compare(CompareArgs),
+    Check(CheckArgs),
     Paper(PaperArgs),
     Render(RenderArgs),
     Report(PageArgs),
     Leaves(LeavesArgs),
+    Tree(TreeArgs),
     Sweep(SweepArgs),
     Probe(ProbeArgs),
     Generate(GenerateArgs),
@@ -361,6 +364,24 @@ pub struct PageArgs {
     pub output: PathBuf,
 }
 
+/// Write a tree to a file (.bstree) that other programs can read
+///
+/// Options --method and --tree of other commands read such a file, of this or another program:
+/// 'bspscope measure SCENE --tree FILE'. The format is described in docs/formats.md.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope tree balls --method bvh-sweep --set width=8 -o balls.bstree\n\
+    bspscope measure balls --tree balls.bstree\n\
+    bspscope verify balls --tree balls.bstree"))]
+pub struct TreeArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
+    #[command(flatten)]
+    pub settings: SettingArgs<Built>,
+    /// Write to this file; - writes to standard output
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: PathBuf,
+}
+
 /// Write the leaf boxes of a tree as OBJ or PLY, for other programs
 ///
 /// Every leaf is a box of 6 faces in the scene's units, counter-clockwise when seen from outside.
@@ -452,6 +473,33 @@ pub struct VerifyArgs {
     pub rays: u32,
     #[command(flatten)]
     pub settings: SettingArgs<Verified>,
+}
+
+/// Check the answers of another program about rays
+///
+/// Rays and answers are files: .csv with titles (ox, oy, oz, dx, dy, dz and optionally t_min and t_max;
+/// object and t, or blocked), or .f32 and .f64 with eight and two numbers per ray. Object -1 is a miss.
+/// Exact arithmetic decides whether each answer is right, a tie, right up to rounding, or a fault. The
+/// first faults are written to fault.json, fault-1.json and so on, each with as few objects as needed.
+/// Exits with code 1 if there is a fault.
+#[derive(Debug, Args)]
+#[command(after_help = help("bspscope check model.obj --rays rays.csv --answers answers.csv\n\
+    bspscope check terrain.ply --rays rays.f32 --answers answers.f32 --precision f32\n\
+    bspscope verify --replay fault.json"))]
+pub struct CheckArgs {
+    /// A scene file, or a generator with an optional size (NAME or NAME:SIZE)
+    pub scene: String,
+    /// The rays
+    #[arg(long, value_name = "FILE")]
+    pub rays: PathBuf,
+    /// The answers, one per ray
+    #[arg(long, value_name = "FILE")]
+    pub answers: PathBuf,
+    /// The precision in which the program computes
+    #[arg(long, value_name = "NAME", value_parser = precision_names(), default_value = "f32")]
+    pub precision: Precision,
+    #[command(flatten)]
+    pub settings: SettingArgs<Answered>,
 }
 
 /// Test trees with extreme rays, geometry, transformations and settings

@@ -54,8 +54,12 @@ pub fn run_or_failure(
             result => result.map(Ok),
         }
     });
-    let measured: std::result::Result<_, MeasureError> = measured;
-    Ok(measured?)
+    let measured: std::result::Result<std::result::Result<Measured, _>, MeasureError> = measured;
+    let measured = measured?;
+    if let Ok(measured) = &measured {
+        resolve::warn_of_tree(&measured.tree, setup);
+    }
+    Ok(measured)
 }
 
 /// Returns the text beside the bar of a measurement.

@@ -6,6 +6,7 @@
 mod accuracy;
 mod args;
 mod bar;
+mod check;
 mod compare;
 mod failures;
 mod generate;
@@ -27,6 +28,7 @@ mod resolve;
 mod setting_args;
 mod stability;
 mod sweep;
+mod tree;
 mod tune;
 mod values;
 mod verify;
@@ -49,8 +51,10 @@ pub fn main() -> ExitCode {
         Some(Command::Merge(args)) => merge::run(args),
         Some(Command::Sweep(args)) => sweep::run(args),
         Some(Command::Model(args)) => model::run(args),
+        Some(Command::Check(args)) => check::run(args),
         Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Leaves(args)) => leaves::run(args),
+        Some(Command::Tree(args)) => tree::run(args),
         Some(Command::Report(args)) => report::run(args),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Paper(args)) => paper::run(args),

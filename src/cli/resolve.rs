@@ -5,7 +5,8 @@ use crate::present::report::{Failure, Writer};
 use crate::scene::format::{FORMATS, FormatError};
 use crate::scene::{LoadError, NoteKind, Scene, SceneRequest, SceneSource, builtin, load};
 use crate::setup::Setup;
-use crate::structure::{BuildError, Tree, build};
+use crate::structure::tree_file::{self, Fault};
+use crate::structure::{BuildError, Builder, Tree, build};
 use crate::trace::{RenderSettings, thread_pool};
 use anyhow::{Result, bail};
 use std::io::{ErrorKind, Write};
@@ -47,9 +48,29 @@ pub fn tree(scene: &Scene, setup: &Setup) -> Result<Tree> {
     let pool = thread_pool(setup.render.threads)?;
     let method = setup.build.method.name;
     let stage = format!("{}, {method}: building the tree", scene.name());
-    Ok(bar::with_bar(&stage, |progress| {
+    let tree = bar::with_bar(&stage, |progress| {
         pool.install(|| build(scene, &setup.build, progress))
-    })?)
+    })?;
+    warn_of_tree(&tree, setup);
+    Ok(tree)
+}
+
+/// Prints to standard error what is wrong with a tree that was read from a file.
+pub fn warn_of_tree(tree: &Tree, setup: &Setup) {
+    let Builder::File(file) = setup.build.method.builder else {
+        return;
+    };
+    let mut reasons: Vec<String> = tree.faults().list().iter().map(Fault::to_string).collect();
+    if let SceneSource::File(scene) = &setup.scene.source
+        && tree_file::is_of_another_scene(file, scene)
+    {
+        reasons.insert(0, format!("made for a file other than {}", scene.display()));
+    }
+    let mut out = std::io::stderr().lock();
+    for reason in reasons {
+        // Without a standard error stream there is nobody to warn.
+        let _ = writeln!(out, "bspscope: {}: {reason}", file.display());
+    }
 }
 
 /// Builds the tree of a setup. One that is too large is a failure of this setup alone.

@@ -1,6 +1,6 @@
 //! Options generated from [`SETTINGS`], and the setups that they resolve to.
 
-use super::values::{constant, method_names};
+use super::values::{MethodParser, constant};
 use crate::scene::{SceneRequest, SceneSource};
 use crate::setup::{Edits, Group, Kind, SETTINGS, Setting, Setup};
 use crate::structure::Method;
@@ -39,11 +39,14 @@ pub enum Methods {
 impl Methods {
     fn about(&self) -> &'static str {
         match self {
-            Methods::One(_) => "Build method",
+            Methods::One(_) => "Build method, or a tree file (.bstree)",
             Methods::Paper => {
-                "Build method. Can be repeated [default: the two methods of the paper]"
+                "Build method, or a tree file (.bstree). Can be repeated [default: the two methods of the \
+                 paper]"
             }
-            Methods::AllButNone => "Build method. Can be repeated [default: all except none]",
+            Methods::AllButNone => {
+                "Build method, or a tree file (.bstree). Can be repeated [default: all except none]"
+            }
             Methods::Searched => "Build method",
         }
     }
@@ -100,6 +103,8 @@ offers! {
     }, Methods::One("midpoint"), [];
     /// Only the scene.
     Loaded: |setting| setting.group == Group::Scene, Methods::Paper, [];
+    /// The scene, for answers about rays.
+    Answered: |setting| setting.group == Group::Scene || setting.name == "threads", Methods::Paper, [];
     /// The settings that determine the hits of rays.
     Verified: |setting| {
         !["resolution", "samples-per-pixel"].contains(&setting.name)
@@ -290,7 +295,8 @@ fn method_arg<O: Offer>() -> Arg {
     Arg::new("method")
         .long("method")
         .value_name("METHOD")
-        .value_parser(method_names())
+        .visible_alias("tree")
+        .value_parser(MethodParser)
         .action(action)
         .help_heading(Group::Structure.title())
         .help(about)
@@ -340,7 +346,7 @@ fn value_name(setting: &Setting) -> &'static str {
         Kind::Angle(_) => "DEGREES",
         Kind::Point => "X,Y,Z",
         Kind::Size => "WxH",
-        Kind::Choice(_) => "NAME",
+        Kind::Choice(_) | Kind::Method => "NAME",
         Kind::Cylinders => "HOW",
     }
 }

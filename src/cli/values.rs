@@ -9,8 +9,11 @@ use crate::measure::{Parameter, parameter, parameters};
 use crate::present::export::LEAF_WRITERS;
 use crate::present::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::present::report::WRITERS;
+use crate::primitive::Precision;
 use crate::structure::Method;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use crate::structure::tree_file::is_tree_file;
+use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
+use std::ffi::OsStr;
 use std::time::Duration;
 
 /// A parameter, given by its symbol.
@@ -59,6 +62,40 @@ pub fn leaf_writer_names() -> PossibleValuesParser {
 pub fn method_names() -> impl TypedValueParser<Value = Method> {
     PossibleValuesParser::new(Method::all().map(|m| PossibleValue::new(m.name).help(m.summary)))
         .try_map(|name| Method::named(&name))
+}
+
+/// Parses a build method or a tree file. Help lists the methods.
+#[derive(Clone)]
+pub struct MethodParser;
+
+impl TypedValueParser for MethodParser {
+    type Value = Method;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        arg: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<Method, clap::Error> {
+        match value.to_str().filter(|text| is_tree_file(text)) {
+            Some(file) => StringValueParser::new()
+                .try_map(|file| Method::named(&file))
+                .parse_ref(command, arg, OsStr::new(file)),
+            None => method_names().parse_ref(command, arg, value),
+        }
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let all = Method::all().map(|m| PossibleValue::new(m.name).help(m.summary));
+        Some(Box::new(all))
+    }
+}
+
+pub fn precision_names() -> impl TypedValueParser<Value = Precision> {
+    PossibleValuesParser::new(Precision::ALL.map(Precision::name)).try_map(|name| {
+        let mut all = Precision::ALL.into_iter();
+        all.find(|p| p.name() == name).ok_or("no such precision")
+    })
 }
 
 pub fn equation_names() -> impl TypedValueParser<Value = Equation> {

@@ -3,7 +3,7 @@
 use super::args::VerifyArgs;
 use super::outcome::Outcome;
 use super::{bar, failures, output, resolve, verify_exact};
-use crate::measure::judge::{Answer, Case, Verdict};
+use crate::measure::judge::{Answer, Answerer, Case, Verdict};
 use crate::measure::{Answers, RaySample, Verification, answer, compare, sample_rays, unsplit};
 use crate::present::number::counted;
 use crate::present::report::plain_table;
@@ -11,6 +11,7 @@ use crate::primitive::Precision;
 use crate::scene::Scene;
 use crate::scene::builtin::BUILTINS;
 use crate::setup::Setup;
+use crate::structure::tree_file::Faults;
 use crate::structure::{BuildSettings, Invalid, Method, Tree, validate};
 use crate::trace::{RayKind, thread_pool};
 use anyhow::{Context, Result};
@@ -23,20 +24,28 @@ struct Finding {
     method: Method,
     precision: Precision,
     tree: Result<(), Invalid>,
+    /// What is wrong with the tree in its file.
+    file: Faults,
     rays: Verification,
+    /// What the tree of a file found for the first faults, which are not written to files.
+    differences: Vec<String>,
     /// Files with the first faults.
     files: Vec<PathBuf>,
 }
 
 impl Finding {
     fn passed(&self) -> bool {
-        self.tree.is_ok() && self.rays.passed()
+        self.is_valid() && self.rays.passed()
+    }
+
+    fn is_valid(&self) -> bool {
+        self.tree.is_ok() && self.file.is_empty()
     }
 
     /// Returns whether the tree itself is wrong. Where it differs from testing every object, the tree may be
     /// right.
     fn tree_is_wrong(&self) -> bool {
-        self.tree.is_err() || self.rays.tree_wrong > 0
+        !self.is_valid() || self.rays.tree_wrong > 0
     }
 }
 
@@ -114,34 +123,45 @@ fn findings_of(text: &str, args: &VerifyArgs) -> Result<(Vec<Finding>, bool)> {
             method,
             precision,
             tree: validate(&scene, &tree),
+            file: tree.faults().clone(),
             rays: compare(&scene, sample, answers, &found, None),
+            differences: Vec::new(),
             files: Vec::new(),
         });
         if let Some(finding) = findings.last_mut() {
-            finding.files = write_faults(&scene, &setup.build, &finding.rays)?;
+            for case in cases(&scene, &setup.build, &finding.rays)? {
+                if method.is_file() {
+                    finding.differences.push(difference(&case));
+                } else {
+                    finding.files.push(write_fault(case)?);
+                }
+            }
         }
     }
     failures::check_any(&findings, &failed)?;
     Ok((findings, failed.is_empty()))
 }
 
-/// Writes each fault to its own file.
-fn write_faults(
-    scene: &Scene,
-    settings: &BuildSettings,
-    rays: &Verification,
-) -> Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
+/// Returns the faults that occur again.
+fn cases(scene: &Scene, settings: &BuildSettings, rays: &Verification) -> Result<Vec<Case>> {
+    let mut cases = Vec::new();
     for &(kind, ray) in &rays.faults {
-        let Some(case) = Case::of(scene, settings, kind, ray)? else {
-            continue;
-        };
-        let (path, mut file) = output::create_free("fault", "json")?;
-        writeln!(file, "{}", case.shrunk().to_json())
-            .with_context(|| path.display().to_string())?;
-        files.push(path);
+        cases.extend(Case::of(scene, settings, kind, ray)?);
     }
-    Ok(files)
+    Ok(cases)
+}
+
+/// Writes a fault to a file of its own.
+pub fn write_fault(case: Case) -> Result<PathBuf> {
+    let (path, mut file) = output::create_free("fault", "json")?;
+    writeln!(file, "{}", case.shrunk().to_json()).with_context(|| path.display().to_string())?;
+    Ok(path)
+}
+
+fn difference(case: &Case) -> String {
+    let (kind, origin, direction) = (case.kind.name(), case.ray.origin, case.ray.direction);
+    let answers = both(name_of(&case.by), case.expected, case.found);
+    format!("for the {kind} ray from {origin} along {direction}, {answers}")
 }
 
 /// Repeats the case of a file.
@@ -149,17 +169,21 @@ fn replay(file: &Path) -> Result<Outcome> {
     let name = file.display();
     let text = std::fs::read_to_string(file).with_context(|| name.to_string())?;
     let case = Case::from_json(&text).with_context(|| name.to_string())?;
-    let (ray, method) = (&case.ray, case.settings.method.name);
+    let (ray, who) = (&case.ray, name_of(&case.by));
+    let by = match &case.by {
+        Answerer::Tree(settings) => settings.method.name,
+        Answerer::Program(_) => "another program",
+    };
     let again = case.replay().with_context(|| name.to_string())?;
     let mut lines = vec![
         format!(
-            "{}, {method}: the {} ray from {} along {}",
+            "{}, {by}: the {} ray from {} along {}",
             counted(case.scene.objects().len(), "object"),
             case.kind.name(),
             ray.origin,
             ray.direction
         ),
-        format!("  in the file: {}", both(case.expected, case.found)),
+        format!("  in the file: {}", both(who, case.expected, case.found)),
     ];
     let outcome = match &again {
         None => {
@@ -167,9 +191,9 @@ fn replay(file: &Path) -> Result<Outcome> {
             Outcome::Done
         }
         Some(again) => {
-            lines.push(format!("  now: {}", both(again.expected, again.found)));
+            lines.push(format!("  now: {}", both(who, again.expected, again.found)));
             let verdict = again.verdict();
-            lines.push(format!("  {}", in_words(verdict)));
+            lines.push(format!("  {}", in_words(who, verdict)));
             if matches!(verdict, Verdict::Fault { .. }) {
                 Outcome::CheckFailed
             } else {
@@ -183,7 +207,16 @@ fn replay(file: &Path) -> Result<Outcome> {
     Ok(outcome)
 }
 
-fn both(expected: Answer, found: Answer) -> String {
+/// Returns what the one who gave an answer is called.
+fn name_of(by: &Answerer) -> &'static str {
+    match by {
+        Answerer::Tree(_) => "the tree",
+        Answerer::Program(_) => "the program",
+    }
+}
+
+/// Returns what testing every object finds and what another one does.
+pub fn both(who: &str, expected: Answer, found: Answer) -> String {
     let said = |answer| match answer {
         Answer::Nearest(hit) if hit.is_hit() => format!("object {} at {:?}", hit.object, hit.t),
         Answer::Nearest(_) => "nothing".to_owned(),
@@ -191,23 +224,23 @@ fn both(expected: Answer, found: Answer) -> String {
         Answer::Blocked(false) => "not blocked".to_owned(),
     };
     format!(
-        "testing every object finds {}, the tree finds {}",
+        "testing every object finds {}, {who} finds {}",
         said(expected),
         said(found)
     )
 }
 
-fn in_words(verdict: Verdict) -> &'static str {
+fn in_words(who: &str, verdict: Verdict) -> String {
     match verdict {
-        Verdict::Tie => "A tie: both are exactly right.",
-        Verdict::Rounding => "Rounding: both are right up to rounding.",
+        Verdict::Tie => "A tie: both are exactly right.".into(),
+        Verdict::Rounding => "Rounding: both are right up to rounding.".into(),
         Verdict::Fault {
             a_is_wrong: false, ..
-        } => "A fault: the tree is wrong.",
+        } => format!("A fault: {who} is wrong."),
         Verdict::Fault {
             b_is_wrong: false, ..
-        } => "A fault: testing every object is wrong.",
-        Verdict::Fault { .. } => "A fault: both are wrong.",
+        } => "A fault: testing every object is wrong.".into(),
+        Verdict::Fault { .. } => "A fault: both are wrong.".into(),
     }
 }
 
@@ -253,7 +286,7 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
                 finding.scene.clone(),
                 finding.method.name.into(),
                 finding.precision.name().into(),
-                if finding.tree.is_ok() {
+                if finding.is_valid() {
                     "valid".into()
                 } else {
                     "invalid".into()
@@ -268,10 +301,18 @@ fn write(findings: &[Finding], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", table.trim_fmt())?;
     for finding in findings.iter().filter(|f| !f.passed()) {
         let name = format!("{}, {}", finding.scene, finding.method.name);
-        if let Err(wrong) = &finding.tree {
-            writeln!(out, "{name}: {wrong}")?;
+        match &finding.tree {
+            Err(wrong) if finding.file.is_empty() => writeln!(out, "{name}: {wrong}")?,
+            _ => {}
         }
-        for (kind, ray) in &finding.rays.faults {
+        for fault in finding.file.list() {
+            writeln!(out, "{name}: {fault}")?;
+        }
+        for difference in &finding.differences {
+            writeln!(out, "{name}: {difference}")?;
+        }
+        let without_details = finding.rays.faults.iter().skip(finding.differences.len());
+        for (kind, ray) in without_details {
             writeln!(
                 out,
                 "{name}: wrong hit for the {} ray from {} along {}",
@@ -321,10 +362,12 @@ mod tests {
             method: Method::of_the_paper()[0],
             precision: Precision::F64,
             tree: Ok(()),
+            file: Faults::default(),
             rays: Verification {
                 rays: [10; 4],
                 ..Verification::default()
             },
+            differences: Vec::new(),
             files: Vec::new(),
         };
         let wrong_tree = Finding {
@@ -359,7 +402,9 @@ mod tests {
             method: Method::of_the_paper()[0],
             precision: Precision::F64,
             tree: Ok(()),
+            file: Faults::default(),
             rays: Verification::default(),
+            differences: Vec::new(),
             files: Vec::new(),
         };
         finding.rays.others[0].faults = 1;

@@ -6,6 +6,7 @@ use super::{measure, output, resolve};
 use crate::present::export;
 use crate::present::report::{Report, write_summary};
 use crate::setup::Setup;
+use crate::structure::tree_file::is_tree_file;
 use crate::workspace::Workspace;
 use anyhow::{Context, Result, bail};
 use image::ImageFormat;
@@ -54,6 +55,9 @@ fn check_picture(file: Option<&Path>) -> Result<()> {
 
 /// Reads the workspace to open, if the argument is one.
 fn workspace(args: &WindowArgs) -> Result<Option<(PathBuf, Workspace)>> {
+    if let Some(file) = args.scene.as_deref().filter(|text| is_tree_file(text)) {
+        bail!("{file} is a tree; open it with its scene: bspscope SCENE --tree {file}");
+    }
     let path = args.scene.as_deref().map(Path::new);
     let Some(path) = path.filter(|path| Workspace::is_path(path)) else {
         return Ok(None);

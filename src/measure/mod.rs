@@ -2,6 +2,7 @@
 //! triplet Λ, and the studies based on them.
 
 pub mod accuracy;
+pub mod answers;
 mod comparison;
 mod counter;
 pub mod exact;

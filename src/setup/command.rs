@@ -1,6 +1,6 @@
 //! A setup as a command.
 
-use super::{SETTINGS, Setup};
+use super::{Kind, SETTINGS, Setup};
 use crate::scene::SceneSource;
 use std::path::absolute;
 
@@ -19,7 +19,10 @@ pub fn measure_command(setup: &Setup) -> String {
     };
     let mut words = vec!["bspscope".to_owned(), "measure".into(), scene];
     for setting in setup.settings() {
-        let text = setting.text(setup);
+        let mut text = setting.text(setup);
+        if matches!(setting.kind, Kind::Method) && setup.build.method.is_file() {
+            text = absolute(&text).map_or(text, |path| path.display().to_string());
+        }
         let is_option = SETTINGS.iter().any(|s| s.name == setting.name);
         if setting.is_default(setup) && !SPELLED_OUT.contains(&setting.name) {
             continue;

@@ -1,6 +1,6 @@
 //! Settings as text: `method=sah-cut,d-max=16,precision=f32`.
 
-use super::{Setting, Setup};
+use super::{Setting, Setup, setting};
 
 /// Settings by name with the text of their values, in their original order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -8,7 +8,7 @@ pub struct Edits(Vec<(String, String)>);
 
 impl Edits {
     /// Parses pairs `NAME=VALUE`, separated by commas: any settings and constants of the method.
-    /// The method must be among them. A part without `=` belongs to the previous value, as in
+    /// The method, or `tree` with a tree file, must be among them. A part without `=` belongs to the previous value, as in
     /// `from=0,-4,1.5`.
     ///
     /// # Errors
@@ -24,7 +24,7 @@ impl Edits {
                 (None, None) => return Err(format!("expected NAME=VALUE, found '{part}'")),
             }
         }
-        if !pairs.iter().any(|(name, _)| name == "method") {
+        if !pairs.iter().any(is_method) {
             return Err("expected method=NAME among the settings".into());
         }
         let edits = Edits(pairs);
@@ -44,9 +44,9 @@ impl Edits {
     /// One sentence on what is wrong.
     pub fn apply(&self, setup: &Setup) -> Result<Setup, String> {
         let mut setup = setup.clone();
-        let is_method = |(name, _): &&(String, String)| name == "method";
         let others = self.0.iter().filter(|pair| !is_method(pair));
-        for (name, text) in self.0.iter().filter(is_method).chain(others) {
+        let methods = self.0.iter().filter(|pair| is_method(pair));
+        for (name, text) in methods.chain(others) {
             let setting = setup.setting(name)?;
             let value = setting.parse(text);
             let value = value.map_err(|reason| format!("{name}: {reason}"))?;
@@ -54,6 +54,11 @@ impl Edits {
         }
         Ok(setup)
     }
+}
+
+/// Returns whether a pair of name and value is the method.
+fn is_method((name, _): &(String, String)) -> bool {
+    setting("method").is_some_and(|method| method.is_called(name))
 }
 
 impl std::str::FromStr for Edits {

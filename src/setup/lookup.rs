@@ -47,6 +47,7 @@ impl Setup {
         let (structure, has_limits) = (self.build.method.structure, self.build.method.has_limits);
         match setting.name {
             "d-max" | "n-oilf" => has_limits,
+            "first-axis" | "overlap" if self.build.method.is_file() => false,
             "first-axis" => matches!(structure, Structure::Bintree | Structure::Octree),
             "overlap" => structure != Structure::Bvh,
             _ => true,

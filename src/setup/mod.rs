@@ -9,6 +9,7 @@ mod lookup;
 mod setting;
 mod settings;
 
+pub use choices::methods;
 pub use command::measure_command;
 pub use edits::Edits;
 pub use lookup::{any_setting, setting};

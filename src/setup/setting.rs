@@ -3,8 +3,9 @@
 use super::Setup;
 use crate::geometry::Vec3;
 use crate::scene::Cylinders;
-use crate::structure::MaxDepth;
 use crate::structure::split::Constant;
+use crate::structure::tree_file::EXTENSION;
+use crate::structure::{MaxDepth, Method};
 
 /// A setting of the experiment. Options, widgets, files, sweep axes and report lines are generated
 /// from it.
@@ -69,6 +70,8 @@ pub enum Kind {
     Number(Range),
     /// One of several names.
     Choice(fn() -> Vec<Choice>),
+    /// A build method, or a tree file.
+    Method,
     /// 0 or 1.
     Switch,
     /// Width and height in pixels.
@@ -235,6 +238,10 @@ impl Setting {
                 .into_iter()
                 .find(|choice| choice.name == text || choice.old_name == Some(text))
                 .map(|choice| Value::Choice(choice.name)),
+            Kind::Method => match Method::named(text) {
+                Ok(method) => Some(Value::Choice(method.info().name)),
+                Err(_) => None,
+            },
             Kind::Switch => match text {
                 "0" | "false" => Some(Value::Switch(false)),
                 "1" | "true" => Some(Value::Switch(true)),
@@ -282,6 +289,11 @@ impl Setting {
             Kind::Choice(choices) => {
                 let names: Vec<_> = choices().iter().map(|choice| choice.name).collect();
                 format!("one of {}", names.join(", "))
+            }
+            Kind::Method => {
+                let names: Vec<_> = Method::all().map(|method| method.name).collect();
+                let names = names.join(", ");
+                format!("one of {names}, or a tree file (.{EXTENSION})")
             }
             Kind::Switch => "0 or 1".into(),
             Kind::Size => "a width and a height of at least 1 pixel, such as 512x512".into(),
@@ -340,6 +352,9 @@ impl Setting {
                 let names = choices().into_iter().map(|c| Value::Choice(c.name));
                 names.collect()
             }
+            Kind::Method => Method::all()
+                .map(|m| Value::Choice(m.info().name))
+                .collect(),
             Kind::Switch => [false, true].map(Value::Switch).to_vec(),
             Kind::Size => vec![Value::Size([24, 16]), Value::Size([16, 8])],
             Kind::Point => vec![

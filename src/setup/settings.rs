@@ -1,6 +1,6 @@
 //! The list of all settings.
 
-use super::choices::{axes, kernels, methods, overlaps, precisions, samplings};
+use super::choices::{axes, kernels, overlaps, precisions, samplings};
 use super::setting::{Affects, Group, Kind, Range, Setting, Value};
 use crate::geometry::{Axis, Vec3};
 use crate::scene::Sampling;
@@ -29,17 +29,18 @@ pub static SETTINGS: &[Setting] = &[
     },
     Setting {
         name: "method",
-        aliases: &[],
+        aliases: &["tree"],
         symbol: None,
         label: "Method",
         group: Group::Structure,
-        about: "The method that builds the tree",
-        kind: Kind::Choice(methods),
+        about: "The method that builds the tree, or a tree file (.bstree)",
+        kind: Kind::Method,
         affects: Affects::Structure,
         get: |_, setup| Value::Choice(setup.build.method.name),
         set: |_, setup, value| {
-            let method = named(Method::all(), |m| m.name, value);
-            setup.build.set_method(method);
+            if let Ok(method) = Method::named(value.choice()) {
+                setup.build.set_method(method);
+            }
         },
     },
     Setting {

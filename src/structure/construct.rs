@@ -4,16 +4,18 @@ use super::build::{BuildError, Scope, divide};
 use super::bvh::{Binary, BvhBuilder, Input, Laid, lay_out};
 use super::frame::Frame;
 use super::method::Structure;
-use super::node::{Node, StopReason};
+use super::node::{Node, NodeKind, StopReason};
 use super::nodes::Nodes;
 use super::settings::{BuildSettings, Builder, MaxDepth};
 use super::tree::Tree;
+use super::tree_file::{self, Faults, FileTree, TreeFileError};
 use super::voxels::Voxels;
 use crate::geometry::Aabb;
 use crate::primitive::Shape;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use rayon::prelude::*;
+use std::path::Path;
 use std::sync::OnceLock;
 
 /// Builds the tree of a scene on the threads of the current `rayon` pool, or of the global pool.
@@ -32,6 +34,16 @@ pub fn build(
     let objects = scene.objects();
     if objects.len() >= Node::MAX_LEAF {
         return Err(BuildError::TooManyObjects(objects.len()));
+    }
+    if let Builder::File(path) = settings.method.builder {
+        let failed = |reason| match reason {
+            TreeFileError::Cancelled(cancelled) => BuildError::Cancelled(cancelled),
+            reason => BuildError::File {
+                path: path.to_owned(),
+                reason,
+            },
+        };
+        return of_file(scene, settings, path, progress).map_err(failed);
     }
     // Enters the pool once instead of once per cell.
     rayon::scope(|_| in_pool(scene, settings, progress))
@@ -71,6 +83,7 @@ fn in_pool(
             let (nodes, references) = (divided.nodes, divided.references);
             (Nodes::Planes(nodes), references, divided.depth_reached)
         }
+        Builder::File(_) => unreachable!("the tree of a file is not built"),
         Builder::Boxes(builder) => {
             let laid = enclose(&scope, builder(settings).as_ref())?;
             (
@@ -89,8 +102,50 @@ fn in_pool(
         settings: settings.clone(),
         depth_limit,
         depth_reached,
+        faults: Faults::default(),
         simd_tree: OnceLock::new(),
     })
+}
+
+/// Reads the tree of a file.
+fn of_file(
+    scene: &Scene,
+    settings: &BuildSettings,
+    path: &Path,
+    progress: &Progress,
+) -> Result<Tree, TreeFileError> {
+    let bytes = tree_file::load(path, settings.memory_limit)?;
+    let FileTree {
+        structure,
+        width,
+        nodes,
+        references,
+        voxels,
+        frame,
+        faults,
+    } = tree_file::read(&bytes, scene, settings.root_margin, progress)?;
+    let method = settings.method;
+    let is_as_opened = structure == method.structure
+        && (structure != Structure::Bvh || f64::from(width) == settings.constant("width"));
+    if !is_as_opened {
+        return Err(TreeFileError::Changed);
+    }
+    let mut tree = Tree {
+        nodes,
+        voxels,
+        references,
+        frame,
+        settings: settings.clone(),
+        depth_limit: 0,
+        depth_reached: 0,
+        faults,
+        simd_tree: OnceLock::new(),
+    };
+    let is_leaf = |node: u32| tree.kind(node) != NodeKind::Inner;
+    let leaves = tree.cells().filter(|cell| is_leaf(cell.node));
+    let depth = leaves.map(|cell| cell.depth).max().unwrap_or(0);
+    (tree.depth_reached, tree.depth_limit) = (depth, depth);
+    Ok(tree)
 }
 
 /// Builds a bounding volume hierarchy.

@@ -40,6 +40,19 @@ impl Frame {
         }
     }
 
+    /// Returns the frame of a root cell with this center and half size around `bounds`, which extends beyond
+    /// them by `margin`. `None` if arithmetic cannot distinguish its size from zero.
+    pub(super) fn at(center: Vec3, half: Vec3, margin: f64, bounds: &Aabb) -> Option<Self> {
+        let slack = Frame::around(bounds, margin).slack;
+        let frame = Frame {
+            center,
+            half,
+            margin,
+            slack,
+        };
+        half.cmpge(Vec3::splat(4.0 * slack)).all().then_some(frame)
+    }
+
     /// Returns the root cell in world coordinates.
     pub fn cell(&self) -> Aabb {
         Aabb::new(self.center - self.half, self.center + self.half)

@@ -3,7 +3,8 @@
 //!
 //! For trees with planes, one driver handles termination, the distribution of objects, and the arrays. A
 //! build method ([`split`]) only decides whether and where a cell is split. For hierarchies, a build method
-//! ([`bvh`]) makes a binary one, which is then laid out with the chosen width.
+//! ([`bvh`]) makes a binary one, which is then laid out with the chosen width. Trees of other programs are read
+//! from files ([`tree_file`]).
 
 mod box_node;
 mod build;
@@ -22,6 +23,7 @@ mod settings;
 pub(crate) mod simd_tree;
 pub mod split;
 mod tree;
+pub mod tree_file;
 mod validate;
 mod voxels;
 

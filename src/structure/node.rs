@@ -31,7 +31,7 @@ pub enum NodeKind {
 }
 
 /// Why a cell became a leaf.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StopReason {
     /// It contains no object.
@@ -56,10 +56,12 @@ pub enum StopReason {
     CentersCoincide,
     /// Its nodes were replaced by a leaf, which is cheaper.
     Collapsed,
+    /// It is a leaf in the file that the tree was read from.
+    InFile,
 }
 
 impl StopReason {
-    pub const ALL: [StopReason; 11] = [
+    pub const ALL: [StopReason; 12] = [
         StopReason::Empty,
         StopReason::CutOut,
         StopReason::FewObjects,
@@ -71,6 +73,7 @@ impl StopReason {
         StopReason::Voxel,
         StopReason::CentersCoincide,
         StopReason::Collapsed,
+        StopReason::InFile,
     ];
 
     /// Returns a short phrase for users.
@@ -87,6 +90,7 @@ impl StopReason {
             StopReason::Voxel => "a voxel of the grid",
             StopReason::CentersCoincide => "the centers of its objects coincide",
             StopReason::Collapsed => "a leaf is cheaper than its nodes (SAH)",
+            StopReason::InFile => "a leaf in the file",
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::bvh::BVH_BUILDERS;
 use super::settings::{BuildSettings, Method, SettingsError};
 use super::split::SPLIT_RULES;
+use super::tree_file::{is_tree_file, of_file};
 use serde::{Deserialize, Deserializer};
 
 impl Method {
@@ -25,11 +26,14 @@ impl Method {
         families
     }
 
-    /// Returns the method with this name.
+    /// Returns the method with this name, or the one that reads a tree file (`.bstree`) at this path.
     ///
     /// # Errors
-    /// The name is not in the registry.
+    /// The name is neither in the registry nor a tree file's.
     pub fn named(name: &str) -> Result<Method, SettingsError> {
+        if is_tree_file(name) {
+            return Ok(of_file(name));
+        }
         Method::all()
             .find(|m| m.name == name)
             .ok_or_else(|| SettingsError::UnknownMethod {

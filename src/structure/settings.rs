@@ -7,6 +7,7 @@ use crate::geometry::Axis;
 use crate::scene::Scene;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
+use std::path::Path;
 
 /// A build method: one of [`SPLIT_RULES`](super::split::SPLIT_RULES) or
 /// [`BVH_BUILDERS`](super::bvh::BVH_BUILDERS).
@@ -36,7 +37,7 @@ impl std::ops::Deref for Method {
 
 impl PartialEq for Method {
     fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
+        self.name == other.name && self.structure == other.structure
     }
 }
 
@@ -82,9 +83,16 @@ pub enum Builder {
     Cells(fn(&BuildSettings) -> Box<dyn SplitRule>),
     /// A builder makes a bounding volume hierarchy.
     Boxes(fn(&BuildSettings) -> Box<dyn BvhBuilder>),
+    /// The tree is read from this file.
+    File(&'static Path),
 }
 
 impl MethodInfo {
+    /// Returns whether it reads the tree of a file instead of building one.
+    pub fn is_file(&self) -> bool {
+        matches!(self.builder, Builder::File(_))
+    }
+
     /// Describes the overlap rule, for reports.
     pub fn overlap_text(&self, rule: OverlapRule) -> &'static str {
         match rule {

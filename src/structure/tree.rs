@@ -6,6 +6,7 @@ use super::node::{Node, NodeKind, StopReason};
 use super::nodes::Nodes;
 use super::settings::BuildSettings;
 use super::simd_tree::SimdTree;
+use super::tree_file::Faults;
 use super::voxels::Voxels;
 use crate::geometry::{Aabb, Axis, Vec3};
 use std::sync::OnceLock;
@@ -23,6 +24,8 @@ pub struct Tree {
     pub(super) settings: BuildSettings,
     pub(super) depth_limit: u32,
     pub(super) depth_reached: u32,
+    /// What is wrong with the tree of a file; empty for one that was built.
+    pub(super) faults: Faults,
     /// Built when a SIMD kernel first needs it.
     pub(super) simd_tree: OnceLock<SimdTree>,
 }
@@ -111,6 +114,11 @@ impl Tree {
     /// Returns the maximum depth of all leaves, `D_REACH`.
     pub fn depth_reached(&self) -> u32 {
         self.depth_reached
+    }
+
+    /// Returns what is wrong with the tree in the file that it was read from; nothing for one that was built.
+    pub fn faults(&self) -> &Faults {
+        &self.faults
     }
 
     /// Returns the bytes of nodes, references and voxels.

@@ -21,16 +21,19 @@ pub(crate) struct Voxel {
 impl Voxels {
     /// Collects the voxels of a tree in which every plane extends through the whole root cell.
     pub(super) fn of(nodes: &[Node]) -> Self {
-        let mut planes = [const { Vec::new() }; 3];
-        for node in nodes.iter().filter(|node| !node.is_leaf()) {
-            let (axis, plane, _) = node.as_inner();
-            planes[axis].push(plane);
-        }
-        for planes in &mut planes {
-            planes.sort_unstable_by(f32::total_cmp);
-            planes.dedup();
-            planes.shrink_to_fit();
-        }
+        Voxels::between(planes_of(nodes), nodes)
+    }
+
+    /// Collects the voxels between all planes of a tree; `None` if there are more than `most`.
+    pub(super) fn at_most(most: usize, nodes: &[Node]) -> Option<Self> {
+        let planes = planes_of(nodes);
+        let mut counts = planes.iter().map(|planes| planes.len() + 1);
+        let count = counts.try_fold(1_usize, usize::checked_mul);
+        count.filter(|&count| count <= most)?;
+        Some(Voxels::between(planes, nodes))
+    }
+
+    fn between(planes: [Vec<f32>; 3], nodes: &[Node]) -> Self {
         let counts = planes.each_ref().map(|planes| planes.len() + 1);
         let first = Voxel {
             leaf: nodes[0],
@@ -98,4 +101,19 @@ impl Voxels {
         let planes: usize = self.planes.iter().map(|p| size_of_val(p.as_slice())).sum();
         planes + size_of_val(self.voxels.as_slice())
     }
+}
+
+/// Returns the planes along each axis, ascending, each once.
+fn planes_of(nodes: &[Node]) -> [Vec<f32>; 3] {
+    let mut planes = [const { Vec::new() }; 3];
+    for node in nodes.iter().filter(|node| !node.is_leaf()) {
+        let (axis, plane, _) = node.as_inner();
+        planes[axis].push(plane);
+    }
+    for planes in &mut planes {
+        planes.sort_unstable_by(f32::total_cmp);
+        planes.dedup();
+        planes.shrink_to_fit();
+    }
+    planes
 }

@@ -6,5 +6,6 @@ mod support;
 mod commands;
 mod show;
 mod sweep;
+mod tree_file;
 mod tune;
 mod verify;

@@ -4,7 +4,7 @@ use crate::support::scenes::scene_of;
 use crate::support::tough::{primitive, ray};
 use bspscope::geometry::{Ray, Vec3};
 use bspscope::measure::judge::{
-    Answer, Case, Standing, Tolerance, Verdict, examine, scale_of, settle,
+    Answer, Answerer, Case, Standing, Tolerance, Verdict, examine, scale_of, settle,
 };
 use bspscope::measure::{ask, unsplit};
 use bspscope::primitive::Precision;
@@ -226,10 +226,10 @@ fn a_case_reads_back_as_it_was_written() {
         let direction = Vec3::new(5e-324, -0.0, 1.0f64.next_down());
         let case = Case {
             scene: scene.clone(),
-            settings: BuildSettings {
+            by: Answerer::Tree(BuildSettings {
                 root_margin: RootMargin::Length(0.1 + 0.2),
                 ..BuildSettings::default()
-            },
+            }),
             kind,
             ray: Ray::to(Vec3::splat(-0.1), direction, t_max),
             expected,
@@ -240,7 +240,7 @@ fn a_case_reads_back_as_it_was_written() {
         assert_eq!(format!("{:?}", read.ray), format!("{:?}", case.ray));
         assert_eq!(read.scene.objects(), case.scene.objects());
         assert_eq!((read.expected, read.found), (expected, found));
-        assert_eq!(read.settings, case.settings);
+        assert_eq!(read.by, case.by);
         // Both say the same: what the case tells was made up.
         assert_eq!(read.replay().unwrap(), None);
     }

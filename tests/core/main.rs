@@ -4,6 +4,7 @@
 mod support;
 
 mod accuracy;
+mod answers;
 mod build;
 mod bvh;
 mod compare;
@@ -37,6 +38,7 @@ mod settings;
 mod simd;
 mod stability;
 mod tolerant;
+mod tree_file;
 mod tune;
 mod visits;
 mod wording;

@@ -1,6 +1,6 @@
 //! Scene files of every format in the window, and what the reader says of them.
 
-use crate::harness::{finish, has, open, open_pane, press, small, wait};
+use crate::harness::{enter_path, finish, has, open, open_pane, small, wait};
 use crate::support::scenes::asset;
 use bspscope::scene::format::FORMATS;
 use egui_kittest::kittest::Queryable as _;
@@ -18,15 +18,7 @@ fn files_of_every_format_are_opened_by_the_path_field() {
         ("meshio-text.ply", "meshio-text", "triangles: 6"),
         ("polygons.nff", "polygons", "polygons: 5"),
     ] {
-        press(&mut window, egui::Modifiers::COMMAND, egui::Key::L);
-        window.run_steps(3);
-        window.get_by_label("Path of a scene").focus();
-        window.run_steps(2);
-        window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-        let field = window.get_by_label("Path of a scene");
-        field.type_text(asset(name).to_str().unwrap());
-        window.run_steps(2);
-        window.key_press(egui::Key::Enter);
+        enter_path(&mut window, asset(name).to_str().unwrap());
         wait(&mut window, name, |w| {
             w.query_by_label(title).is_some() && has(w, kinds)
         });

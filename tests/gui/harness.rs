@@ -112,6 +112,18 @@ pub fn open_pane(window: &mut Window<'_>, title: &str) {
     click(window, title);
 }
 
+/// Types a path into the path field and enters it.
+pub fn enter_path(window: &mut Window<'_>, path: &str) {
+    press(window, egui::Modifiers::COMMAND, egui::Key::L);
+    window.run_steps(3);
+    window.get_by_label("Path of a scene").focus();
+    window.run_steps(2);
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    window.get_by_label("Path of a scene").type_text(path);
+    window.run_steps(2);
+    window.key_press(egui::Key::Enter);
+}
+
 /// Presses a key, wherever the pointer is.
 pub fn press(window: &mut Window<'_>, modifiers: egui::Modifiers, key: egui::Key) {
     window.key_press_modifiers(modifiers, key);

@@ -29,6 +29,7 @@ mod snapshots;
 mod sweep;
 mod theme;
 mod tree;
+mod tree_file;
 mod tune;
 mod twelve;
 mod view3d;

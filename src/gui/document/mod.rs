@@ -46,6 +46,7 @@ use inspect::Inspect;
 use notices::Notices;
 use restoring::Restoring;
 pub use result::Current;
+use std::path::Path;
 use std::sync::Arc;
 use tuning::Tuning;
 use walk::Walking;
@@ -371,6 +372,20 @@ impl Document {
         self.sent = None;
     }
 
+    /// Asks for the tree of a file instead of the tree in front. The file is read again if its tree is that in
+    /// front.
+    pub fn open_tree(&mut self, path: &Path) {
+        // Workspaces keep the path, and can be opened from any folder.
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let Ok(method) = Method::named(&path.to_string_lossy()) else {
+            return;
+        };
+        if self.wanted.build.method == method {
+            self.reload();
+        }
+        self.wanted.build.set_method(method);
+    }
+
     /// Reads the scene again.
     pub fn reload(&mut self) {
         self.reload += 1;
@@ -471,6 +486,13 @@ impl Document {
                     let known = place.as_ref().map(|c| &c.shown.setup.scene.source);
                     if in_front && known != Some(source) {
                         opened.push(source.clone());
+                    }
+                    let before = place.as_ref().map(|current| &current.shown.tree);
+                    let is_new = before.is_none_or(|tree| !Arc::ptr_eq(tree, &shown.tree));
+                    let faults = shown.tree.faults();
+                    if is_new && !faults.is_empty() {
+                        let file = shown.setup.build.method.name;
+                        self.notices.say(format!("{file}:\n{faults}"));
                     }
                     *place = Some(Current::new(number, *shown, place.as_ref()));
                 }

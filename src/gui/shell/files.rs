@@ -1,4 +1,4 @@
-//! Ways to a scene: dialog, dropped file, typed path, generators and the recent list.
+//! Ways to a scene, a workspace or a tree file: dialog, dropped file, typed path, generators and the recent list.
 
 use super::recent::Recent;
 use super::thumbnails::Thumbnails;
@@ -9,6 +9,7 @@ use crate::gui::document::{Document, Failure};
 use crate::scene::SceneSource;
 use crate::scene::builtin::BUILTINS;
 use crate::scene::format::{FORMATS, names};
+use crate::structure::tree_file::{self, is_tree_file};
 use crate::workspace::{EXTENSION, Workspace};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use std::path::PathBuf;
@@ -55,7 +56,8 @@ impl Files {
             return;
         }
         let task = dialog(ctx, || {
-            let mut dialog = rfd::FileDialog::new().set_title("Open a scene or a workspace");
+            let mut dialog =
+                rfd::FileDialog::new().set_title("Open a scene, a workspace or a tree");
             for (name, extensions) in filters() {
                 dialog = dialog.add_filter(name, &extensions);
             }
@@ -64,9 +66,12 @@ impl Files {
         self.dialog = Some((task, Instant::now()));
     }
 
-    /// Opens a scene or a workspace.
+    /// Opens a scene or a workspace. A tree file becomes the tree in front, of the scene on view.
     pub fn open(&mut self, source: SceneSource, ctx: &egui::Context, doc: &mut Document) {
         match source {
+            SceneSource::File(path) if path.to_str().is_some_and(is_tree_file) => {
+                doc.open_tree(&path);
+            }
             SceneSource::File(path) if Workspace::is_path(&path) => {
                 self.workspaces.open(path, ctx);
             }
@@ -118,7 +123,10 @@ impl Files {
             ui.set_width(MENU);
             self.path_field(ui, doc, focuses);
             let open = ui.add_enabled(self.dialog.is_none(), egui::Button::new("Open…"));
-            let about = format!("Open a scene ({}) or a workspace.", names());
+            let about = format!(
+                "Open a scene ({}), a workspace, or a tree (.bstree) of this scene.",
+                names()
+            );
             if open.on_hover_text(tip(&about, "window.open")).clicked() {
                 self.open_dialog(ui.ctx());
                 ui.close();
@@ -242,16 +250,21 @@ impl Files {
 /// What the dialog can be narrowed to: all scenes and workspaces, workspaces, then each format.
 fn filters() -> Vec<(String, Vec<&'static str>)> {
     let scenes = FORMATS.iter().flat_map(|f| f.extensions).copied();
-    let all = scenes.chain([EXTENSION]).collect();
+    let all = scenes.chain([EXTENSION, tree_file::EXTENSION]).collect();
     let workspaces = ("Workspaces".to_owned(), vec![EXTENSION]);
+    let trees = ("Trees".to_owned(), vec![tree_file::EXTENSION]);
     let each = FORMATS.iter().map(|format| {
         let name = format!("{}: {}", format.name.to_uppercase(), format.about);
         (name, format.extensions.to_vec())
     });
-    [("Scenes and workspaces".to_owned(), all), workspaces]
-        .into_iter()
-        .chain(each)
-        .collect()
+    [
+        ("Scenes, workspaces and trees".to_owned(), all),
+        workspaces,
+        trees,
+    ]
+    .into_iter()
+    .chain(each)
+    .collect()
 }
 
 #[cfg(test)]
@@ -261,8 +274,17 @@ mod tests {
     #[test]
     fn the_first_filter_shows_files_of_every_format() {
         let filters = filters();
-        assert_eq!(filters.len(), FORMATS.len() + 2);
-        for extension in ["nff", "obj", "ply", "gltf", "glb", "stl", EXTENSION] {
+        assert_eq!(filters.len(), FORMATS.len() + 3);
+        for extension in [
+            "nff",
+            "obj",
+            "ply",
+            "gltf",
+            "glb",
+            "stl",
+            EXTENSION,
+            tree_file::EXTENSION,
+        ] {
             assert!(filters[0].1.contains(&extension));
             assert!(filters[1..].iter().any(|(_, e)| e.contains(&extension)));
         }

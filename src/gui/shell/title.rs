@@ -1,6 +1,7 @@
 //! The window's title: scene, method, and whether the workspace has unsaved changes.
 
 use crate::gui::document::Document;
+use crate::structure::tree_file::short_name;
 
 /// The program's name, which ends every title.
 pub const PROGRAM: &str = "bspscope";
@@ -25,6 +26,6 @@ impl Title {
 fn text(doc: &Document, is_unsaved: bool) -> String {
     let scene = doc.wanted.scene.source.short_name();
     let mark = if is_unsaved { "• " } else { "" };
-    let method = doc.wanted.build.method.name;
+    let method = short_name(doc.wanted.build.method.name);
     format!("{mark}{scene} · {method} – {PROGRAM}")
 }

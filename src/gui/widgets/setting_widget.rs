@@ -8,8 +8,9 @@ use crate::gui::theme::{ROW, hint};
 use crate::gui::widgets::choice_list;
 use crate::gui::widgets::common::sentence;
 use crate::scene::{Camera, Cylinders};
-use crate::setup::{Choice, Kind, Range, Setting, Setup, Value};
+use crate::setup::{Choice, Kind, Range, Setting, Setup, Value, methods};
 use crate::structure::MaxDepth;
+use crate::structure::tree_file::short_name;
 use egui::vec2;
 
 /// The width of the labels in points.
@@ -145,6 +146,7 @@ fn control(
         (Kind::Choice(choices), Value::Choice(now)) => {
             choice(ui, said, &choices(), now).map(Value::Choice)
         }
+        (Kind::Method, Value::Choice(now)) => choice(ui, said, &methods(), now).map(Value::Choice),
         (Kind::Switch, Value::Switch(mut on)) => {
             let text = if on { "on (1)" } else { "off (0)" };
             let is_changed = said.of(ui.checkbox(&mut on, text)).changed();
@@ -243,7 +245,7 @@ fn choice(
     let of_chosen = choices.iter().find(|choice| choice.name == now);
     let of_chosen = of_chosen.map_or("", |choice| choice.about);
     let list = egui::ComboBox::from_id_salt(said.name)
-        .selected_text(now)
+        .selected_text(short_name(now))
         // Without scrolling: a list that hides its last item hides that there is one.
         .height(f32::INFINITY)
         .show_ui(ui, |ui| {

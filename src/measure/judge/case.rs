@@ -1,8 +1,10 @@
 //! A fault as a small file that can be replayed.
 
-use super::verdict::{Answer, Verdict, settle};
+use super::tolerance::Tolerance;
+use super::verdict::{Answer, Standing, Verdict, examine, scale_of, settle};
 use crate::geometry::{Ray, Vec3};
 use crate::measure::verify::{ask, unsplit};
+use crate::primitive::Precision;
 use crate::progress::Progress;
 use crate::scene::format::{ReadError, nff};
 use crate::scene::{Scene, SceneParts};
@@ -10,16 +12,26 @@ use crate::structure::{BuildError, BuildSettings, build};
 use crate::trace::{Hit, RayKind};
 use serde::{Deserialize, Serialize};
 
-/// A ray for which a tree and testing every object disagree, with everything needed to reproduce it.
+/// Who gave an answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answerer {
+    /// The tree with these settings.
+    Tree(BuildSettings),
+    /// Another program, which computes in this precision.
+    Program(Precision),
+}
+
+/// A ray for which a tree and testing every object disagree, or to which another program gave a wrong answer,
+/// with everything needed to reproduce it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     pub scene: Scene,
-    pub settings: BuildSettings,
+    pub by: Answerer,
     pub kind: RayKind,
     pub ray: Ray,
     /// The answer from testing every object.
     pub expected: Answer,
-    /// The answer of the tree.
+    /// The answer of the tree or the program.
     pub found: Answer,
 }
 
@@ -30,6 +42,8 @@ pub enum CaseError {
     Json(#[from] serde_json::Error),
     #[error("the case's scene, line {0}")]
     Scene(#[from] ReadError),
+    #[error("neither the settings of a tree nor the precision of a program")]
+    Answerer,
     #[error("no rays are called '{0}'")]
     Kind(String),
     #[error(transparent)]
@@ -42,7 +56,12 @@ pub enum CaseError {
 struct File {
     /// NFF, line by line; objects count from 0.
     scene: Vec<String>,
-    settings: BuildSettings,
+    /// Of the tree; missing for the answer of another program.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    settings: Option<BuildSettings>,
+    /// Of the other program.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    precision: Option<Precision>,
     kind: String,
     origin: Vec3,
     direction: Vec3,
@@ -98,7 +117,7 @@ impl Case {
         let found = ask(scene, &build(scene, settings, &progress)?, kind, &ray);
         Ok((expected != found).then(|| Case {
             scene: scene.clone(),
-            settings: settings.clone(),
+            by: Answerer::Tree(settings.clone()),
             kind,
             ray,
             expected,
@@ -106,14 +125,69 @@ impl Case {
         }))
     }
 
-    /// Returns the verdict. Both answers come from the same coordinates, so no rounding is allowed.
+    /// Checks the answer of another program, which computes in a precision. Returns `None` if it is right, a tie
+    /// or rounding.
+    ///
+    /// # Errors
+    /// The scene has too many objects.
+    pub fn of_program(
+        scene: &Scene,
+        precision: Precision,
+        ray: Ray,
+        found: Answer,
+    ) -> Result<Option<Case>, BuildError> {
+        let tolerance = Tolerance::of(precision, scale_of(scene, &ray));
+        if examine(scene, &ray, found, tolerance) != Standing::Wrong {
+            return Ok(None);
+        }
+        let kind = match found {
+            Answer::Nearest(_) => RayKind::Primary,
+            Answer::Blocked(_) => RayKind::Shadow,
+        };
+        Ok(Some(Case {
+            scene: scene.clone(),
+            by: Answerer::Program(precision),
+            kind,
+            ray,
+            expected: ask(scene, &unsplit(scene, &Progress::new())?, kind, &ray),
+            found,
+        }))
+    }
+
+    /// Returns the verdict. Both answers of a tree come from the same coordinates, so no rounding is allowed.
     pub fn verdict(&self) -> Verdict {
-        settle(&self.scene, &self.ray, [self.expected, self.found], None)
+        match self.by {
+            Answerer::Tree(_) => settle(&self.scene, &self.ray, [self.expected, self.found], None),
+            Answerer::Program(precision) => {
+                let tolerance = Tolerance::of(precision, scale_of(&self.scene, &self.ray));
+                match examine(&self.scene, &self.ray, self.found, tolerance) {
+                    Standing::Right => Verdict::Tie,
+                    Standing::Rounded => Verdict::Rounding,
+                    Standing::Wrong => Verdict::Fault {
+                        a_is_wrong: false,
+                        b_is_wrong: true,
+                    },
+                }
+            }
+        }
     }
 
     /// Removes objects that the fault does not need, in at most a hundred attempts.
     pub fn shrunk(self) -> Case {
         const ATTEMPTS: usize = 100;
+        if let Answerer::Program(_) = self.by {
+            // Mostly two objects matter: the one that was hit and the one that should have been.
+            let mut objects: Vec<usize> = [self.expected, self.found]
+                .into_iter()
+                .filter_map(object_of)
+                .filter(|&object| object < self.scene.objects().len())
+                .collect();
+            objects.sort_unstable();
+            objects.dedup();
+            if let Some(case) = self.only(&objects) {
+                return case;
+            }
+        }
         let objects = fewest(self.scene.objects().len(), ATTEMPTS, |kept| {
             self.only(kept).is_some()
         });
@@ -128,7 +202,14 @@ impl Case {
             material_of: objects.iter().map(|&i| all.material_of[i]).collect(),
             ..all.clone()
         };
-        let case = Case::of(&Scene::new(parts), &self.settings, self.kind, self.ray);
+        let scene = Scene::new(parts);
+        let case = match &self.by {
+            Answerer::Tree(settings) => Case::of(&scene, settings, self.kind, self.ray),
+            Answerer::Program(precision) => {
+                let found = renumbered(self.found, objects)?;
+                Case::of_program(&scene, *precision, self.ray, found)
+            }
+        };
         case.ok()?
             .filter(|case| matches!(case.verdict(), Verdict::Fault { .. }))
     }
@@ -138,9 +219,14 @@ impl Case {
         let mut scene = Vec::new();
         nff::write(self.scene.parts(), &mut scene).expect("memory takes all that is written");
         let scene = String::from_utf8_lossy(&scene);
+        let (settings, precision) = match &self.by {
+            Answerer::Tree(settings) => (Some(settings.clone()), None),
+            Answerer::Program(precision) => (None, Some(*precision)),
+        };
         let file = File {
             scene: scene.lines().map(str::to_owned).collect(),
-            settings: self.settings.clone(),
+            settings,
+            precision,
             kind: self.kind.name().to_owned(),
             origin: self.ray.origin,
             direction: self.ray.direction,
@@ -165,7 +251,10 @@ impl Case {
             .ok_or(CaseError::Kind(file.kind))?;
         Ok(Case {
             scene: Scene::new(parts),
-            settings: file.settings,
+            by: match file.settings {
+                Some(settings) => Answerer::Tree(settings),
+                None => Answerer::Program(file.precision.ok_or(CaseError::Answerer)?),
+            },
             kind,
             ray: Ray {
                 origin: file.origin,
@@ -178,12 +267,41 @@ impl Case {
         })
     }
 
-    /// Traces the ray again. Returns `None` if both answers agree now.
+    /// Traces the ray again, or checks the answer of another program again. Returns `None` if both answers agree
+    /// now.
     ///
     /// # Errors
     /// Building a tree fails.
     pub fn replay(&self) -> Result<Option<Case>, BuildError> {
-        Case::of(&self.scene, &self.settings, self.kind, self.ray)
+        match &self.by {
+            Answerer::Tree(settings) => Case::of(&self.scene, settings, self.kind, self.ray),
+            Answerer::Program(precision) => {
+                Case::of_program(&self.scene, *precision, self.ray, self.found)
+            }
+        }
+    }
+}
+
+/// Returns the object that an answer says is hit.
+fn object_of(answer: Answer) -> Option<usize> {
+    match answer {
+        Answer::Nearest(hit) if hit.is_hit() => Some(hit.object as usize),
+        Answer::Nearest(_) | Answer::Blocked(_) => None,
+    }
+}
+
+/// Returns an answer about a scene in which only some objects are left; `None` if its object is not.
+fn renumbered(answer: Answer, objects: &[usize]) -> Option<Answer> {
+    let Some(object) = object_of(answer) else {
+        return Some(answer);
+    };
+    let place = objects.iter().position(|&kept| kept == object)?;
+    match answer {
+        Answer::Nearest(hit) => Some(Answer::Nearest(Hit {
+            object: place as u32,
+            ..hit
+        })),
+        Answer::Blocked(_) => Some(answer),
     }
 }
 

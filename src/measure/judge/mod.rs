@@ -19,9 +19,9 @@ mod surface;
 mod tolerance;
 mod verdict;
 
-pub use case::{Case, CaseError};
+pub use case::{Answerer, Case, CaseError};
 pub(super) use crossing::Line;
 pub(super) use meeting::{Meeting, enlarged};
 pub(super) use surface::Surface;
 pub use tolerance::Tolerance;
-pub use verdict::{Answer, Standing, Tally, Verdict, examine, scale_of, settle};
+pub use verdict::{Answer, Standing, Tally, Verdict, examine, examine_with, scale_of, settle};

@@ -8,6 +8,7 @@ use crate::geometry::{Aabb, Ray};
 use crate::primitive::Shape;
 use crate::primitive::exact::Root;
 use crate::scene::Scene;
+use crate::structure::{Nodes, Tree};
 use crate::trace::Hit;
 use serde::Serialize;
 
@@ -86,7 +87,8 @@ impl std::ops::AddAssign for Tally {
 struct Evidence(Vec<(u32, Crossing)>);
 
 impl Evidence {
-    fn gather(scene: &Scene, ray: &Ray, tolerance: &Tolerance) -> Self {
+    /// Gathers them. A tree, which must be one of the scene, saves time in large scenes.
+    fn gather(scene: &Scene, tree: Option<&Tree>, ray: &Ray, tolerance: &Tolerance) -> Self {
         let is_usable = ray.direction.abs().max_element() > 0.0
             && ray.origin.is_finite()
             && ray.direction.is_finite();
@@ -100,13 +102,19 @@ impl Evidence {
             let bounds = bounds.enlarged(tolerance.length + tolerance.relative * far);
             meeting.may_meet(&enlarged(&bounds))
         };
-        let objects = scene.objects().iter().enumerate();
+        let objects = match tree {
+            Some(tree) => candidates(tree, may_meet),
+            None => (0..scene.objects().len() as u32).collect(),
+        };
+        let objects = objects
+            .into_iter()
+            .map(|number| (number, &scene.objects()[number as usize]));
         let near = objects.filter(|(_, object)| may_meet(object.bounds()));
         let all = near.flat_map(|(number, object)| {
             Surface::of(object)
                 .crossings(&line, tolerance)
                 .into_iter()
-                .map(move |crossing| (number as u32, crossing))
+                .map(move |crossing| (number, crossing))
         });
         Evidence(all.collect())
     }
@@ -153,6 +161,20 @@ impl Evidence {
     }
 }
 
+/// Returns the objects of all leaves whose cells a ray may meet, in ascending order.
+fn candidates(tree: &Tree, may_meet: impl Fn(Aabb) -> bool) -> Vec<u32> {
+    let (mut objects, mut stack) = (Vec::new(), vec![tree.root()]);
+    while let Some(cell) = stack.pop() {
+        if may_meet(cell.bounds) {
+            objects.extend(tree.leaf_objects(cell.node));
+            stack.extend(tree.children(&cell));
+        }
+    }
+    objects.sort_unstable();
+    objects.dedup();
+    objects
+}
+
 /// Returns the largest absolute coordinate of a scene and of a ray's origin, a length.
 pub fn scale_of(scene: &Scene, ray: &Ray) -> f64 {
     let bounds = scene.bounds();
@@ -175,14 +197,14 @@ pub fn settle(
     [a, b]: [Answer; 2],
     rounding: Option<Tolerance>,
 ) -> Verdict {
-    let exact = Evidence::gather(scene, ray, &Tolerance::NONE);
+    let exact = Evidence::gather(scene, None, ray, &Tolerance::NONE);
     let mut right = [a, b].map(|answer| exact.allows(answer, None));
     let is_tie = right == [true; 2] && !same_hit(&exact, a, b);
     if is_tie {
         return Verdict::Tie;
     }
     if let Some(tolerance) = rounding {
-        let rounded = Evidence::gather(scene, ray, &tolerance);
+        let rounded = Evidence::gather(scene, None, ray, &tolerance);
         let within = [a, b].map(|answer| rounded.allows(answer, Some(tolerance.relative)));
         if within == [true; 2] {
             return Verdict::Rounding;
@@ -220,9 +242,32 @@ pub enum Standing {
 
 /// Checks one answer against exact arithmetic.
 pub fn examine(scene: &Scene, ray: &Ray, answer: Answer, tolerance: Tolerance) -> Standing {
+    examine_by(None, scene, ray, answer, tolerance)
+}
+
+/// Checks one answer as [`examine`] does, in less time with a hierarchy of the scene.
+pub fn examine_with(
+    tree: &Tree,
+    scene: &Scene,
+    ray: &Ray,
+    answer: Answer,
+    tolerance: Tolerance,
+) -> Standing {
+    // The cells of planes need not contain objects by a margin, as boxes do.
+    let tree = Some(tree).filter(|tree| matches!(tree.nodes(), Nodes::Boxes(_)));
+    examine_by(tree, scene, ray, answer, tolerance)
+}
+
+fn examine_by(
+    tree: Option<&Tree>,
+    scene: &Scene,
+    ray: &Ray,
+    answer: Answer,
+    tolerance: Tolerance,
+) -> Standing {
     // The distance of a hit is always rounded.
     let allowed = |within: &Tolerance| {
-        Evidence::gather(scene, ray, within).allows(answer, Some(tolerance.relative))
+        Evidence::gather(scene, tree, ray, within).allows(answer, Some(tolerance.relative))
     };
     if allowed(&Tolerance::NONE) {
         Standing::Right

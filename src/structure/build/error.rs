@@ -4,6 +4,8 @@ use crate::progress::Cancelled;
 use crate::structure::method::Structure;
 use crate::structure::node::Node;
 use crate::structure::settings::SettingsError;
+use crate::structure::tree_file::TreeFileError;
+use std::path::PathBuf;
 
 /// Objects that overlap each other so that no further split separates them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +57,11 @@ pub enum BuildError {
         /// Bytes.
         needed: u64,
         limit: u64,
+    },
+    #[error("{}: {reason}", .path.display())]
+    File {
+        path: PathBuf,
+        reason: TreeFileError,
     },
     #[error("the scene has {0} objects; a tree can hold {most}", most = Node::MAX_LEAF - 1)]
     TooManyObjects(usize),

@@ -61,18 +61,23 @@ pub fn lay_out(
             }
         }
     }
-    // A subtree ends where its last child ends, which comes after it.
-    let mut ends: Vec<u32> = (1..=laid.nodes.len() as u32).collect();
-    for node in (1..laid.nodes.len()).rev() {
+    close(&mut laid.nodes, &parents);
+    Ok(laid)
+}
+
+/// Sets the ends of all subtrees. A subtree ends where its last child ends, which comes after it; the root is its
+/// own parent.
+pub fn close(nodes: &mut [BoxNode], parents: &[u32]) {
+    let mut ends: Vec<u32> = (1..=nodes.len() as u32).collect();
+    for node in (1..nodes.len()).rev() {
         let parent = parents[node] as usize;
         ends[parent] = ends[parent].max(ends[node]);
     }
-    for (node, &end) in laid.nodes.iter_mut().zip(&ends) {
+    for (node, &end) in nodes.iter_mut().zip(&ends) {
         if !node.is_leaf() {
             *node = BoxNode::inner([node.lo, node.hi], node.child_count(), end);
         }
     }
-    Ok(laid)
 }
 
 /// Replaces the child of the largest area by its own children, until there are `width` children or only
@@ -99,7 +104,7 @@ fn open(binary: &Binary, two: [u32; 2], width: usize, children: &mut Vec<u32>) {
 }
 
 /// Returns a box in local coordinates, on every side farther out than rounding ([`Frame::slack`]).
-fn sides(frame: &Frame, bounds: &Aabb) -> [[f32; 3]; 2] {
+pub fn sides(frame: &Frame, bounds: &Aabb) -> [[f32; 3]; 2] {
     [
         std::array::from_fn(|k| frame.plane_below(Axis::from_index(k), bounds.lo[k])),
         std::array::from_fn(|k| frame.plane_above(Axis::from_index(k), bounds.hi[k])),

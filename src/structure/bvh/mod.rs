@@ -21,7 +21,7 @@ mod top_down;
 
 pub use binary::{Binary, BinaryNode, Content};
 pub use builder::{BvhBuilder, Input};
-pub(super) use layout::{Laid, lay_out};
+pub(super) use layout::{Laid, close, lay_out, sides};
 
 use super::settings::MethodInfo;
 

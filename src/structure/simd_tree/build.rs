@@ -219,6 +219,8 @@ impl<B: BlockData> Builder<'_, B> {
         let primitive = &self.objects[object as usize];
         let settings = self.tree.settings();
         let by_bounds = match settings.overlap {
+            // A file can have assigned them in any way.
+            _ if settings.method.is_file() => false,
             OverlapRule::Bounds => true,
             OverlapRule::Exact => false,
             OverlapRule::Paper => {
