@@ -12,6 +12,7 @@ mod measurement;
 pub mod model;
 mod overlap;
 pub mod paper;
+mod processor;
 pub mod stability;
 pub mod sweep;
 pub mod tune;
@@ -24,6 +25,7 @@ pub use counter::{
 };
 pub use facts::{SceneFacts, TreeFacts};
 pub use measurement::{MeasureError, Measured, Measurement, Times, measure, measure_pixels};
+pub use processor::processor;
 pub use verify::{
     Answers, RaySample, Verification, answer, ask, compare, sample_rays, unsplit, verify_sample,
 };

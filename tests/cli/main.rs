@@ -3,6 +3,8 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+#[cfg(unix)]
+mod cluster;
 mod commands;
 mod show;
 mod sweep;

@@ -3,7 +3,7 @@
 
 use super::curves::{Curve, CurvePoint, curves, is_wide};
 use crate::measure::Parameter;
-use crate::measure::sweep::{Row, rule_depth};
+use crate::measure::sweep::{OtherOrigin, Row, check_comparable, rule_depth};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
@@ -26,6 +26,8 @@ pub struct Chart<'a> {
 pub enum ChartError {
     #[error("no row of the sweep has a value of {0}")]
     Nothing(&'static str),
+    #[error(transparent)]
+    OtherOrigin(#[from] OtherOrigin),
     #[error("the chart could not be drawn: {0}")]
     Drawing(String),
 }
@@ -45,7 +47,7 @@ const COLORS: [RGBColor; 6] = [
 /// Returns the chart as a PNG file.
 ///
 /// # Errors
-/// There is nothing to draw, or the drawing library fails.
+/// There is nothing to draw, rows have times of different processors, or the drawing library fails.
 pub fn png(chart: &Chart<'_>) -> Result<Vec<u8>, ChartError> {
     let (width, height) = chart.size;
     let mut pixels = vec![0; width as usize * height as usize * 3];
@@ -83,6 +85,7 @@ fn draw<B: DrawingBackend>(
     chart: &Chart<'_>,
     area: &DrawingArea<B, Shift>,
 ) -> Result<(), ChartError> {
+    check_comparable(chart.rows, chart.parameter)?;
     register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
         .map_err(|_| ChartError::Drawing("the font of the program is not one".into()))?;
     let curves = curves(chart.rows, chart.parameter);
