@@ -16,8 +16,6 @@ mod ours;
 mod rays;
 #[path = "peers/scenes.rs"]
 mod scenes;
-#[path = "peers/terrain.rs"]
-mod terrain;
 
 use bspscope::structure::SimdTree;
 use bspscope::trace::Hit;
