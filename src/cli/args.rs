@@ -5,6 +5,7 @@ use super::setting_args::{
     Built, Everything, Extreme, Loaded, Modelled, OneMethod, Reference, Reproduced, SettingArgs,
     Shared, Swept, Tuned, Verified,
 };
+use super::study_args::StudyArgs;
 use super::values::{
     ByColormap, ByHeatmap, ByParameter, colormap_names, equation_names, filter_names, goal_names,
     heatmap_names, knob_names, leaf_writer_names, method_names, paper_scenes, parameter_names,
@@ -65,6 +66,7 @@ pub enum Command {
     Accuracy(AccuracyArgs),
     Lesson(LessonArgs),
     Tune(TuneArgs),
+    Study(StudyArgs),
 }
 
 /// Open the window (the default command)

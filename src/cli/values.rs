@@ -9,6 +9,7 @@ use crate::measure::{Parameter, parameter, parameters};
 use crate::present::export::LEAF_WRITERS;
 use crate::present::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::present::report::WRITERS;
+use crate::present::report::study::STUDY_WRITERS;
 use crate::structure::Method;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use std::time::Duration;
@@ -49,6 +50,11 @@ pub fn writer_names() -> PossibleValuesParser {
             .iter()
             .map(|writer| PossibleValue::new(writer.name).help(writer.about)),
     )
+}
+
+pub fn study_writer_names() -> PossibleValuesParser {
+    let names = STUDY_WRITERS.iter();
+    PossibleValuesParser::new(names.map(|w| PossibleValue::new(w.name).help(w.about)))
 }
 
 pub fn leaf_writer_names() -> PossibleValuesParser {

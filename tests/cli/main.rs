@@ -7,6 +7,7 @@ mod support;
 mod cluster;
 mod commands;
 mod show;
+mod study;
 mod sweep;
 mod tune;
 mod verify;

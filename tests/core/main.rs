@@ -34,6 +34,7 @@ mod scheduler;
 mod settings;
 mod simd;
 mod stability;
+mod study;
 mod tolerant;
 mod tune;
 mod visits;

@@ -24,7 +24,7 @@ pub struct Chart<'a> {
 /// Why a chart cannot be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ChartError {
-    #[error("no row of the sweep has a value of {0}")]
+    #[error("there is no value of {0} to draw")]
     Nothing(&'static str),
     #[error(transparent)]
     OtherOrigin(#[from] OtherOrigin),
@@ -32,10 +32,10 @@ pub enum ChartError {
     Drawing(String),
 }
 
-const FONT: &str = "sans-serif";
+pub(super) const FONT: &str = "sans-serif";
 
 /// One color per method, distinct for color-blind people (M. Okabe and K. Ito, 2008).
-const COLORS: [RGBColor; 6] = [
+pub(super) const COLORS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -77,8 +77,14 @@ pub fn svg(chart: &Chart<'_>) -> Result<String, ChartError> {
     Ok(text)
 }
 
-fn drawing(error: impl std::fmt::Display) -> ChartError {
+pub(super) fn drawing(error: impl std::fmt::Display) -> ChartError {
     ChartError::Drawing(error.to_string())
+}
+
+/// Makes the font known to the drawing library.
+pub(super) fn register() -> Result<(), ChartError> {
+    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
+        .map_err(|_| ChartError::Drawing("the font of the program is not one".into()))
 }
 
 fn draw<B: DrawingBackend>(
@@ -86,8 +92,7 @@ fn draw<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
 ) -> Result<(), ChartError> {
     check_comparable(chart.rows, chart.parameter)?;
-    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-        .map_err(|_| ChartError::Drawing("the font of the program is not one".into()))?;
+    register()?;
     let curves = curves(chart.rows, chart.parameter);
     let points = || curves.iter().flat_map(|curve| &curve.points);
     let range = |axis: fn(&CurvePoint) -> f64| {
