@@ -172,6 +172,17 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
         .ok_or_else(|| "expected a number of seconds, at least 0, such as 60".into())
 }
 
+/// Reads a number of MiB, greater than 0, and returns bytes.
+pub fn mebibytes(text: &str) -> Result<u64, String> {
+    let number = text
+        .parse()
+        .ok()
+        .filter(|mib: &f64| *mib > 0.0 && mib.is_finite());
+    number
+        .map(|mib| (mib * f64::from(1 << 20)) as u64)
+        .ok_or_else(|| "expected a number of MiB, greater than 0, such as 16 or 0.5".into())
+}
+
 pub fn constant(text: &str) -> Result<(String, f64), String> {
     text.split_once('=')
         .and_then(|(name, value)| Some((name.to_owned(), value.parse().ok()?)))
