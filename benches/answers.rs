@@ -2,12 +2,11 @@
 //! answers`. `-- --rays 10000 --side 100` is a short run.
 
 #[path = "peers/embree.rs"]
+#[allow(dead_code)] // The bench peers uses all of it.
 mod embree;
 #[path = "peers/kernels.rs"]
-#[allow(dead_code)] // The bench peers uses all of it.
+#[allow(dead_code)] // As above.
 mod kernels;
-#[path = "peers/terrain.rs"]
-mod terrain;
 
 use bspscope::geometry::Ray;
 use bspscope::measure::answers::{AnswerClass, check_answers};
@@ -15,10 +14,13 @@ use bspscope::measure::judge::Answer;
 use bspscope::measure::sample_rays;
 use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
+use bspscope::scene::Scene;
+use bspscope::scene::builtin::generate;
 use bspscope::structure::{BuildSettings, Method, build};
 use bspscope::trace::{Hit, RenderSettings, thread_pool};
 use clap::Parser;
 use kernels::{Kernel, NarrowRay, Rays};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Checks Embree's answers about terrain
@@ -29,7 +31,7 @@ struct Options {
     rays: usize,
     /// Squares along a side of the terrain, each of two triangles
     #[arg(long, default_value_t = 707)]
-    side: usize,
+    side: u32,
     /// What cargo passes to every bench
     #[arg(long, hide = true)]
     bench: bool,
@@ -38,7 +40,7 @@ struct Options {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let options = Options::parse();
     let (pool, progress) = (thread_pool(0)?, Progress::new());
-    let scene = terrain::scene(options.side);
+    let scene = Scene::new(generate("terrain", Some(options.side))?);
     let settings = BuildSettings::for_method(Method::named("bvh-binned")?);
     let tree = build(&scene, &settings, &progress)?;
     let render = RenderSettings::for_camera(*scene.camera());
@@ -49,7 +51,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ..*ray
     };
     let rays: Vec<Ray> = sample.rays[0].iter().map(round).collect();
-    let Some(embree) = embree::Embree::new(&scene, 1) else {
+    let Some(embree) = embree::Embree::new(&scene, 1).map(Arc::new) else {
         println!("Embree is not installed");
         return Ok(());
     };

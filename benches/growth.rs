@@ -11,12 +11,11 @@ mod embree;
 #[allow(dead_code, reason = "Embree only builds here")]
 #[path = "peers/kernels.rs"]
 mod kernels;
-#[path = "peers/terrain.rs"]
-mod terrain;
 
 use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
+use bspscope::scene::builtin::generate;
 use bspscope::structure::{BuildSettings, MaxDepth, Method, Tree, build};
 use clap::Parser;
 use cpu_time::ProcessTime;
@@ -89,7 +88,8 @@ fn main() {
     );
     for &size in &options.sizes {
         // Two triangles a quadrangle.
-        let scene = terrain::scene(((size as f64 / 2.0).sqrt()) as usize);
+        let side = (size as f64 / 2.0).sqrt() as u32;
+        let scene = Scene::new(generate("terrain", Some(side)).expect("a size in range"));
         measure(&scene, &options);
     }
 }

@@ -16,9 +16,8 @@ mod ours;
 mod rays;
 #[path = "peers/scenes.rs"]
 mod scenes;
-#[path = "peers/terrain.rs"]
-mod terrain;
 
+use bspscope::measure::processor;
 use bspscope::structure::SimdTree;
 use bspscope::trace::{Hit, InstructionSet};
 use clap::Parser;
@@ -99,22 +98,6 @@ fn main() {
         println!("{wrong} answers of our kernels differ from those of the scalar one");
         std::process::exit(1);
     }
-}
-
-/// Returns the processor's name, where the system tells it.
-fn processor() -> String {
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let field = |name: &str| {
-        let line = info.lines().find(|line| line.starts_with(name));
-        line.and_then(|line| line.split_once(": "))
-            .map_or("", |(_, value)| value)
-    };
-    format!(
-        "{}, family {}, model {}",
-        field("model name"),
-        field("cpu family"),
-        field("model\t")
-    )
 }
 
 /// Runs all kernels on a scene. Returns the number of wrong answers of ours.

@@ -27,6 +27,7 @@
 //! | [`measure::model`] | the time model of equation (1), by regression and in place; where the rendering time goes | |
 //! | [`measure::sweep`] | the parameters for every combination of settings: points, rows, shards | |
 //! | [`measure::tune`] | the best tree for a scene: candidates, rounds, ranking with ties | |
+//! | [`measure::study`] | which measure predicts time, over a hundred structures of a scene | an entry of [`measure::study::Predictor::ALL`] |
 //! | [`measure::paper`] | the paper's printed tables, and its experiment repeated | |
 //! | [`measure::judge`] | exact arithmetic: why two hits differ | |
 //! | [`measure::answers`] | answers of other programs: right, tie, rounding or fault | |

@@ -1,7 +1,6 @@
 //! The scenes of the comparison. All coordinates are representable as `f32`, so that every peer has the
 //! same geometry.
 
-use crate::terrain;
 use bspscope::geometry::Vec3;
 use bspscope::primitive::{Polygon, Primitive, Sphere, Triangle};
 use bspscope::scene::builtin::generate;
@@ -57,7 +56,7 @@ fn subject(name: &'static str, objects: Vec<Primitive>, camera: Camera, light: V
 fn hills() -> Subject {
     Subject {
         name: "terrain",
-        scene: terrain::scene(707),
+        scene: Scene::new(generate("terrain", Some(707)).expect("a generator")),
         light: Vec3::new(1.5, -1.0, 1.0),
     }
 }

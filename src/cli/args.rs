@@ -5,10 +5,11 @@ use super::setting_args::{
     Answered, Built, Everything, Extreme, Loaded, Modelled, OneMethod, Reference, Reproduced,
     SettingArgs, Shared, Swept, Tuned, Verified,
 };
+use super::study_args::StudyArgs;
 use super::values::{
     ByColormap, ByHeatmap, ByParameter, colormap_names, equation_names, filter_names, goal_names,
-    heatmap_names, knob_names, leaf_writer_names, method_names, paper_scenes, parameter_names,
-    pixel, precision_names, range, scale_names, seconds, share, writer_names,
+    heatmap_names, knob_names, leaf_writer_names, mebibytes, method_names, paper_scenes,
+    parameter_names, pixel, precision_names, range, scale_names, seconds, share, writer_names,
 };
 use crate::measure::accuracy::Knob;
 use crate::measure::heat::RayFilter;
@@ -68,6 +69,7 @@ pub enum Command {
     Accuracy(AccuracyArgs),
     Lesson(LessonArgs),
     Tune(TuneArgs),
+    Study(StudyArgs),
 }
 
 /// Open the window (the default command)
@@ -236,6 +238,12 @@ pub struct TuneArgs {
     /// What the tree should be best for
     #[arg(long = "for", value_name = "GOAL", value_parser = goal_names(), default_value = "time")]
     pub goal: Goal,
+    /// Build once and trace this many rays: rank by the time of both instead of the rendering time
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub rays: Option<u64>,
+    /// Leave out trees that need more memory than this many MiB (M_TREE)
+    #[arg(long, value_name = "MIB", value_parser = mebibytes)]
+    pub max_memory: Option<u64>,
     /// Time for the measurements in seconds. Every method is measured at least once; what was left
     /// out is listed
     #[arg(long, value_name = "SECONDS", value_parser = seconds, default_value = "60", allow_negative_numbers = true)]

@@ -3,7 +3,7 @@
 use super::args::MergeArgs;
 use super::outcome::Outcome;
 use super::{output, sweep};
-use crate::measure::sweep::{header, line, merge, read_rows};
+use crate::measure::sweep::{check_comparable, header, line, merge, read_rows};
 use anyhow::{Context, Result};
 use std::fs;
 
@@ -19,6 +19,9 @@ pub fn run(args: &MergeArgs) -> Result<Outcome> {
         rows.extend(part);
     }
     let (rows, missing) = merge(rows)?;
+    if !args.charts.chart.is_empty() {
+        check_comparable(&rows, args.charts.show.0)?;
+    }
     output::write_file(&args.output, |out| {
         out.write_all(header(form).as_bytes())?;
         rows.iter()

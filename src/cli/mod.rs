@@ -27,6 +27,8 @@ mod report;
 mod resolve;
 mod setting_args;
 mod stability;
+mod study;
+mod study_args;
 mod sweep;
 mod tree;
 mod tune;
@@ -66,6 +68,7 @@ pub fn main() -> ExitCode {
         Some(Command::Accuracy(args)) => accuracy::run(args),
         Some(Command::Lesson(args)) => lesson::run(args),
         Some(Command::Tune(args)) => tune::run(args),
+        Some(Command::Study(args)) => study::run(args),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

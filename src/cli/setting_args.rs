@@ -124,6 +124,10 @@ offers! {
     /// The reference of an accuracy study, whose cylinders are exact.
     Reference: |setting| setting.name != "cylinders", Methods::One("sah-cut"),
         ["samples-per-pixel" = "8"];
+    /// The settings that a study of measures does not vary.
+    Studied: |setting| {
+        ["cylinders", "precision", "threads"].contains(&setting.name)
+    }, Methods::Paper, ["precision" = "auto"];
     /// The settings that a search for the best tree does not try.
     Tuned: |setting| !["method", "d-max", "n-oilf"].contains(&setting.name), Methods::Searched, [];
 }

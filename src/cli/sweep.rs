@@ -152,7 +152,7 @@ fn extension(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_ascii_lowercase())
 }
 
-/// Draws the charts of rows and prints the best settings.
+/// Draws the charts of rows and prints the best settings, or why they are not compared.
 pub fn finish(rows: &[Row], args: &ChartArgs) -> Result<()> {
     let shown = args.show.0;
     for path in &args.chart {
@@ -167,9 +167,11 @@ pub fn finish(rows: &[Row], args: &ChartArgs) -> Result<()> {
         };
         output::write_file(path, |out| out.write_all(&bytes))?;
     }
-    output::write_to(None, |out| {
-        answers(rows, shown)
+    let answers = answers(rows, shown);
+    output::write_to(None, |out| match &answers {
+        Ok(answers) => answers
             .iter()
-            .try_for_each(|answer| writeln!(out, "{}", answer.sentence(shown)))
+            .try_for_each(|answer| writeln!(out, "{}", answer.sentence(shown))),
+        Err(why) => writeln!(out, "{why}"),
     })
 }

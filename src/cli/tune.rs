@@ -18,6 +18,8 @@ pub fn run(args: &TuneArgs) -> Result<Outcome> {
     let search = Search {
         setup,
         goal: args.goal,
+        rays: args.rays,
+        most_bytes: args.max_memory,
         methods: Method::all().collect(),
         budget: args.budget,
     };

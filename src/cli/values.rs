@@ -9,6 +9,7 @@ use crate::measure::{Parameter, parameter, parameters};
 use crate::present::export::LEAF_WRITERS;
 use crate::present::overlay::{COLORMAPS, Colormap, Range, Scale, colormap};
 use crate::present::report::WRITERS;
+use crate::present::report::study::STUDY_WRITERS;
 use crate::primitive::Precision;
 use crate::structure::Method;
 use crate::structure::tree_file::is_tree_file;
@@ -52,6 +53,11 @@ pub fn writer_names() -> PossibleValuesParser {
             .iter()
             .map(|writer| PossibleValue::new(writer.name).help(writer.about)),
     )
+}
+
+pub fn study_writer_names() -> PossibleValuesParser {
+    let names = STUDY_WRITERS.iter();
+    PossibleValuesParser::new(names.map(|w| PossibleValue::new(w.name).help(w.about)))
 }
 
 pub fn leaf_writer_names() -> PossibleValuesParser {
@@ -201,6 +207,17 @@ pub fn seconds(text: &str) -> Result<Duration, String> {
         .ok()
         .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
         .ok_or_else(|| "expected a number of seconds, at least 0, such as 60".into())
+}
+
+/// Reads a number of MiB, greater than 0, and returns bytes.
+pub fn mebibytes(text: &str) -> Result<u64, String> {
+    let number = text
+        .parse()
+        .ok()
+        .filter(|mib: &f64| *mib > 0.0 && mib.is_finite());
+    number
+        .map(|mib| (mib * f64::from(1 << 20)) as u64)
+        .ok_or_else(|| "expected a number of MiB, greater than 0, such as 16 or 0.5".into())
 }
 
 pub fn constant(text: &str) -> Result<(String, f64), String> {

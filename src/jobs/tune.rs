@@ -3,7 +3,7 @@
 use super::context::{Context, JobError};
 use super::job::Job;
 use super::slot::{Priority, Slot};
-use crate::measure::tune::{Phase, ROUNDS, Row, Search, Tuned, Tuning, Turn, Upcoming};
+use crate::measure::tune::{LeftOut, Phase, ROUNDS, Row, Search, Tuned, Tuning, Turn, Upcoming};
 use crate::scene::Scene;
 use crate::setup::Setup;
 use std::sync::Arc;
@@ -50,7 +50,26 @@ impl Job for FindBestTree {
                 context.send(Tried { place, row });
             }
         }
-        Ok(tuning.into_result())
+        let is_empty = tuning.rows().is_empty();
+        let tuned = tuning.into_result();
+        if is_empty {
+            return Err(JobError::new(nothing_left(&tuned)));
+        }
+        Ok(tuned)
+    }
+}
+
+/// Returns why a search found nothing.
+fn nothing_left(tuned: &Tuned) -> String {
+    let bytes = tuned.left_out.iter().filter_map(|left_out| match left_out {
+        LeftOut::Memory { bytes, .. } => Some(*bytes),
+        _ => None,
+    });
+    match bytes.min() {
+        Some(least) => format!(
+            "no tree is small enough: the smallest needs {least} bytes; allow more memory or choose more methods"
+        ),
+        None => "no method was measured".to_owned(),
     }
 }
 

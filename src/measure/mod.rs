@@ -13,7 +13,10 @@ mod measurement;
 pub mod model;
 mod overlap;
 pub mod paper;
+mod processor;
+mod random;
 pub mod stability;
+pub mod study;
 pub mod sweep;
 pub mod tune;
 mod verify;
@@ -25,6 +28,7 @@ pub use counter::{
 };
 pub use facts::{SceneFacts, TreeFacts};
 pub use measurement::{MeasureError, Measured, Measurement, Times, measure, measure_pixels};
+pub use processor::processor;
 pub use verify::{
     Answers, RaySample, Verification, answer, ask, compare, sample_rays, unsplit, verify_sample,
 };

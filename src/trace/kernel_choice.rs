@@ -72,9 +72,19 @@ impl KernelChoice {
 
     /// Returns the kernel used on this processor for a structure, as reports name it.
     pub fn description_for(self, structure: Structure) -> String {
+        let [kernel, instruction_set] = self.names_for(structure);
         match self.simd() {
-            None => "scalar".into(),
-            Some((mode, set)) => format!("{}, {}", mode.of(structure).name(), set.name()),
+            None => kernel.to_owned(),
+            Some(_) => format!("{kernel}, {instruction_set}"),
+        }
+    }
+
+    /// Returns the names of the kernel used on this processor for a structure, and of the instruction set that it
+    /// is compiled for. That of the scalar kernel is the architecture, such as `x86_64`.
+    pub fn names_for(self, structure: Structure) -> [&'static str; 2] {
+        match self.simd() {
+            None => ["scalar", std::env::consts::ARCH],
+            Some((mode, set)) => [mode.of(structure).name(), set.name()],
         }
     }
 }

@@ -3,8 +3,11 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+#[cfg(unix)]
+mod cluster;
 mod commands;
 mod show;
+mod study;
 mod sweep;
 mod tree_file;
 mod tune;

@@ -4,7 +4,7 @@ use crate::support::program::Program;
 use bspscope::measure::{Class, parameters};
 
 /// The cells of a file of rows, those that depend on the machine left empty.
-fn counts(program: &Program, name: &str) -> Vec<Vec<String>> {
+pub fn counts(program: &Program, name: &str) -> Vec<Vec<String>> {
     let times: Vec<_> = parameters()
         .iter()
         .filter(|p| p.class == Class::T)
@@ -75,6 +75,44 @@ fn shards_merge_to_the_whole_and_missing_points_are_told() {
     let text = program.ends(2, "merge whole.csv other.csv -o wrong.csv");
     assert!(text.contains("of another sweep"), "{text}");
     assert!(!program.file("wrong.csv").exists());
+}
+
+#[test]
+fn times_of_two_processors_are_merged_and_not_compared() {
+    let program = Program::new();
+    let options = format!("sweep {GRID} --method midpoint");
+    for i in 1..=2 {
+        program.ends(0, &format!("{options} --shard {i}/2 -o part-{i}.jsonl"));
+    }
+    let part = program.read("part-2.jsonl");
+    let row: serde_json::Value = serde_json::from_str(part.lines().next().unwrap()).unwrap();
+    assert_eq!(row["kernel"], "scalar");
+    assert_eq!(row["instruction_set"], std::env::consts::ARCH);
+    assert_eq!(row["version"], env!("CARGO_PKG_VERSION"));
+    let processor = row["processor"].as_str().unwrap();
+    let other = part.replace(processor, "Another Processor");
+    assert_ne!(part, other);
+    program.write("part-2.jsonl", &other);
+    let merge = "merge part-1.jsonl part-2.jsonl";
+    let text = program.ends(0, &format!("{merge} -o merged.csv"));
+    let why = "T_TR is not compared: it is a time, and the rows are from different processors";
+    assert!(text.starts_with(why), "{text}");
+    assert!(text.contains("4 rows from Another Processor"), "{text}");
+    assert!(!text.contains("least"), "{text}");
+    assert_eq!(counts(&program, "merged.csv").len(), 8);
+    let text = program.ends(2, &format!("{merge} -o refused.csv --chart chart.svg"));
+    assert!(text.contains(why), "{text}");
+    assert!(!program.file("refused.csv").exists() && !program.file("chart.svg").exists());
+    let counted = program.ends(
+        0,
+        &format!("{merge} -o merged.csv --show N_AT --chart chart.svg"),
+    );
+    assert!(counted.contains("midpoint: least N_AT at"), "{counted}");
+    // A sweep that is resumed on another machine does not compare its times, either.
+    let rows: Vec<_> = other.split_inclusive('\n').collect();
+    program.write("part-2.jsonl", &rows[..2].concat());
+    let resumed = program.ends(0, &format!("{options} --shard 2/2 -o part-2.jsonl"));
+    assert!(resumed.starts_with(why), "{resumed}");
 }
 
 #[test]

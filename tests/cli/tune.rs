@@ -76,6 +76,73 @@ fn what_a_budget_leaves_out_is_stated() {
 }
 
 #[test]
+fn build_time_counts_if_the_number_of_rays_is_given() {
+    let program = Program::new();
+    let tune = "tune balls:3 --resolution 24x16 --budget 0 --format json";
+    let build = |candidate: &Value| candidate["parameters"]["T_CB"].as_f64().unwrap();
+    let candidates = |report: &Value| report["candidates"].as_array().unwrap().clone();
+    for rays in [1, 1_000_000_000_000u64] {
+        let report = program.json(&format!("{tune} --rays {rays}"));
+        assert_eq!(report["rays"], rays);
+        let candidates = candidates(&report);
+        let totals: Vec<f64> = (candidates.iter())
+            .map(|c| c["build_and_rays"]["median"].as_f64().unwrap())
+            .collect();
+        assert!(totals.is_sorted() && totals.len() > 10, "{totals:?}");
+        for (candidate, total) in candidates.iter().zip(totals) {
+            assert!(total > build(candidate));
+        }
+        let reason = report["recommended"]["reason"].as_str().unwrap();
+        assert!(reason.contains("Building it once and tracing"), "{reason}");
+        // For one ray, no tree pays off that takes long to build.
+        if rays == 1 {
+            let least = candidates.iter().map(build).fold(f64::INFINITY, f64::min);
+            assert!(
+                build(&candidates[0]) <= 2.0 * least + 1e-3,
+                "{}",
+                candidates[0]
+            );
+        }
+    }
+    let text = program.done("tune balls:3 --resolution 24x16 --budget 0 --rays 1000000");
+    assert!(
+        text.contains("build and 1\u{a0}000\u{a0}000 rays"),
+        "{text}"
+    );
+    let report = program.json(tune);
+    assert!(report["candidates"][0]["build_and_rays"].is_null());
+}
+
+#[test]
+fn trees_that_need_too_much_memory_are_left_out() {
+    let program = Program::new();
+    let tune = "tune balls:3 --resolution 24x16 --budget 0 --format json";
+    let bytes = |report: &Value| -> Vec<u64> {
+        let candidates = report["candidates"].as_array().unwrap().iter();
+        let bytes = candidates.map(|c| c["parameters"]["M_TREE"].as_u64().unwrap());
+        bytes.collect()
+    };
+    let all = bytes(&program.json(tune));
+    let limit = 1 << 14;
+    let small = all.iter().filter(|bytes| **bytes <= limit).count();
+    assert!(0 < small && small < all.len(), "{all:?}");
+    let report = program.json(&format!("{tune} --max-memory 0.015625"));
+    assert_eq!(report["most_bytes"], limit);
+    let found = bytes(&report);
+    assert_eq!(found.len(), small);
+    assert!(found.iter().all(|bytes| *bytes <= limit), "{found:?}");
+    let left_out = report["left_out"].to_string();
+    assert!(left_out.contains("more memory than"), "{left_out}");
+    let error = program.refused_in_a_line("tune balls:4 --resolution 8x8 --max-memory 0.00001");
+    assert!(
+        error.contains("no tree is small enough: the smallest needs "),
+        "{error}"
+    );
+    let error = program.refused("tune balls:3 --max-memory 0");
+    assert!(error.contains("a number of MiB"), "{error}");
+}
+
+#[test]
 fn every_form_has_a_line_per_candidate() {
     let program = Program::new();
     program.done(&format!("{QUICK} --for memory -o trees.csv"));
@@ -100,6 +167,7 @@ fn every_form_has_a_line_per_candidate() {
             "nodes",
             "T_CB",
             "M_TREE",
+            "T_BUILD_AND_RAYS",
         ]
     );
     let rows: Vec<_> = reader.records().map(Result::unwrap).collect();

@@ -37,6 +37,7 @@ mod scheduler;
 mod settings;
 mod simd;
 mod stability;
+mod study;
 mod tolerant;
 mod tree_file;
 mod tune;

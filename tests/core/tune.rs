@@ -31,6 +31,8 @@ fn search(source: &str, budget: Duration) -> Search {
             ..Setup::new(SceneRequest::parse(source))
         },
         goal: Goal::Time,
+        rays: None,
+        most_bytes: None,
         methods: Method::all().collect(),
         budget,
     }

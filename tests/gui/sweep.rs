@@ -111,7 +111,7 @@ fn a_sweep_has_the_rows_of_the_command_line_as_curves_and_as_a_map() {
         }
     }
     // The answer, the rule and the mark are those of the rows.
-    let answers = answers(&rows, parameter("T_TR"));
+    let answers = answers(&rows, parameter("T_TR")).unwrap();
     assert_eq!(answers.len(), 2);
     for answer in answers {
         let sentence = answer.sentence(parameter("T_TR"));

@@ -32,6 +32,8 @@ impl Document {
         let search = Search {
             setup: current.shown.setup.clone(),
             goal: self.tuning.goal,
+            rays: None,
+            most_bytes: None,
             methods: Method::all().filter(chosen).collect(),
             budget: Duration::from_secs(self.tuning.budget),
         };

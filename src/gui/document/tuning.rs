@@ -2,7 +2,7 @@
 
 use super::study::Study;
 use crate::jobs::{FindBestTree, Tried};
-use crate::measure::tune::{Goal, Rank, Row, Search, Tuned, best, rank};
+use crate::measure::tune::{Goal, Rank, Row, Score, Search, Tuned, best, rank};
 use crate::structure::Method;
 use std::sync::Arc;
 
@@ -40,15 +40,20 @@ pub struct Found {
 }
 
 impl Found {
+    fn scores(&self) -> Vec<Score> {
+        let rows = self.rows.iter();
+        rows.map(|row| row.score(self.search.rays)).collect()
+    }
+
     /// Ranks the candidates so far, the best first.
     pub fn ranking(&self) -> Vec<Rank> {
-        let scores: Vec<_> = self.rows.iter().map(Row::score).collect();
+        let scores = self.scores();
         rank(&scores, self.search.goal)
     }
 
     /// Returns the candidate that is recommended so far.
     pub fn best(&self) -> Option<&Row> {
-        let scores: Vec<_> = self.rows.iter().map(Row::score).collect();
+        let scores = self.scores();
         let place = *best(&scores, self.search.goal).first()?;
         self.rows.get(place)
     }

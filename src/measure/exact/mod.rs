@@ -11,7 +11,6 @@ mod kernel;
 #[cfg(test)]
 mod mutants;
 mod oracle;
-mod random;
 mod rays;
 
 pub use check::{ExactCheck, ExactError, ExactFault, ExactFaults, check_exactly};

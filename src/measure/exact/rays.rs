@@ -1,9 +1,9 @@
 //! Rays at the limits of rounding.
 
 use super::oracle::Oracle;
-use super::random::Random;
 use crate::geometry::{Aabb, Ray, Vec3};
 use crate::measure::judge::Surface;
+use crate::measure::random::Random;
 use crate::measure::verify::RaySample;
 use crate::primitive::exact::ConeEnds;
 use crate::primitive::{Precision, Primitive, Shape};

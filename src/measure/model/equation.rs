@@ -29,6 +29,8 @@ impl Equation {
 pub enum Term {
     /// `T_T + T_P`, per traversed node.
     Node,
+    /// `T_B`, per test of a ray with the box of a child. The paper's trees have none.
+    Box,
     /// `T_IUN`, per test of this kind that misses.
     Miss(PrimitiveKind),
     /// `T_I`, per test of this kind that hits.
@@ -49,7 +51,7 @@ impl Term {
                 .iter()
                 .map(|(kind, _)| *kind)
         };
-        [Term::Constant, Term::Node]
+        [Term::Constant, Term::Node, Term::Box]
             .into_iter()
             .chain(kinds().map(Term::Miss))
             .chain(kinds().map(Term::Hit))
@@ -63,6 +65,9 @@ impl Term {
                 "T_T + T_P: the time of a traversal step (T_T) and of the decision in the \
                            parent node (T_P), for one node; the two only occur as a sum."
                     .into()
+            }
+            Term::Box => {
+                "T_B: the time of one test of a ray with the box of a child in a hierarchy.".into()
             }
             Term::Miss(kind) => format!(
                 "T_IUN: the time of one intersection test of a {} that misses.",
@@ -84,6 +89,7 @@ impl Term {
     pub fn name(self) -> String {
         match self {
             Term::Node => "T_T + T_P".into(),
+            Term::Box => "T_B".into(),
             Term::Miss(kind) => format!("T_IUN {}", kind.name()),
             Term::Hit(kind) => format!("T_I {}", kind.name()),
             Term::Constant => "const".into(),

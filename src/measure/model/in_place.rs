@@ -26,14 +26,14 @@ pub struct InPlace {
 }
 
 impl InPlace {
-    /// Returns the time of a term. `None` if the term did not occur, and for the constant, which is
-    /// not measured.
+    /// Returns the time of a term. `None` if the term did not occur, and for box tests and the
+    /// constant, which are not measured.
     pub fn seconds(&self, term: Term) -> Option<f64> {
         match term {
             Term::Node => self.node,
             Term::Hit(kind) => self.hit[kind as usize],
             Term::Miss(kind) => self.miss[kind as usize],
-            Term::Constant => None,
+            Term::Box | Term::Constant => None,
         }
     }
 }

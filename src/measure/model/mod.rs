@@ -2,8 +2,8 @@
 //! that misses, and of a traversed node. The times are measured by regression over a set of trees,
 //! and directly by repeating the operations in place.
 //!
-//! T_TR = (T_T + T_P) · N_NODES + T_I · hits + T_IUN · misses + const, with T_I and T_IUN for each
-//! kind of primitive. `T_T` and `T_P` only occur as a sum, so no regression can separate them.
+//! T_TR = (T_T + T_P) · N_NODES + T_B · N_BT + T_I · hits + T_IUN · misses + const, with T_I and T_IUN for
+//! each kind of primitive. The paper has no term T_B: its trees have no boxes. `T_T` and `T_P` only occur as a sum, so no regression can separate them.
 
 mod equation;
 mod fit;

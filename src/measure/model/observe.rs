@@ -3,7 +3,7 @@
 use super::equation::{Equation, Term};
 use crate::geometry::Ray;
 use crate::measure::MeasureError;
-use crate::primitive::{PrimitiveKind, Shapes};
+use crate::primitive::{Precision, PrimitiveKind, Shapes};
 use crate::progress::Progress;
 use crate::scene::Scene;
 use crate::structure::{BuildSettings, Tree, build};
@@ -21,6 +21,8 @@ pub struct Terms {
     pub rays: u64,
     /// Nodes traversed, `N_NODES`.
     pub nodes: u64,
+    /// Tests with boxes of children, `N_BT`.
+    pub boxes: u64,
     /// Intersection tests.
     pub tests: [u64; KINDS],
     /// Tests that hit, whether or not the hit is the nearest so far.
@@ -37,6 +39,7 @@ impl Terms {
         let count = match (term, equation) {
             (Term::Constant, _) => 1,
             (Term::Node, _) => self.nodes,
+            (Term::Box, _) => self.boxes,
             (Term::Hit(kind), Equation::Corrected) => self.hits[kind as usize],
             (Term::Hit(kind), Equation::Printed) => self.nearest[kind as usize],
             (Term::Miss(kind), Equation::Corrected) => {
@@ -48,6 +51,40 @@ impl Terms {
             }
         };
         count as f64
+    }
+
+    /// Counts a ray.
+    fn add(&mut self, scene: &Scene, kind: RayKind, watcher: &Watcher) {
+        let kind_of = |object: u32| scene.objects()[object as usize].kind() as usize;
+        self.rays += 1;
+        self.nodes += watcher.nodes;
+        self.boxes += watcher.boxes;
+        for &(object, hit) in &watcher.tests {
+            self.tests[kind_of(object)] += 1;
+            self.hits[kind_of(object)] += u64::from(hit.is_some());
+        }
+        if let Some(object) = watcher.answer {
+            match kind {
+                RayKind::Shadow => self.blocked[kind_of(object)] += 1,
+                _ => self.nearest[kind_of(object)] += 1,
+            }
+        }
+    }
+
+    /// Counts a batch of rays in a precision. Those of [`RayKind::Shadow`] end at the first hit.
+    pub fn of_batch(scene: &Scene, tree: &Tree, precision: Precision, batch: Batch<'_>) -> Terms {
+        let mut terms = Terms::default();
+        let mut reporter = Reporter::new(
+            tree,
+            scene.shapes(precision),
+            |traced: &Traced<'_>, watcher: &Watcher| terms.add(scene, traced.kind, watcher),
+        );
+        reporter.pixels = vec![(0, 0)];
+        match batch.kind {
+            RayKind::Shadow => reporter.any_hits(batch, &mut Vec::new()),
+            _ => reporter.closest_hits(batch, &mut Vec::new()),
+        }
+        terms
     }
 }
 
@@ -93,22 +130,8 @@ fn count(
     progress: &Progress,
 ) -> Result<Terms, MeasureError> {
     let mut terms = Terms::default();
-    each_ray(scene, tree, render, progress, |ray, watcher| {
-        terms.rays += 1;
-        terms.nodes += watcher.nodes;
-        for &(object, hit) in &watcher.tests {
-            let kind = scene.objects()[object as usize].kind() as usize;
-            terms.tests[kind] += 1;
-            terms.hits[kind] += u64::from(hit.is_some());
-        }
-        if let Some(object) = watcher.answer {
-            let kind = scene.objects()[object as usize].kind() as usize;
-            if ray.kind == RayKind::Shadow {
-                terms.blocked[kind] += 1;
-            } else {
-                terms.nearest[kind] += 1;
-            }
-        }
+    each_ray(scene, tree, render, progress, |traced, watcher| {
+        terms.add(scene, traced.kind, watcher);
     })?;
     Ok(terms)
 }
@@ -125,6 +148,7 @@ pub(super) struct Traced<'a> {
 #[derive(Default)]
 pub(super) struct Watcher {
     pub nodes: u64,
+    pub boxes: u64,
     /// The tested objects in order, each with the distance of its hit.
     pub tests: Vec<(u32, Option<f64>)>,
     /// The object that the ray hits, or that blocks it.
@@ -136,8 +160,9 @@ impl Probe for Watcher {
         self.nodes += 1;
     }
 
-    fn boxes(&mut self, _: u32, _: [f64; 2], _: &[BoxTest]) {
+    fn boxes(&mut self, _: u32, _: [f64; 2], tests: &[BoxTest]) {
         self.nodes += 1;
+        self.boxes += tests.len() as u64;
     }
 
     fn culled(&mut self, _: u32, _: f64, _: f64) {}
@@ -160,14 +185,7 @@ pub(super) fn each_ray(
     report: impl FnMut(&Traced<'_>, &Watcher),
 ) -> Result<(), RenderError> {
     let shading = Shading::new(scene, render)?;
-    let mut tracer = Reporter {
-        tree,
-        shapes: shading.shapes,
-        scratch: Scratch::default(),
-        watcher: Watcher::default(),
-        pixels: Vec::new(),
-        report,
-    };
+    let mut tracer = Reporter::new(tree, shading.shapes, report);
     let mut colors = Vec::new();
     let tiles = tiles(render.width, render.height);
     for (done, tile) in tiles.iter().enumerate() {
@@ -191,9 +209,21 @@ struct Reporter<'a, F> {
     report: F,
 }
 
-impl<F: FnMut(&Traced<'_>, &Watcher)> Reporter<'_, F> {
+impl<'a, F: FnMut(&Traced<'_>, &Watcher)> Reporter<'a, F> {
+    fn new(tree: &'a Tree, shapes: &'a Shapes, report: F) -> Self {
+        Reporter {
+            tree,
+            shapes,
+            scratch: Scratch::default(),
+            watcher: Watcher::default(),
+            pixels: Vec::new(),
+            report,
+        }
+    }
+
     fn clear(&mut self) {
         self.watcher.nodes = 0;
+        self.watcher.boxes = 0;
         self.watcher.tests.clear();
         self.watcher.answer = None;
     }

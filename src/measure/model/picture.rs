@@ -22,6 +22,8 @@ pub struct RayTerms<N = u64> {
     pub rays: N,
     /// Nodes traversed.
     pub nodes: N,
+    /// Tests with boxes of children.
+    pub boxes: N,
     /// Tests that hit.
     pub hits: [N; KINDS],
     /// Tests that miss.
@@ -34,6 +36,7 @@ impl RayTerms {
         match term {
             Term::Constant => self.rays,
             Term::Node => self.nodes,
+            Term::Box => self.boxes,
             Term::Hit(kind) => self.hits[kind as usize],
             Term::Miss(kind) => self.misses[kind as usize],
         }
@@ -44,6 +47,7 @@ impl AddAssign<&RayTerms<u32>> for RayTerms {
     fn add_assign(&mut self, other: &RayTerms<u32>) {
         self.rays += u64::from(other.rays);
         self.nodes += u64::from(other.nodes);
+        self.boxes += u64::from(other.boxes);
         for kind in 0..KINDS {
             self.hits[kind] += u64::from(other.hits[kind]);
             self.misses[kind] += u64::from(other.misses[kind]);
@@ -88,6 +92,7 @@ impl PictureTerms {
             let pixel = &mut pixels[y as usize * width as usize + x as usize];
             pixel.rays += 1;
             pixel.nodes += watcher.nodes as u32;
+            pixel.boxes += watcher.boxes as u32;
             for &(object, hit) in &watcher.tests {
                 let kind = scene.objects()[object as usize].kind() as usize;
                 let counts = match hit {

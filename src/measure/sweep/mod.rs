@@ -2,11 +2,17 @@
 //! of the values of any other settings is a point. Each point is measured once and written as one
 //! row. An interrupted sweep can be resumed, and points can be distributed over machines.
 
+mod comparable;
+mod merge;
+mod origin;
 mod plan;
 mod rows;
 
+pub use comparable::{OtherOrigin, check_comparable};
+pub use merge::{MergeError, merge};
+pub use origin::Origin;
 pub use plan::{Axis, Plan, Point};
-pub use rows::{Form, Key, MergeError, Row, RowError, header, line, merge, read_rows};
+pub use rows::{Form, Key, Row, RowError, header, line, read_rows};
 
 use super::{Measurement, Parameter, parameters};
 use crate::setup::{Group, Setting, Setup};
@@ -66,22 +72,36 @@ pub fn done(rows: &[Row], keys: &[(usize, Key)], points: usize) -> Result<usize,
 
 impl Row {
     /// Returns the row of a measured point.
-    pub fn of(point: usize, points: usize, key: Key, measurement: &Measurement) -> Row {
+    pub fn of(
+        point: usize,
+        points: usize,
+        key: Key,
+        origin: Origin,
+        measurement: &Measurement,
+    ) -> Row {
         Row {
             point,
             points,
             key,
+            origin,
             values: parameters().iter().map(|p| p.value(measurement)).collect(),
             failure: None,
         }
     }
 
     /// Returns the row of a point that could not be measured.
-    pub fn without_values(point: usize, points: usize, key: Key, failure: String) -> Row {
+    pub fn without_values(
+        point: usize,
+        points: usize,
+        key: Key,
+        origin: Origin,
+        failure: String,
+    ) -> Row {
         Row {
             point,
             points,
             key,
+            origin,
             values: vec![None; parameters().len()],
             failure: Some(failure),
         }
@@ -187,7 +207,11 @@ pub struct Answer<'a> {
 
 /// Returns the best settings of every method: those with the least value of a parameter. Methods
 /// are in the order of their first rows. Rows without a value are ignored.
-pub fn answers<'a>(rows: &'a [Row], parameter: &Parameter) -> Vec<Answer<'a>> {
+///
+/// # Errors
+/// The same as those of [`check_comparable`].
+pub fn answers<'a>(rows: &'a [Row], parameter: &Parameter) -> Result<Vec<Answer<'a>>, OtherOrigin> {
+    check_comparable(rows, parameter)?;
     let mut methods: Vec<&str> = Vec::new();
     for row in rows {
         if !methods.contains(&row.key.method.as_str()) {
@@ -199,21 +223,19 @@ pub fn answers<'a>(rows: &'a [Row], parameter: &Parameter) -> Vec<Answer<'a>> {
             .min_by(|a, b| a.1.total_cmp(&b.1))
             .map(|(row, _)| row)
     };
-    methods
-        .into_iter()
-        .filter_map(|method| {
-            let of_method = || rows.iter().filter(move |row| row.key.method == method);
-            let best = least(&mut of_method())?;
-            let rule = rule_depth(best)?;
-            let depth = super::parameter("D_MAX");
-            let at_depth = |row: &&Row| row.value(depth) == Some(f64::from(rule));
-            Some(Answer {
-                best,
-                rule,
-                at_rule: least(&mut of_method().filter(at_depth)),
-            })
+    let answers = methods.into_iter().filter_map(|method| {
+        let of_method = || rows.iter().filter(move |row| row.key.method == method);
+        let best = least(&mut of_method())?;
+        let rule = rule_depth(best)?;
+        let depth = super::parameter("D_MAX");
+        let at_depth = |row: &&Row| row.value(depth) == Some(f64::from(rule));
+        Some(Answer {
+            best,
+            rule,
+            at_rule: least(&mut of_method().filter(at_depth)),
         })
-        .collect()
+    });
+    Ok(answers.collect())
 }
 
 /// Returns the automatic depth, 1.2 · log₂ `N_O` + 2, for a row's scene.

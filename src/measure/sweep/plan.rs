@@ -1,7 +1,7 @@
 //! The points of a sweep: which setups it measures, in which order, and the measurement of one
 //! point.
 
-use super::{Key, Row};
+use super::{Key, Origin, Row};
 use crate::measure::{MeasureError, measure};
 use crate::progress::Progress;
 use crate::scene::Scene;
@@ -99,11 +99,12 @@ impl Plan {
         progress: &Progress,
     ) -> Result<Row, MeasureError> {
         let Point { setup, key } = &self.points[point];
-        let (points, key) = (self.points.len(), key.clone());
+        let (points, key, origin) = (self.points.len(), key.clone(), Origin::here(setup));
         match measure(scene, &setup.build, &setup.render, progress) {
-            Ok(measured) => Ok(Row::of(point, points, key, &measured.measurement)),
+            Ok(measured) => Ok(Row::of(point, points, key, origin, &measured.measurement)),
             Err(error) if error.is_too_large() => {
-                Ok(Row::without_values(point, points, key, error.to_string()))
+                let why = error.to_string();
+                Ok(Row::without_values(point, points, key, origin, why))
             }
             Err(error) => Err(error),
         }

@@ -1,6 +1,7 @@
 //! Rows of a sweep as text: CSV or JSON Lines, one line per point, in the order of points.
 
-use crate::measure::{Class, Unit, parameters};
+use super::origin::{self, Origin};
+use crate::measure::{Unit, parameters};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -30,6 +31,7 @@ pub struct Row {
     /// Number of points in the whole sweep.
     pub points: usize,
     pub key: Key,
+    pub origin: Origin,
     /// The values of all [`parameters`], in their order. Shares are fractions; times are in
     /// seconds.
     pub values: Vec<Option<f64>>,
@@ -69,17 +71,6 @@ impl RowError {
     }
 }
 
-/// Why rows cannot be merged into one sweep.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum MergeError {
-    #[error("there are no rows")]
-    Empty,
-    #[error("point {point} is of another sweep than the first row ({why})")]
-    Foreign { point: usize, why: String },
-    #[error("point {0} is there twice with different counts")]
-    Unequal(usize),
-}
-
 const TITLES: [&str; 9] = [
     "point", "points", "axes", "scene", "method", "d_max", "n_oilf", "settings", "picture",
 ];
@@ -98,7 +89,8 @@ impl Form {
 
 fn titles() -> impl Iterator<Item = &'static str> {
     let symbols = parameters().iter().map(|p| p.symbol);
-    TITLES.into_iter().chain(symbols)
+    let titles = TITLES.into_iter().chain(origin::TITLES);
+    titles.chain(symbols)
 }
 
 /// Returns the title line with its line break; empty for JSON Lines.
@@ -147,7 +139,8 @@ fn cells(row: &Row) -> impl Iterator<Item = Value> {
             (Some(value), Unit::Bytes) if value.fract() == 0.0 => json!(value as u64),
             (Some(value), _) => json!(value),
         });
-    first.into_iter().chain(values)
+    let origin = row.origin.cells().map(|cell| json!(cell));
+    first.into_iter().chain(origin).chain(values)
 }
 
 fn csv_line(cells: impl Iterator<Item = String>) -> String {
@@ -242,61 +235,25 @@ fn row(
             settings: cell(7)?,
             picture: cell(8)?,
         },
+        origin: Origin {
+            processor: cell(9)?,
+            instruction_set: cell(10)?,
+            kernel: cell(11)?,
+            version: cell(12)?,
+        },
         values: (0..parameters().len())
-            .map(|place| number(TITLES.len() + place))
+            .map(|place| number(TITLES.len() + origin::TITLES.len() + place))
             .collect::<Option<_>>()?,
         failure: None,
     })
 }
 
-/// Merges the rows of a sweep's parts in the order of points. Also returns the points that are
-/// missing. If a point occurs twice, the first row is kept, with its times; the counts of both must
-/// be equal.
-///
-/// # Errors
-/// There are no rows, rows belong to different sweeps, or a point has different counts.
-pub fn merge(mut rows: Vec<Row>) -> Result<(Vec<Row>, Vec<usize>), MergeError> {
-    let first = rows.first().ok_or(MergeError::Empty)?;
-    let points = first.points;
-    for row in &rows {
-        let mut differ = first.key.differences(&row.key);
-        if row.points != points || row.point >= points {
-            differ.push(format!("{points} points vs {}", row.points));
-        }
-        if !differ.is_empty() {
-            return Err(MergeError::Foreign {
-                point: row.point,
-                why: differ.join("; "),
-            });
-        }
-    }
-    rows.sort_by_key(|row| row.point);
-    for pair in rows.windows(2) {
-        if pair[0].point == pair[1].point && !same_but_times(&pair[0], &pair[1]) {
-            return Err(MergeError::Unequal(pair[0].point));
-        }
-    }
-    rows.dedup_by_key(|row| row.point);
-    let is_missing = |point: &usize| rows.binary_search_by_key(point, |row| row.point).is_err();
-    let missing = (0..points).filter(is_missing).collect();
-    Ok((rows, missing))
-}
-
-/// Returns whether two rows have the same key and agree in all values except times.
-fn same_but_times(a: &Row, b: &Row) -> bool {
-    a.key == b.key
-        && parameters()
-            .iter()
-            .zip(a.values.iter().zip(&b.values))
-            .filter(|(p, _)| p.class != Class::T)
-            .all(|(_, (a, b))| a == b)
-}
-
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    fn row(point: usize, first: f64) -> Row {
+    /// Returns a row of three, with a count and a time.
+    pub(in crate::measure::sweep) fn row(point: usize, first: f64) -> Row {
         let mut values = vec![None; parameters().len()];
         values[0] = Some(first);
         let time = parameters().iter().position(|p| p.unit == Unit::Seconds);
@@ -312,6 +269,12 @@ mod tests {
                 n_oilf: 2,
                 settings: "overlap=paper".into(),
                 picture: "resolution=8x8".into(),
+            },
+            origin: Origin {
+                processor: "a, \"b\"".into(),
+                instruction_set: "AVX2".into(),
+                kernel: "stream".into(),
+                version: "1.0.0".into(),
             },
             values,
             failure: None,
@@ -335,20 +298,5 @@ mod tests {
         assert_eq!(read_rows("a,b\n", Form::Csv), Err(RowError::Titles));
         let no_row = read_rows("{}\n", Form::JsonLines);
         assert!(matches!(no_row, Err(RowError::Line { line: 1, .. })));
-    }
-
-    #[test]
-    fn parts_become_one_sweep_or_it_is_said_why_not() {
-        let [a, b, c] = [row(0, 1.0), row(1, 2.0), row(2, 3.0)];
-        let merged = merge(vec![c.clone(), a.clone(), c.clone()]).unwrap();
-        assert_eq!(merged, (vec![a.clone(), c], vec![1]));
-        assert_eq!(merge(vec![]), Err(MergeError::Empty));
-        let other = row(1, 5.0);
-        assert_eq!(merge(vec![b.clone(), other]), Err(MergeError::Unequal(1)));
-        let mut foreign = b;
-        foreign.key.picture = "resolution=9x9".into();
-        let why = "resolution: 8x8 vs 9x9".to_owned();
-        let expected = MergeError::Foreign { point: 1, why };
-        assert_eq!(merge(vec![a, foreign]), Err(expected));
     }
 }

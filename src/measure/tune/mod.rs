@@ -12,6 +12,9 @@
 //! time is `T_TR`, the CPU time of a picture with one sample per pixel; an untimed picture before it
 //! brings the tree into the caches. The first time of a candidate comes with its counts.
 //!
+//! If the number of rays is known that will be traced, candidates are ranked by the time of building once and
+//! tracing these rays. Trees that need more memory than allowed are left out before they are timed.
+//!
 //! [`Tuning`] does the work turn by turn, [`rank`] and [`best`] judge what is measured so far.
 
 mod candidates;

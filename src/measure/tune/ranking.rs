@@ -22,6 +22,7 @@ pub struct Spread {
 /// The figures by which a candidate is judged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Score {
+    /// Of rendering, or of building once and tracing some rays.
     pub seconds: Spread,
     /// Memory of the tree.
     pub bytes: u64,
@@ -41,6 +42,20 @@ pub struct Rank {
 /// A tree that saves memory is recommended only if it renders in at most this many times the time of
 /// the fastest candidate. Otherwise the answer would always be not to build a tree.
 pub const MOST_SLOWDOWN: f64 = 2.0;
+
+impl Spread {
+    /// Returns the spread of some times in any order, at least one. For an even number, the median is the lower of
+    /// the two in the middle.
+    pub(super) fn of(mut seconds: Vec<f64>) -> Spread {
+        seconds.sort_by(f64::total_cmp);
+        let last = seconds.len() - 1;
+        Spread {
+            least: seconds[0],
+            median: seconds[last / 2],
+            most: seconds[last],
+        }
+    }
+}
 
 impl Goal {
     /// Returns the figure of this goal.

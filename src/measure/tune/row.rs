@@ -54,13 +54,17 @@ impl Row {
     /// Returns the least, the median and the greatest CPU time. For an even number of rounds, the
     /// median is the lower of the two middle values.
     pub fn spread(&self) -> Spread {
-        let seconds = self.seconds();
-        let last = seconds.len() - 1;
-        Spread {
-            least: seconds[0],
-            median: seconds[last / 2],
-            most: seconds[last],
-        }
+        Spread::of(self.seconds())
+    }
+
+    /// Returns the CPU time of building the tree once and tracing so many rays like those of the picture, without
+    /// shading. The tree is built once, so the spread is that of tracing.
+    pub fn spread_with_build(&self, rays: u64) -> Spread {
+        let build = self.measurement.building.cpu.as_secs_f64();
+        let of = |time: &TimedRender| {
+            build + time.tracing.as_secs_f64() / time.rays.max(1) as f64 * rays as f64
+        };
+        Spread::of(self.times.iter().map(of).collect())
     }
 
     /// Returns how often it was timed.
@@ -68,10 +72,10 @@ impl Row {
         self.times.len()
     }
 
-    /// Returns what it is ranked by.
-    pub fn score(&self) -> Score {
+    /// Returns what it is ranked by if so many rays are traced after it is built; `None` ranks by rendering alone.
+    pub fn score(&self, rays: Option<u64>) -> Score {
         Score {
-            seconds: self.spread(),
+            seconds: rays.map_or_else(|| self.spread(), |rays| self.spread_with_build(rays)),
             bytes: self.bytes(),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::goal::Goal;
 use super::phase::Phase;
-use super::ranking::{Rank, best, rank};
+use super::ranking::{Rank, Score, best, rank};
 use super::row::Row;
 use crate::setup::Setup;
 use crate::structure::{BuildError, Method};
@@ -15,6 +15,11 @@ pub struct Search {
     /// The scene, the picture and the camera; of its structure, what applies to every method.
     pub setup: Setup,
     pub goal: Goal,
+    /// How many rays are traced in a tree after it is built once. Time is then that of both; `None` means only
+    /// that of rendering.
+    pub rays: Option<u64>,
+    /// Trees that need more memory (`M_TREE`, in bytes) are left out.
+    pub most_bytes: Option<u64>,
     /// The methods that are measured, as far as the scene is not too large for them.
     pub methods: Vec<Method>,
     /// Time for the measurements. When it is spent, no further turn begins, except that every method
@@ -29,6 +34,8 @@ pub enum LeftOut {
     Method { method: Method, objects: usize },
     /// A tree that could not be built.
     Refused { setup: Setup, why: BuildError },
+    /// A tree that needs more bytes than the search allows.
+    Memory { setup: Setup, bytes: u64 },
     /// Settings with which a method builds the same tree as with others that are measured.
     SameTree { setup: Setup },
     /// The budget was spent after so many whole rounds of a phase.
@@ -51,10 +58,14 @@ pub struct Tuned {
 }
 
 impl Tuned {
+    fn scores(&self) -> Vec<Score> {
+        let rows = self.rows.iter();
+        rows.map(|row| row.score(self.search.rays)).collect()
+    }
+
     /// Ranks the rows by the goal of the search, the best first.
     pub fn ranking(&self) -> Vec<Rank> {
-        let scores: Vec<_> = self.rows.iter().map(Row::score).collect();
-        rank(&scores, self.search.goal)
+        rank(&self.scores(), self.search.goal)
     }
 
     /// Returns the index of the row that is recommended, and the row.
@@ -62,8 +73,7 @@ impl Tuned {
     /// # Panics
     /// If there are no rows.
     pub fn recommended(&self) -> (usize, &Row) {
-        let scores: Vec<_> = self.rows.iter().map(Row::score).collect();
-        let place = best(&scores, self.search.goal)[0];
+        let place = best(&self.scores(), self.search.goal)[0];
         (place, &self.rows[place])
     }
 }

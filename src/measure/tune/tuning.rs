@@ -140,7 +140,7 @@ impl<'a> Tuning<'a> {
         &self.rows
     }
 
-    /// Returns the result, for now or at the end.
+    /// Returns the result, for now or at the end, if there are rows.
     pub fn into_result(self) -> Tuned {
         Tuned {
             search: self.search,
@@ -238,7 +238,8 @@ impl<'a> Tuning<'a> {
 
     /// Returns the setups of the best two methods whose trees depend on depth and leaf size.
     fn to_refine(&self) -> Vec<Setup> {
-        let scores: Vec<_> = self.rows.iter().map(Row::score).collect();
+        let rays = self.search.rays;
+        let scores: Vec<_> = self.rows.iter().map(|row| row.score(rays)).collect();
         let setups = best(&scores, self.search.goal)
             .into_iter()
             .map(|place| &self.rows[place].setup);
@@ -299,6 +300,12 @@ impl<'a> Tuning<'a> {
             let tree = tree?;
             if candidate.known.is_none() {
                 let known = Measurement::of_tree(scene, &tree, time, render);
+                let bytes = known.tree.bytes;
+                if self.search.most_bytes.is_some_and(|most| bytes > most) {
+                    let setup = candidate.setup.clone();
+                    self.left_out.push(LeftOut::Memory { setup, bytes });
+                    return Ok(Turn::LeftOut);
+                }
                 let is_same = |row: &Row| {
                     row.setup.build.method == candidate.setup.build.method
                         && row.measurement.tree == known.tree

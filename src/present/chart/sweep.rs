@@ -3,7 +3,7 @@
 
 use super::curves::{Curve, CurvePoint, curves, is_wide};
 use crate::measure::Parameter;
-use crate::measure::sweep::{Row, rule_depth};
+use crate::measure::sweep::{OtherOrigin, Row, check_comparable, rule_depth};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
@@ -24,16 +24,18 @@ pub struct Chart<'a> {
 /// Why a chart cannot be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ChartError {
-    #[error("no row of the sweep has a value of {0}")]
+    #[error("there is no value of {0} to draw")]
     Nothing(&'static str),
+    #[error(transparent)]
+    OtherOrigin(#[from] OtherOrigin),
     #[error("the chart could not be drawn: {0}")]
     Drawing(String),
 }
 
-const FONT: &str = "sans-serif";
+pub(super) const FONT: &str = "sans-serif";
 
 /// One color per method, distinct for color-blind people (M. Okabe and K. Ito, 2008).
-const COLORS: [RGBColor; 6] = [
+pub(super) const COLORS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -45,7 +47,7 @@ const COLORS: [RGBColor; 6] = [
 /// Returns the chart as a PNG file.
 ///
 /// # Errors
-/// There is nothing to draw, or the drawing library fails.
+/// There is nothing to draw, rows have times of different processors, or the drawing library fails.
 pub fn png(chart: &Chart<'_>) -> Result<Vec<u8>, ChartError> {
     let (width, height) = chart.size;
     let mut pixels = vec![0; width as usize * height as usize * 3];
@@ -75,16 +77,22 @@ pub fn svg(chart: &Chart<'_>) -> Result<String, ChartError> {
     Ok(text)
 }
 
-fn drawing(error: impl std::fmt::Display) -> ChartError {
+pub(super) fn drawing(error: impl std::fmt::Display) -> ChartError {
     ChartError::Drawing(error.to_string())
+}
+
+/// Makes the font known to the drawing library.
+pub(super) fn register() -> Result<(), ChartError> {
+    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
+        .map_err(|_| ChartError::Drawing("the font of the program is not one".into()))
 }
 
 fn draw<B: DrawingBackend>(
     chart: &Chart<'_>,
     area: &DrawingArea<B, Shift>,
 ) -> Result<(), ChartError> {
-    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-        .map_err(|_| ChartError::Drawing("the font of the program is not one".into()))?;
+    check_comparable(chart.rows, chart.parameter)?;
+    register()?;
     let curves = curves(chart.rows, chart.parameter);
     let points = || curves.iter().flat_map(|curve| &curve.points);
     let range = |axis: fn(&CurvePoint) -> f64| {

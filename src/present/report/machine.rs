@@ -1,7 +1,8 @@
 //! The machine on which a report was made, and the time.
 
+use crate::measure::processor;
 use crate::present::number::Digits;
-use sysinfo::{CpuRefreshKind, MemoryRefreshKind, RefreshKind, System};
+use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 use time::OffsetDateTime;
 use time::macros::format_description;
 
@@ -20,22 +21,14 @@ pub struct Machine {
 impl Machine {
     /// Returns the current machine.
     pub fn here() -> Self {
-        let known = RefreshKind::nothing()
-            .with_cpu(CpuRefreshKind::nothing())
-            .with_memory(MemoryRefreshKind::nothing().with_ram());
+        let known = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
         let system = System::new_with_specifics(known);
         let dash = || "–".to_owned();
-        let processor = system
-            .cpus()
-            .first()
-            .map(|cpu| cpu.brand().trim().to_owned());
         let threads = std::thread::available_parallelism();
         let physical = System::physical_core_count();
         let memory = system.total_memory();
         Machine {
-            processor: processor
-                .filter(|name| !name.is_empty())
-                .unwrap_or_else(dash),
+            processor: processor().map_or_else(dash, str::to_owned),
             cores: match (physical, threads) {
                 (Some(cores), Ok(threads)) => format!("{cores}, {threads} threads at once"),
                 (None, Ok(threads)) => format!("{threads} threads at once"),

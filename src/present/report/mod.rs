@@ -16,6 +16,7 @@ mod per_kind;
 pub mod pixel;
 mod registry;
 mod sections;
+pub mod study;
 mod table;
 mod text;
 pub mod tune;

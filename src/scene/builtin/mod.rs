@@ -3,11 +3,13 @@
 mod balls;
 mod entry;
 mod fluid;
+mod lattice;
 mod m_fluid;
 mod percent_g;
 mod rings;
 mod room;
 mod teaching;
+mod terrain;
 mod tetra;
 
 pub use entry::Builtin;
@@ -22,6 +24,8 @@ pub static BUILTINS: &[Builtin] = &[
     fluid::BUILTIN,
     m_fluid::BUILTIN,
     room::BUILTIN,
+    lattice::BUILTIN,
+    terrain::BUILTIN,
     teaching::BUILTIN,
 ];
 

@@ -73,7 +73,8 @@ impl Pane for SweepPane {
             nothing_yet(ui, doc, &self.sweeping);
             return;
         };
-        let best = answers(&found.rows, self.shown);
+        // All rows are from this process.
+        let best = answers(&found.rows, self.shown).unwrap_or_default();
         for answer in &best {
             let sentence = shown::in_words(&answer.sentence(self.shown));
             ui.add(egui::Label::new(sentence).wrap());

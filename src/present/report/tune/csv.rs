@@ -3,7 +3,8 @@
 use super::content::TuneReport;
 use std::io::{Result, Write};
 
-/// Writes one line per candidate. `rounds` tells how often each was timed.
+/// Writes one line per candidate. `T_BUILD_AND_RAYS` is the time of building once and
+/// tracing the rays that were asked for, else empty. `rounds` tells how often each was timed.
 pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
     let tuned = &report.tuned;
     let mut csv = csv::Writer::from_writer(out);
@@ -24,6 +25,7 @@ pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
         "nodes",
         "T_CB",
         "M_TREE",
+        "T_BUILD_AND_RAYS",
     ])?;
     let (recommended, _) = tuned.recommended();
     for rank in tuned.ranking() {
@@ -53,6 +55,9 @@ pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
             row.nodes().to_string(),
             row.measurement.building.cpu.as_secs_f64().to_string(),
             row.bytes().to_string(),
+            (tuned.search.rays).map_or(String::new(), |rays| {
+                row.spread_with_build(rays).median.to_string()
+            }),
         ])?;
     }
     csv.flush()

@@ -28,7 +28,15 @@ pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
     let ranking = tuned.ranking();
     let candidates: Vec<_> = ranking
         .iter()
-        .map(|rank| candidate(rank, &tuned.rows[rank.place], rank.place == place))
+        .map(|rank| {
+            let is_recommended = rank.place == place;
+            candidate(
+                rank,
+                &tuned.rows[rank.place],
+                is_recommended,
+                tuned.search.rays,
+            )
+        })
         .collect();
     let render = &tuned.render;
     let document = json!({
@@ -39,6 +47,8 @@ pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
         "precision": tuned.rows[0].measurement.precision.precision.name(),
         "kernel": render.kernel.description(),
         "threads": tuned.rows[0].measurement.building.threads,
+        "rays": tuned.search.rays,
+        "most_bytes": tuned.search.most_bytes,
         "budget": tuned.search.budget.as_secs_f64(),
         "spent": tuned.spent.as_secs_f64(),
         "candidates": candidates,
@@ -55,7 +65,7 @@ pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
     writeln!(out)
 }
 
-fn candidate(rank: &Rank, row: &Row, is_recommended: bool) -> Value {
+fn candidate(rank: &Rank, row: &Row, is_recommended: bool, rays: Option<u64>) -> Value {
     let (build, spread) = (&row.setup.build, row.spread());
     let parameters: Map<_, _> = PARAMETERS
         .into_iter()
@@ -79,6 +89,10 @@ fn candidate(rank: &Rank, row: &Row, is_recommended: bool) -> Value {
         "n_oilf": applies.then_some(build.n_oilf),
         "seconds": row.seconds(),
         "time": {"least": spread.least, "median": spread.median, "most": spread.most},
+        "build_and_rays": rays.map(|rays| {
+            let total = row.spread_with_build(rays);
+            json!({"least": total.least, "median": total.median, "most": total.most})
+        }),
         "tests_per_ray": row.tests_per_ray(),
         "nodes": row.nodes(),
         "parameters": parameters,

@@ -1,7 +1,9 @@
 //! The search as a table for people.
 
 use super::content::TuneReport;
-use super::words::{command, conditions, left_out, limits, memory, recommendation, time};
+use super::words::{
+    command, conditions, left_out, limits, memory, rays_in_words, recommendation, time,
+};
 use crate::measure::tune::{Rank, Row};
 use crate::present::number::{Digits, NO_VALUE, grouped};
 use crate::present::report::escape;
@@ -24,13 +26,19 @@ const TITLES: [&str; 10] = [
 fn grid(report: &TuneReport) -> Grid {
     let tuned = &report.tuned;
     let ranking = tuned.ranking();
+    let rays = tuned.search.rays;
+    let mut header = TITLES.map(String::from).to_vec();
+    header.extend(rays.map(|rays| format!("build and {}", rays_in_words(rays))));
+    let row = |rank: &Rank| {
+        let row = &tuned.rows[rank.place];
+        let mut cells = cells(rank, row);
+        cells.extend(rays.map(|rays| time(row.spread_with_build(rays).median)));
+        cells
+    };
     Grid {
         title: format!("Trees by {}", tuned.search.goal.name()),
-        header: TITLES.map(String::from).to_vec(),
-        rows: ranking
-            .iter()
-            .map(|rank| cells(rank, &tuned.rows[rank.place]))
-            .collect(),
+        header,
+        rows: ranking.iter().map(row).collect(),
         first_number: 2,
     }
 }

@@ -1,6 +1,9 @@
 //! The sentences of a search for the best tree.
 
-use crate::measure::tune::{Goal, LeftOut, MOST_SLOWDOWN, NAIVE_LIMIT, Phase, ROUNDS, Row, Tuned};
+use crate::measure::BreakEven;
+use crate::measure::tune::{
+    Goal, LeftOut, MOST_SLOWDOWN, NAIVE_LIMIT, Phase, ROUNDS, Row, Spread, Tuned,
+};
 use crate::present::number::{Digits, NO_VALUE, counted, grouped};
 use crate::setup::measure_command;
 
@@ -70,6 +73,21 @@ pub fn recommendation(tuned: &Tuned) -> String {
         );
     }
     text += &format!(" and the tree {}.", memory(row));
+    if let Some(rays) = tuned.search.rays {
+        let Spread {
+            least,
+            median,
+            most,
+        } = row.spread_with_build(rays);
+        text += &format!(
+            " Building it once and tracing {} takes {} ({} to {}).",
+            rays_in_words(rays),
+            time(median),
+            time(least),
+            time(most)
+        );
+        text += &break_even(tuned, place);
+    }
     if tuned.search.goal == Goal::Memory {
         text += &format!(
             " It is the smallest tree whose picture takes at most {MOST_SLOWDOWN} times as long as \
@@ -88,6 +106,35 @@ pub fn recommendation(tuned: &Tuned) -> String {
     text
 }
 
+/// Formats a number of rays.
+pub fn rays_in_words(rays: u64) -> String {
+    let noun = if rays == 1 { "ray" } else { "rays" };
+    format!("{} {noun}", grouped(rays as f64))
+}
+
+/// Returns after how many rays the recommended tree pays off, compared with the one that is built fastest; empty if
+/// it is that one.
+fn break_even(tuned: &Tuned, place: usize) -> String {
+    let build = |row: &Row| row.measurement.building.cpu;
+    let fastest = tuned
+        .rows
+        .iter()
+        .enumerate()
+        .min_by_key(|(_, row)| build(row));
+    let Some((_, first)) = fastest.filter(|(fastest, _)| *fastest != place) else {
+        return String::new();
+    };
+    let rays = BreakEven::of(&first.measurement, &tuned.rows[place].measurement);
+    match rays.and_then(BreakEven::rays) {
+        None => String::new(),
+        Some(rays) => format!(
+            " Compared with {}, which is built fastest, it pays off after {} (N_BE).",
+            candidate(first),
+            rays_in_words(rays.ceil() as u64)
+        ),
+    }
+}
+
 /// Returns the command that measures the recommended settings.
 pub fn command(row: &Row) -> String {
     measure_command(&row.setup)
@@ -98,6 +145,7 @@ pub fn left_out(tuned: &Tuned) -> Vec<String> {
     let budget = format!("budget of {} s", tuned.search.budget.as_secs_f64());
     let mut lines = Vec::new();
     let mut same = 0;
+    let mut too_large = 0;
     for left_out in &tuned.left_out {
         match left_out {
             LeftOut::Method { method, objects } => lines.push(format!(
@@ -114,6 +162,7 @@ pub fn left_out(tuned: &Tuned) -> Vec<String> {
                 ));
             }
             LeftOut::SameTree { .. } => same += 1,
+            LeftOut::Memory { .. } => too_large += 1,
             LeftOut::Rounds { phase, whole } => {
                 let of = match phase {
                     Phase::Methods => "all methods",
@@ -132,6 +181,15 @@ pub fn left_out(tuned: &Tuned) -> Vec<String> {
                 ));
             }
         }
+    }
+    if let Some(most) = tuned.search.most_bytes.filter(|_| too_large > 0) {
+        let verb = if too_large == 1 { "needs" } else { "need" };
+        lines.push(format!(
+            "{} {verb} more memory than {} and {} not timed.",
+            counted(too_large, "tree"),
+            Digits::Four.bytes(most as f64),
+            if too_large == 1 { "was" } else { "were" }
+        ));
     }
     if same > 0 {
         let (verb, article) = if same == 1 {
