@@ -21,11 +21,16 @@ fn the_study_is_written_in_every_form() {
         BTreeSet::from(["balls:1", "tetra:2"].map(String::from))
     );
     assert_eq!(
-        cells(2),
+        cells(3),
         BTreeSet::from(["packets", "scalar", "stream"].map(String::from))
     );
-    assert!(cells(3).contains("reflected") && cells(3).contains("random"));
-    assert!(cells(4).contains("equation (1)") && cells(4).contains("C_SAH + EPO"));
+    assert!(cells(5).contains("reflected") && cells(5).contains("random"));
+    assert!(cells(2).contains(std::env::consts::ARCH));
+    assert_eq!(
+        cells(4),
+        BTreeSet::from([env!("CARGO_PKG_VERSION").to_owned()])
+    );
+    assert!(cells(6).contains("equation (1)") && cells(6).contains("C_SAH + EPO"));
 
     let json = program.json(&format!("study measures tetra:2 {QUICK} --format json"));
     let scene = &json["scenes"][0];
