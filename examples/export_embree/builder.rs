@@ -17,7 +17,14 @@ pub struct Node {
     pub boxes: Vec<Corners>,
 }
 
-/// `RTCBuildPrimitive`; `RTCBounds` has the same layout.
+/// `RTCBounds`.
+#[repr(C, align(16))]
+struct Bounds {
+    lower: [f32; 4],
+    upper: [f32; 4],
+}
+
+/// `RTCBuildPrimitive`.
 #[repr(C, align(32))]
 struct Primitive {
     lower: [f32; 3],
@@ -45,7 +52,7 @@ struct Arguments {
     primitive_capacity: usize,
     create_node: extern "C" fn(Handle, u32, Handle) -> *mut Node,
     set_node_children: extern "C" fn(*mut Node, *const *mut Node, u32, Handle),
-    set_node_bounds: extern "C" fn(*mut Node, *const *const Primitive, u32, Handle),
+    set_node_bounds: extern "C" fn(*mut Node, *const *const Bounds, u32, Handle),
     create_leaf: extern "C" fn(Handle, *const Primitive, usize, Handle) -> *mut Node,
     split_primitive: usize,
     build_progress: usize,
@@ -72,16 +79,13 @@ extern "C" fn set_node_children(
     }
 }
 
-extern "C" fn set_node_bounds(
-    node: *mut Node,
-    boxes: *const *const Primitive,
-    count: u32,
-    _: Handle,
-) {
+extern "C" fn set_node_bounds(node: *mut Node, boxes: *const *const Bounds, count: u32, _: Handle) {
     // SAFETY: Embree passes one box per child.
     unsafe {
         let boxes = std::slice::from_raw_parts(boxes, count as usize);
-        (*node).boxes = boxes.iter().map(|&b| [(*b).lower, (*b).upper]).collect();
+        let corner = |[x, y, z, _]: [f32; 4]| [x, y, z];
+        let corners = |b: &*const Bounds| [corner((**b).lower), corner((**b).upper)];
+        (*node).boxes = boxes.iter().map(corners).collect();
     }
 }
 
