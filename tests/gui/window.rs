@@ -252,7 +252,7 @@ fn a_click_names_the_object_and_lists_the_leaves() {
     // The pixel stays picked in another tree.
     press(&mut window, egui::Modifiers::COMMAND, egui::Key::M);
     wait(&mut window, "the method", |w| has(w, "balls:1 · sah-cut"));
-    assert!(has(&window, "Pixel 23, 24"));
+    wait(&mut window, "its rays", |w| has(w, "Pixel 23, 24"));
 }
 
 #[test]
