@@ -10,8 +10,7 @@ pub(crate) struct Avx2;
 /// Only the highest bit of each lane is significant.
 type Mask = __m256i;
 
-/// Returns the vector, and hides where it comes from. Otherwise the compiler turns "load, select, store" into a
-/// masked store, which Zen 2 and Zen 3 execute as microcode.
+/// Returns the vector, as one that the compiler knows nothing about.
 #[target_feature(enable = "avx")]
 #[inline]
 unsafe fn opaque(mut x: __m256i) -> __m256i {
@@ -230,6 +229,12 @@ impl Simd for Avx2 {
     unsafe fn select_u(mask: __m256i, a: __m256i, b: __m256i) -> __m256i {
         Self::bits_of(Self::select(mask, Self::from_bits(a), Self::from_bits(b)))
     }
+    /// Hides from the compiler where the value comes from. It turns "load, select, store" into a masked store,
+    /// which Zen 2 and Zen 3 execute as microcode.
+    #[inline(always)]
+    unsafe fn replace_u(mask: __m256i, new: __m256i, old: __m256i) -> __m256i {
+        opaque(Self::select_u(mask, new, old))
+    }
     #[inline(always)]
     unsafe fn bits_of(a: __m256) -> __m256i {
         _mm256_castps_si256(a)
@@ -295,7 +300,7 @@ impl Simd for Avx2 {
         let ranks = _mm_loadl_epi64(RANKS[Self::mask_bits(mask) as usize].as_ptr().cast());
         let packed = _mm256_loadu_si256(from.cast());
         let spread = _mm256_permutevar8x32_epi32(packed, _mm256_cvtepu8_epi32(ranks));
-        opaque(Self::select_u(mask, spread, x))
+        Self::replace_u(mask, spread, x)
     }
 
     #[inline(always)]

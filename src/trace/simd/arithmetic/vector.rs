@@ -83,6 +83,26 @@ pub(crate) trait Simd: Copy {
     unsafe fn test_bit_pair_u<const BIT: u32>(a: Self::U, by: Self::U) -> (Self::M, Self::M);
     unsafe fn eq_u(a: Self::U, b: Self::U) -> Self::M;
     unsafe fn select_u(mask: Self::M, a: Self::U, b: Self::U) -> Self::U;
+
+    /// [`Simd::select_u`] of a new value or the old one of a variable. If the variable is in memory, all lanes are
+    /// stored: not those of the mask alone, which is slow on some processors.
+    #[inline(always)]
+    unsafe fn replace_u(mask: Self::M, new: Self::U, old: Self::U) -> Self::U {
+        unsafe { Self::select_u(mask, new, old) }
+    }
+
+    /// [`Simd::replace_u`] for `f32`.
+    #[inline(always)]
+    unsafe fn replace(mask: Self::M, new: Self::F, old: Self::F) -> Self::F {
+        unsafe {
+            Self::from_bits(Self::replace_u(
+                mask,
+                Self::bits_of(new),
+                Self::bits_of(old),
+            ))
+        }
+    }
+
     unsafe fn bits_of(a: Self::F) -> Self::U;
     unsafe fn from_bits(a: Self::U) -> Self::F;
 

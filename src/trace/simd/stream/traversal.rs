@@ -270,11 +270,11 @@ unsafe fn resume<S: Simd>(
     let beyond = S::le(limit, S::sub(state.exit, max_width));
     let done = S::mask_bits(S::or(S::eq_u(state.top, bottom), beyond)) & idle;
     let pops = S::mask_from_bits(idle & !done);
-    state.top = S::select_u(pops, S::sub_u(state.top, entry), state.top);
+    state.top = S::replace_u(pops, S::sub_u(state.top, entry), state.top);
     let (node, t_enter, t_exit) = stacks.get::<S>(state.top);
-    state.enter = S::select(pops, t_enter, state.enter);
-    state.exit = S::select(pops, t_exit, state.exit);
-    state.node = S::select_u(pops, node, state.node);
+    state.enter = S::replace(pops, t_enter, state.enter);
+    state.exit = S::replace(pops, t_exit, state.exit);
+    state.node = S::replace_u(pops, node, state.node);
     // A node that begins beyond the limit is dropped. Its lane idles on.
     let resumes = S::and(S::le(state.enter, limit), pops);
     state.active = S::or(state.active, resumes);
@@ -314,8 +314,8 @@ unsafe fn resume<S: Simd>(
     state.active = S::or(state.active, starts);
     state.enter = expanded::<S>(starts, &entering.t_enter, first, state.enter);
     state.exit = expanded::<S>(starts, &entering.t_exit, first, state.exit);
-    state.node = S::select_u(starts, S::splat_u(0), state.node);
-    state.top = S::select_u(starts, bottom, state.top);
+    state.node = S::replace_u(starts, S::splat_u(0), state.node);
+    state.top = S::replace_u(starts, bottom, state.top);
 }
 
 /// Loads a column from `first` on into the lanes of a mask; the other lanes keep their own.
@@ -370,10 +370,10 @@ unsafe fn step<S: Simd, B: Block>(
     let push = S::and_not(take, far_empty);
     let after = S::max(state.enter, begins);
     pushes.push::<S>(push, state.top, far, after, state.exit);
-    state.top = S::select_u(push, S::add_u(state.top, one), state.top);
-    state.enter = S::select(skip, after, state.enter);
-    state.exit = S::select(take, S::min(state.exit, ends), state.exit);
+    state.top = S::replace_u(push, S::add_u(state.top, one), state.top);
+    state.enter = S::replace(skip, after, state.enter);
+    state.exit = S::replace(take, S::min(state.exit, ends), state.exit);
     let to_far = S::or(only_far, skip);
     let next = S::select_u(to_far, far, near);
-    state.node = S::select_u(active, next, state.node);
+    state.node = S::replace_u(active, next, state.node);
 }
