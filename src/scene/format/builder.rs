@@ -174,8 +174,7 @@ impl SceneBuilder {
     /// Adds a face: a triangle if it has three vertices, a polygon if it has more. A non-planar
     /// polygon is split into triangles. A face with zero area is skipped.
     ///
-    /// A normal of zero length, or one that is not finite, is replaced by that of the face. A polygon
-    /// with such a normal is split into triangles, so that only those at its vertex change.
+    /// A normal of zero length, or one that is not finite, is replaced by that of the face.
     ///
     /// # Errors
     /// A coordinate is not finite, or there are too many faces.
@@ -185,23 +184,39 @@ impl SceneBuilder {
         vertices: &[Vec3],
         normals: Option<&[Vec3]>,
     ) -> Result<(), ReadError> {
-        let Some(given) = normals.filter(|given| !given.iter().all(|n| is_direction(*n))) else {
-            return self.face_as_noted(place, vertices, normals);
-        };
+        self.note_normals(place, normals);
+        self.face_as_noted(place, vertices, normals)
+    }
+
+    /// Adds a face as [`SceneBuilder::face`] does, but splits a polygon into triangles if one of its
+    /// normals has no direction, so that only the triangles at its vertex change.
+    pub fn face_or_triangles(
+        &mut self,
+        place: Place,
+        vertices: &[Vec3],
+        normals: Option<&[Vec3]>,
+    ) -> Result<(), ReadError> {
+        match normals {
+            Some(given) if vertices.len() > 3 && !given.iter().all(|n| is_direction(*n)) => {
+                self.note_normals(place, normals);
+                const TEXT: &str = "polygon with a normal of no direction split into triangles";
+                self.split(place, vertices, repaired(given).as_deref(), TEXT)
+            }
+            _ => self.face(place, vertices, normals),
+        }
+    }
+
+    /// Notes normals without a direction.
+    fn note_normals(&mut self, place: Place, normals: Option<&[Vec3]>) {
+        let given = normals.unwrap_or_default();
         let infinite = given.iter().any(|n| !n.is_finite());
         let zero = given.contains(&Vec3::ZERO);
         for (there, text) in [(infinite, INFINITE_NORMAL), (zero, ZERO_NORMAL)] {
             self.note_times(NoteKind::Changed, text, usize::from(there), place);
         }
-        if vertices.len() == 3 {
-            return self.face_as_noted(place, vertices, normals);
-        }
-        const TEXT: &str = "polygon with a normal of no direction split into triangles";
-        self.split(place, vertices, repaired(given).as_deref(), TEXT)
     }
 
-    /// Adds a face as [`SceneBuilder::face`] does, but without notes on its normals and without
-    /// splitting a polygon because of them.
+    /// Adds a face as [`SceneBuilder::face`] does, but without notes on its normals.
     pub fn face_as_noted(
         &mut self,
         place: Place,

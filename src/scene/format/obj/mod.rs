@@ -16,7 +16,8 @@
 //! too. A material may be defined after its use, by a `mtllib` anywhere in the file.
 //!
 //! A coordinate that is not a finite number is an error only if a face uses the vertex. Normals
-//! that cannot be read, and indices of normals that do not exist, are replaced by the face normal.
+//! that cannot be read, and indices of normals that do not exist, are replaced by the face normal. A
+//! polygon with a normal that cannot be read is split into triangles.
 
 mod mtl;
 
@@ -279,7 +280,8 @@ impl Reader<'_> {
             self.builder.note(NoteKind::Changed, TEXT, line.place());
             return self.builder.face_as_noted(line.place(), vertices, normals);
         }
-        self.builder.face(line.place(), vertices, normals)
+        self.builder
+            .face_or_triangles(line.place(), vertices, normals)
     }
 
     fn use_material(&mut self, name: &[u8], line: Line<'_>) {
