@@ -293,7 +293,8 @@ impl Answer<'_> {
     }
 
     fn preview(&self) -> Result<Picture, JobError> {
-        let (scene, tree, render) = (&self.scene, &self.tree, &self.fastest());
+        // The fastest kernel would first have to prepare the tree.
+        let (scene, tree, render) = (&self.scene, &self.tree, &self.setup.render);
         self.stage(Stage::Previewing);
         self.context.stage("first picture");
         self.context.unit(|progress| {
