@@ -34,9 +34,15 @@ use std::ops::Range;
 /// precision.
 macro_rules! with_objects {
     ($kernel:expr, $objects:ident => $body:expr) => {
-        match (&$kernel.simd_tree.tree, $kernel.shapes) {
+        match &$kernel.simd_tree.tree {
+            AnyTree::Planes(by_kind) => with_objects!($kernel, by_kind, $objects => $body),
+            AnyTree::Boxes(by_kind) => with_objects!($kernel, by_kind, $objects => $body),
+        }
+    };
+    ($kernel:expr, $by_kind:ident, $objects:ident => $body:expr) => {
+        match ($by_kind, $kernel.shapes) {
             (
-                AnyTree::Planes(ByKind::Triangles(tree)),
+                ByKind::Triangles(tree),
                 Shapes::F32 {
                     arrays: Arrays::Triangles(all),
                     ..
@@ -46,27 +52,7 @@ macro_rules! with_objects {
                 $body
             }
             (
-                AnyTree::Planes(ByKind::Spheres(tree)),
-                Shapes::F32 {
-                    arrays: Arrays::Spheres(all),
-                    ..
-                },
-            ) => {
-                let $objects = InSpheres::new(&tree.blocks, all);
-                $body
-            }
-            (
-                AnyTree::Boxes(ByKind::Triangles(tree)),
-                Shapes::F32 {
-                    arrays: Arrays::Triangles(all),
-                    ..
-                },
-            ) => {
-                let $objects = InTriangles::new(&tree.blocks, all, $kernel.instructions);
-                $body
-            }
-            (
-                AnyTree::Boxes(ByKind::Spheres(tree)),
+                ByKind::Spheres(tree),
                 Shapes::F32 {
                     arrays: Arrays::Spheres(all),
                     ..
