@@ -3,11 +3,11 @@
 use super::case::Case;
 use super::scenes::{aims, aims_from, ball, base, features, spread, torus, unit};
 use super::trial::{Outcome, Trial};
-use crate::geometry::{Ray, Vec3};
+use crate::geometry::{Axis, Ray, Vec3};
 use crate::measure::judge::Answer;
 use crate::primitive::{Primitive, Shape};
 use crate::scene::Scene;
-use crate::structure::Tree;
+use crate::structure::{Nodes, Tree};
 use crate::trace::RayKind;
 
 pub const CASES: &[Case] = &[
@@ -27,13 +27,13 @@ pub const CASES: &[Case] = &[
         lengths,
     ),
     Case::of_any_scene(
-        "inside split planes",
-        "within planes of the tree, in every direction there: right hits",
+        "inside planes of the tree",
+        "within split planes, or faces of boxes, in every direction there: right hits",
         inside_planes,
     ),
     Case::of_any_scene(
-        "from split planes",
-        "starting on planes of the tree: right hits",
+        "from planes of the tree",
+        "starting on split planes, or on faces of boxes: right hits",
         from_planes,
     ),
     Case::of_any_scene(
@@ -133,16 +133,28 @@ fn lengths(trial: &Trial<'_>) -> Outcome {
     })
 }
 
-/// Returns points on split planes, inside the node's cell, each with its axis. They are evenly
-/// distributed over the tree.
+/// Returns points on the planes that a tree tests rays with, each with its axis: on split planes inside the
+/// node's cell, and on the faces of a hierarchy's boxes. They are evenly distributed over the tree.
 fn on_planes(tree: &Tree, count: usize) -> Vec<(usize, Vec3)> {
+    // Each face of all boxes after the other, so that every one of the six is taken equally often.
+    let is_hierarchy = matches!(tree.nodes(), Nodes::Boxes(_));
+    let faces = if is_hierarchy { 6 } else { 1 };
     let mut points = Vec::new();
-    for cell in tree.cells() {
-        if let Some((axis, plane)) = tree.plane(cell.node) {
-            let [x, y, z, ..] = spread(points.len());
-            let mut point = cell.bounds.lo + cell.bounds.size() * Vec3::new(x, y, z);
-            point[axis.index()] = plane;
-            points.push((axis.index(), point));
+    for face in 0..faces {
+        for cell in tree.cells() {
+            let plane = if is_hierarchy {
+                let axis = Axis::from_index(face % 3);
+                let corner = [cell.bounds.lo, cell.bounds.hi][face / 3];
+                Some((axis, corner[axis.index()]))
+            } else {
+                tree.plane(cell.node)
+            };
+            if let Some((axis, plane)) = plane {
+                let [x, y, z, ..] = spread(points.len());
+                let mut point = cell.bounds.lo + cell.bounds.size() * Vec3::new(x, y, z);
+                point[axis.index()] = plane;
+                points.push((axis.index(), point));
+            }
         }
     }
     let every = points.len().div_ceil(count.max(1)).max(1);
