@@ -16,6 +16,8 @@ mod ours;
 mod rays;
 #[path = "peers/scenes.rs"]
 mod scenes;
+#[path = "peers/tinybvh.rs"]
+mod tinybvh;
 
 use bspscope::measure::processor;
 use bspscope::structure::SimdTree;
@@ -27,7 +29,7 @@ use serde_json::{Value, json};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Compares our kernels with Embree, obvhs and parry3d: rays per second on five sets of rays
+/// Compares our kernels with Embree, obvhs, parry3d and tinybvh: rays per second on five sets of rays
 #[derive(Parser)]
 struct Options {
     /// Scenes to run: tetra, terrain, balls, balls-tessellated, room [default: all]
@@ -163,6 +165,11 @@ fn run(subject: &scenes::Subject, options: &Options, report: &mut Vec<Value>) ->
     if wanted("parry3d") {
         entrants.extend(timed("parry3d", &|| {
             Some(Box::new(crates::Parry::new(scene)?) as _)
+        }));
+    }
+    if wanted("tinybvh") {
+        entrants.extend(timed("tinybvh", &|| {
+            Some(Box::new(tinybvh::TinyBvh::new(scene)?) as _)
         }));
     }
     let reference = entrants.len();

@@ -15,7 +15,8 @@ use parry3d::query::RayCast;
 use parry3d::shape::TriMesh;
 use std::time::Duration;
 
-fn triangles(scene: &Scene) -> Option<Vec<[[f32; 3]; 3]>> {
+/// Returns the vertices of all triangles; `None` if there are other objects.
+pub fn triangles(scene: &Scene) -> Option<Vec<[[f32; 3]; 3]>> {
     let vertices = |object: &Primitive| match object {
         Primitive::Triangle(t) => Some(t.vertices.map(|v| v.as_vec3().to_array())),
         _ => None,

@@ -6,6 +6,7 @@ use bspscope::geometry::Ray;
 pub type Found = Option<(f64, u32)>;
 
 /// A ray in the layout of most peers: 32 bytes.
+#[repr(C)]
 #[derive(Clone, Copy)]
 pub struct NarrowRay {
     pub origin: [f32; 3],
