@@ -1,15 +1,18 @@
 //! Binning: objects are sorted into bins by their centers, and splits between bins are tried.
 
 use super::binary::Binary;
-use super::builder::{BvhBuilder, Input, center};
+use super::bins::{Between, Held, cheapest_between};
+use super::builder::{BvhBuilder, Input};
 use super::constants::{BLOCK, COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
 use super::costs::Costs;
-use super::sweep::bounds_of;
+use super::reference::{Reference, halve};
 use super::top_down::{self, Divide, Split};
-use crate::geometry::{Aabb, Vec3};
+use crate::geometry::Aabb;
 use crate::progress::Cancelled;
 use crate::structure::method::{Constant, Structure};
 use crate::structure::settings::{BuildSettings, Builder, MethodInfo};
+use rayon::prelude::*;
+use std::marker::PhantomData;
 
 pub(super) const METHOD: MethodInfo = MethodInfo {
     name: "bvh-binned",
@@ -53,139 +56,129 @@ impl Binned {
 
 impl BvhBuilder for Binned {
     fn build(&self, input: &Input<'_>) -> Result<Binary, Cancelled> {
-        top_down::build(self, self.costs, input)
+        let mut all = Reference::to_all(input);
+        let binning = Binning {
+            costs: self.costs,
+            bins: self.bins,
+            all: PhantomData,
+        };
+        top_down::build(&binning, References::of(&mut all), self.costs, input)
     }
 }
 
-/// The bins of a node along one axis.
-#[derive(Clone, Copy, Debug)]
-pub struct Bins {
-    pub axis: usize,
-    lo: f64,
-    per_length: f64,
-    count: usize,
+/// Divides parts of one list, which lives for `'a`.
+struct Binning<'a> {
+    costs: Costs,
+    bins: usize,
+    all: PhantomData<&'a ()>,
 }
 
-impl Bins {
-    /// Divides the range from `lo` to `hi`; `None` if it is too short to be divided.
-    pub fn new(axis: usize, [lo, hi]: [f64; 2], count: usize) -> Option<Self> {
-        let per_length = count as f64 / (hi - lo);
-        (lo < hi && per_length.is_finite()).then_some(Bins {
-            axis,
-            lo,
-            per_length,
-            count,
-        })
+/// The references of a node.
+struct References<'a> {
+    list: &'a mut [Reference],
+    bounds: Aabb,
+    centers: Aabb,
+}
+
+impl<'a> References<'a> {
+    fn of(list: &'a mut [Reference]) -> Self {
+        /// References that one thread encloses.
+        const CHUNK: usize = 1 << 15;
+        let [bounds, centers] = if list.len() > 2 * CHUNK {
+            let parts = list.par_chunks(CHUNK).map(enclose);
+            parts.reduce(
+                || [Aabb::EMPTY; 2],
+                |a, b| [a[0].union(&b[0]), a[1].union(&b[1])],
+            )
+        } else {
+            enclose(list)
+        };
+        References {
+            list,
+            bounds,
+            centers,
+        }
     }
 
-    /// Returns the bin of a coordinate.
-    pub fn of(&self, coordinate: f64) -> usize {
-        (((coordinate - self.lo) * self.per_length) as usize).min(self.count - 1)
+    fn split_at(self, count: usize) -> [Self; 2] {
+        let (left, right) = self.list.split_at_mut(count);
+        [left, right].map(References::of)
     }
 }
 
-/// The objects in the bins before `first_right`.
-#[derive(Clone, Copy, Debug)]
-pub struct Between {
-    bins: Bins,
-    first_right: usize,
-}
-
-impl Divide for Binned {
-    type References = Vec<u32>;
+impl<'a> Divide for Binning<'a> {
+    type References = References<'a>;
     type How = Between;
+    type Memory = Held;
 
-    fn root(&self, input: &Input<'_>) -> Result<Vec<u32>, Cancelled> {
-        Ok((0..input.count()).collect())
+    fn count(&self, references: &References<'a>) -> usize {
+        references.list.len()
     }
 
-    fn count(&self, objects: &Vec<u32>) -> usize {
-        objects.len()
+    fn bounds(&self, _: &Input<'_>, references: &References<'a>) -> Aabb {
+        references.bounds
     }
 
-    fn bounds(&self, input: &Input<'_>, objects: &Vec<u32>) -> Aabb {
-        bounds_of(input, objects)
-    }
-
-    fn objects(&self, objects: Vec<u32>) -> Vec<u32> {
-        objects
+    fn objects(&self, references: &References<'a>) -> impl Iterator<Item = u32> {
+        references.list.iter().map(|held| held.object)
     }
 
     fn cheapest(
         &self,
-        input: &Input<'_>,
-        objects: &mut Vec<u32>,
+        _: &Input<'_>,
+        references: &mut References<'a>,
         _: &Aabb,
+        held: &mut Held,
     ) -> Option<Split<Between>> {
-        let centers = centers_of(input, objects);
-        let mut best: Option<Split<Between>> = None;
-        for axis in 0..3 {
-            let Some(bins) = Bins::new(axis, [centers.lo[axis], centers.hi[axis]], self.bins)
-            else {
-                continue;
-            };
-            let mut held = vec![(Aabb::EMPTY, 0_usize); self.bins];
-            for &object in objects.iter() {
-                let (bounds, count) = &mut held[bins.of(input.center(object)[axis])];
-                *bounds = bounds.union(&input.bounds[object as usize]);
-                *count += 1;
-            }
-            for (first_right, cost) in costs_between(&held, &self.costs) {
-                if best.is_none_or(|best| cost < best.cost) {
-                    let how = Between { bins, first_right };
-                    best = Some(Split { how, cost });
-                }
-            }
-        }
-        best
+        let References { list, centers, .. } = references;
+        let how = cheapest_between(list, centers, self.bins, &self.costs, held)?;
+        let cost = how.cost;
+        Some(Split { how, cost })
     }
 
-    fn divide(&self, input: &Input<'_>, objects: Vec<u32>, how: Between) -> [Vec<u32>; 2] {
-        let is_left =
-            |object: &u32| how.bins.of(input.center(*object)[how.bins.axis]) < how.first_right;
-        let (left, right) = objects.into_iter().partition(is_left);
-        [left, right]
+    fn divide(
+        &self,
+        _: &Input<'_>,
+        references: References<'a>,
+        how: Between,
+    ) -> [References<'a>; 2] {
+        let is_left = |held: &Reference| how.bins.of_center(held) < how.first_right;
+        let count = partition(references.list, is_left);
+        references.split_at(count)
     }
 
-    fn halve(&self, input: &Input<'_>, mut objects: Vec<u32>) -> [Vec<u32>; 2] {
-        let axis = centers_of(input, &objects).longest_axis().index();
-        let middle = objects.len() / 2;
-        objects.select_nth_unstable_by(middle, |&a, &b| {
-            let order = input.center(a)[axis].total_cmp(&input.center(b)[axis]);
-            order.then_with(|| a.cmp(&b))
-        });
-        let right = objects.split_off(middle);
-        [objects, right]
+    fn halve(&self, _: &Input<'_>, references: References<'a>) -> [References<'a>; 2] {
+        let middle = halve(references.list);
+        references.split_at(middle)
     }
 }
 
-/// Returns the bounds of the centers of some objects.
-fn centers_of(input: &Input<'_>, objects: &[u32]) -> Aabb {
-    let centers = objects.iter().map(|&o| center(&input.bounds[o as usize]));
-    let point = |center: Vec3| Aabb::new(center, center);
-    centers.fold(Aabb::EMPTY, |all, center| all.union(&point(center)))
+/// Returns the bounds of references and those of their centers.
+fn enclose(list: &[Reference]) -> [Aabb; 2] {
+    let (mut bounds, mut centers) = (Aabb::EMPTY, Aabb::EMPTY);
+    for reference in list {
+        let center = reference.center();
+        bounds = bounds.union(&reference.bounds);
+        centers = centers.union(&Aabb::new(center, center));
+    }
+    [bounds, centers]
 }
 
-/// Returns the cost of every split between bins that leaves objects on both sides, with the first bin to the
-/// right. `held` has the bounds and the number of references of each bin.
-pub fn costs_between(held: &[(Aabb, usize)], costs: &Costs) -> Vec<(usize, f64)> {
-    let mut rest = vec![(0.0, 0_usize); held.len()];
-    let (mut bounds, mut count) = (Aabb::EMPTY, 0);
-    for (i, (more, n)) in held.iter().enumerate().skip(1).rev() {
-        bounds = bounds.union(more);
-        count += n;
-        rest[i] = (bounds.surface_area() * costs.blocks(count), count);
-    }
-    let (mut bounds, mut count) = (Aabb::EMPTY, 0);
-    let mut found = Vec::new();
-    for i in 1..held.len() {
-        let (more, n) = &held[i - 1];
-        bounds = bounds.union(more);
-        count += n;
-        let (right, on_right) = rest[i];
-        if count > 0 && on_right > 0 {
-            found.push((i, bounds.surface_area() * costs.blocks(count) + right));
+/// Moves the references that are on the left before the others and returns their number.
+fn partition(list: &mut [Reference], is_left: impl Fn(&Reference) -> bool) -> usize {
+    let (mut first, mut end) = (0, list.len());
+    loop {
+        while first < end && is_left(&list[first]) {
+            first += 1;
         }
+        while first < end && !is_left(&list[end - 1]) {
+            end -= 1;
+        }
+        if first == end {
+            return first;
+        }
+        end -= 1;
+        list.swap(first, end);
+        first += 1;
     }
-    found
 }

@@ -5,6 +5,7 @@ use crate::geometry::{Aabb, Axis};
 use crate::progress::{Cancelled, Progress};
 use crate::structure::box_node::BoxNode;
 use crate::structure::frame::Frame;
+use rayon::prelude::*;
 
 /// A hierarchy as it is stored.
 pub struct Laid {
@@ -23,11 +24,16 @@ pub fn lay_out(
     frame: &Frame,
     progress: &Progress,
 ) -> Result<Laid, Cancelled> {
+    /// Nodes that one thread encloses.
+    const CHUNK: usize = 1 << 12;
     let mut laid = Laid {
         nodes: Vec::with_capacity(binary.nodes.len()),
         references: Vec::with_capacity(binary.references.len()),
         depth_reached: 0,
     };
+    let boxes = binary.nodes.par_iter().with_min_len(CHUNK);
+    let boxes: Vec<_> = boxes.map(|node| sides(frame, &node.bounds)).collect();
+    progress.check()?;
     // The parents of all laid nodes; the root is its own parent.
     let mut parents = Vec::with_capacity(binary.nodes.len());
     let mut children = Vec::with_capacity(width);
@@ -37,11 +43,10 @@ pub fn lay_out(
         if index.is_multiple_of(1 << 12) {
             progress.check()?;
         }
-        let BinaryNode { bounds, content } = &binary.nodes[node as usize];
-        let sides = sides(frame, bounds);
+        let sides = boxes[node as usize];
         parents.push(parent);
         laid.depth_reached = laid.depth_reached.max(depth);
-        match *content {
+        match binary.nodes[node as usize].content {
             Content::Leaf { first, count, stop } => {
                 let from = laid.references.len() as u32;
                 let held = &binary.references[first as usize..(first + count) as usize];

@@ -5,6 +5,7 @@
 
 mod binary;
 mod binned;
+mod bins;
 pub(super) mod builder;
 mod collapse;
 mod constants;
@@ -14,6 +15,7 @@ mod lbvh;
 mod morton;
 mod ploc;
 mod presplit;
+mod reference;
 mod reinsert;
 mod spatial;
 mod sweep;

@@ -1,12 +1,13 @@
 //! Spatial splits (SBVH): objects may be divided at planes, so that the boxes of their parts overlap less.
 
 use super::binary::Binary;
-use super::binned::{Bins, costs_between};
-use super::builder::{BvhBuilder, Input, center};
+use super::bins::{Between, Bins, Held, cheapest_between};
+use super::builder::{BvhBuilder, Input};
 use super::constants::{BLOCK, COST_TEST, COST_TRAVERSAL, MAX_LEAF, WIDTH};
 use super::costs::Costs;
+use super::reference::{Reference, bounds_of, centers_of, halve};
 use super::top_down::{self, Divide, Split};
-use crate::geometry::{Aabb, Vec3};
+use crate::geometry::Aabb;
 use crate::primitive::Shape;
 use crate::progress::Cancelled;
 use crate::structure::method::{Constant, Structure};
@@ -91,15 +92,14 @@ impl Spatial {
 
 impl BvhBuilder for Spatial {
     fn build(&self, input: &Input<'_>) -> Result<Binary, Cancelled> {
-        let bounds = input.bounds.iter();
-        let root = bounds.fold(Aabb::EMPTY, |all, bounds| all.union(bounds));
+        let list = Reference::to_all(input);
         let splitting = Splitting {
             costs: self.costs,
             bins: self.bins,
-            least_overlap: self.alpha * root.surface_area(),
-            spare: ((self.budget - 1.0).max(0.0) * input.bounds.len() as f64) as usize,
+            least_overlap: self.alpha * bounds_of(&list).surface_area(),
         };
-        top_down::build(&splitting, self.costs, input)
+        let spare = ((self.budget - 1.0).max(0.0) * list.len() as f64) as usize;
+        top_down::build(&splitting, References { list, spare }, self.costs, input)
     }
 
     fn max_references_per_object(&self) -> f64 {
@@ -107,28 +107,21 @@ impl BvhBuilder for Spatial {
     }
 }
 
-/// An object, or a part of it, with its bounds.
-#[derive(Clone, Copy)]
-struct Reference {
-    bounds: Aabb,
-    object: u32,
-}
-
-impl Reference {
-    fn center(&self) -> Vec3 {
-        center(&self.bounds)
+/// Returns the bounds of the part of a reference between two planes; `None` if there is no such part.
+fn part_of(
+    reference: &Reference,
+    input: &Input<'_>,
+    axis: usize,
+    lo: f64,
+    hi: f64,
+) -> Option<Aabb> {
+    let mut cell = reference.bounds;
+    cell.lo[axis] = cell.lo[axis].max(lo);
+    cell.hi[axis] = cell.hi[axis].min(hi);
+    if cell == reference.bounds {
+        return Some(cell);
     }
-
-    /// Returns the bounds of the part between two planes; `None` if there is no such part.
-    fn part(&self, input: &Input<'_>, axis: usize, lo: f64, hi: f64) -> Option<Aabb> {
-        let mut cell = self.bounds;
-        cell.lo[axis] = cell.lo[axis].max(lo);
-        cell.hi[axis] = cell.hi[axis].min(hi);
-        if cell == self.bounds {
-            return Some(cell);
-        }
-        input.objects[self.object as usize].certain_bounds_within(&cell)
-    }
+    input.objects[reference.object as usize].certain_bounds_within(&cell)
 }
 
 /// The references of a node.
@@ -140,8 +133,8 @@ struct References {
 
 /// A way to divide references.
 enum How {
-    /// Those whose centers are in the bins before `first_right` are on the left.
-    Whole { bins: Bins, first_right: usize },
+    /// None is divided.
+    Whole(Between),
     /// Those that cross the plane are divided.
     Parts {
         axis: usize,
@@ -155,35 +148,23 @@ struct Splitting {
     costs: Costs,
     bins: usize,
     least_overlap: f64,
-    /// The spare references of the root.
-    spare: usize,
 }
 
 impl Divide for Splitting {
     type References = References;
     type How = How;
-
-    fn root(&self, input: &Input<'_>) -> Result<References, Cancelled> {
-        let list = input.bounds.iter().zip(0..);
-        Ok(References {
-            list: list
-                .map(|(&bounds, object)| Reference { bounds, object })
-                .collect(),
-            spare: self.spare,
-        })
-    }
+    type Memory = Held;
 
     fn count(&self, references: &References) -> usize {
         references.list.len()
     }
 
     fn bounds(&self, _: &Input<'_>, references: &References) -> Aabb {
-        let list = references.list.iter();
-        list.fold(Aabb::EMPTY, |all, held| all.union(&held.bounds))
+        bounds_of(&references.list)
     }
 
-    fn objects(&self, references: References) -> Vec<u32> {
-        references.list.iter().map(|held| held.object).collect()
+    fn objects(&self, references: &References) -> impl Iterator<Item = u32> {
+        references.list.iter().map(|held| held.object)
     }
 
     fn cheapest(
@@ -191,10 +172,15 @@ impl Divide for Splitting {
         input: &Input<'_>,
         references: &mut References,
         bounds: &Aabb,
+        held: &mut Held,
     ) -> Option<Split<How>> {
-        let whole = self.cheapest_of_whole(&references.list);
+        let centers = centers_of(&references.list);
+        let whole = cheapest_between(&references.list, &centers, self.bins, &self.costs, held);
         let (limit, overlap) = match &whole {
-            Some((split, overlap)) => (split.cost, *overlap),
+            Some(between) => {
+                let [left, right] = &between.sides;
+                (between.cost, left.intersection(right).surface_area())
+            }
             // The references can be halved by number.
             None => {
                 let area = bounds.surface_area();
@@ -211,15 +197,20 @@ impl Divide for Splitting {
             // Halves with the same centers would not do better.
             references.spare = 0;
         }
-        parts.or(whole.map(|(split, _)| split))
+        parts.or(whole.map(|between| Split {
+            cost: between.cost,
+            how: How::Whole(between),
+        }))
     }
 
     fn divide(&self, input: &Input<'_>, references: References, how: How) -> [References; 2] {
         let References { list, spare } = references;
         let count = list.len();
         let [left, right] = match how {
-            How::Whole { bins, first_right } => {
-                let is_left = |held: &Reference| bins.of(held.center()[bins.axis]) < first_right;
+            How::Whole(Between {
+                bins, first_right, ..
+            }) => {
+                let is_left = |held: &Reference| bins.of_center(held) < first_right;
                 let (left, right) = list.into_iter().partition(is_left);
                 [left, right]
             }
@@ -240,18 +231,7 @@ impl Divide for Splitting {
             list: mut left,
             spare,
         } = references;
-        let axis = centers_of(&left).longest_axis().index();
-        let middle = left.len() / 2;
-        let corner = |held: &Reference| held.bounds.lo.to_array();
-        left.select_nth_unstable_by(middle, |a, b| {
-            let order = a.center()[axis].total_cmp(&b.center()[axis]);
-            let order = order.then_with(|| a.object.cmp(&b.object));
-            order.then_with(|| {
-                corner(a)
-                    .partial_cmp(&corner(b))
-                    .unwrap_or(std::cmp::Ordering::Equal)
-            })
-        });
+        let middle = halve(&mut left);
         let right = left.split_off(middle);
         share(spare, left, right)
     }
@@ -264,45 +244,7 @@ fn share(spare: usize, left: Vec<Reference>, right: Vec<Reference>) -> [Referenc
     [(left, of_left), (right, spare - of_left)].map(|(list, spare)| References { list, spare })
 }
 
-/// Returns the bounds of the centers of some references.
-fn centers_of(list: &[Reference]) -> Aabb {
-    Aabb::around(list.iter().map(Reference::center))
-}
-
 impl Splitting {
-    /// Returns the cheapest split between bins of centers, with the surface area of the overlap of both sides.
-    fn cheapest_of_whole(&self, list: &[Reference]) -> Option<(Split<How>, f64)> {
-        let centers = centers_of(list);
-        let mut best: Option<(f64, Bins, usize, Aabb)> = None;
-        let mut held = vec![(Aabb::EMPTY, 0_usize); self.bins];
-        for axis in 0..3 {
-            let Some(bins) = Bins::new(axis, [centers.lo[axis], centers.hi[axis]], self.bins)
-            else {
-                continue;
-            };
-            held.fill((Aabb::EMPTY, 0));
-            for reference in list {
-                let (bounds, count) = &mut held[bins.of(reference.center()[axis])];
-                *bounds = bounds.union(&reference.bounds);
-                *count += 1;
-            }
-            for (first_right, cost) in costs_between(&held, &self.costs) {
-                if best.is_none_or(|(least, ..)| cost < least) {
-                    let union = |held: &[(Aabb, usize)]| {
-                        held.iter()
-                            .fold(Aabb::EMPTY, |all, (more, _)| all.union(more))
-                    };
-                    let (left, right) = held.split_at(first_right);
-                    let overlap = union(left).intersection(&union(right));
-                    best = Some((cost, bins, first_right, overlap));
-                }
-            }
-        }
-        let (cost, bins, first_right, overlap) = best?;
-        let how = How::Whole { bins, first_right };
-        Some((Split { how, cost }, overlap.surface_area()))
-    }
-
     /// Returns the cheapest plane between bins of space that costs less than `limit` and that the spare
     /// references suffice for.
     fn cheapest_of_parts(
@@ -345,7 +287,7 @@ impl Splitting {
                     } else {
                         plane(bin + 1)
                     };
-                    if let Some(part) = reference.part(input, axis, from, to) {
+                    if let Some(part) = part_of(reference, input, axis, from, to) {
                         *all = all.union(&part);
                     }
                 }
@@ -401,8 +343,8 @@ fn divide_at(
             continue;
         }
         let parts = [
-            reference.part(input, axis, f64::NEG_INFINITY, plane),
-            reference.part(input, axis, plane, f64::INFINITY),
+            part_of(&reference, input, axis, f64::NEG_INFINITY, plane),
+            part_of(&reference, input, axis, plane, f64::INFINITY),
         ];
         let whole = match parts {
             [Some(_), Some(_)] => cheaper_whole(costs, &sides, &reference.bounds, spare > 0),

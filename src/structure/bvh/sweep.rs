@@ -47,8 +47,20 @@ impl BvhBuilder for Sweep {
             costs: self.costs,
             is_left: is_left.collect(),
         };
-        top_down::build(&sweeping, self.costs, input)
+        top_down::build(&sweeping, sorted(input)?, self.costs, input)
     }
+}
+
+/// Returns all objects in order of their centers along each axis, then of their number.
+fn sorted(input: &Input<'_>) -> Result<[Vec<u32>; 3], Cancelled> {
+    let mut orders = [(); 3].map(|()| (0..input.count()).collect::<Vec<u32>>());
+    for (axis, order) in orders.iter_mut().enumerate() {
+        let center = |object: u32| input.center(object)[axis];
+        order
+            .par_sort_unstable_by(|&a, &b| center(a).total_cmp(&center(b)).then_with(|| a.cmp(&b)));
+        input.progress.check()?;
+    }
+    Ok(orders)
 }
 
 struct Sweeping {
@@ -68,29 +80,20 @@ impl Divide for Sweeping {
     /// The objects in order of their centers along each axis, then of their number.
     type References = [Vec<u32>; 3];
     type How = Prefix;
-
-    fn root(&self, input: &Input<'_>) -> Result<[Vec<u32>; 3], Cancelled> {
-        let mut orders = [(); 3].map(|()| (0..input.count()).collect::<Vec<u32>>());
-        for (axis, order) in orders.iter_mut().enumerate() {
-            let center = |object: u32| input.center(object)[axis];
-            order.par_sort_unstable_by(|&a, &b| {
-                center(a).total_cmp(&center(b)).then_with(|| a.cmp(&b))
-            });
-            input.progress.check()?;
-        }
-        Ok(orders)
-    }
+    /// By index, the cost of the objects from there on.
+    type Memory = Vec<f64>;
 
     fn count(&self, orders: &[Vec<u32>; 3]) -> usize {
         orders[0].len()
     }
 
     fn bounds(&self, input: &Input<'_>, orders: &[Vec<u32>; 3]) -> Aabb {
-        bounds_of(input, &orders[0])
+        let bounds = orders[0].iter().map(|&o| &input.bounds[o as usize]);
+        bounds.fold(Aabb::EMPTY, |all, bounds| all.union(bounds))
     }
 
-    fn objects(&self, [order, ..]: [Vec<u32>; 3]) -> Vec<u32> {
-        order
+    fn objects(&self, [order, ..]: &[Vec<u32>; 3]) -> impl Iterator<Item = u32> {
+        order.iter().copied()
     }
 
     fn cheapest(
@@ -98,11 +101,11 @@ impl Divide for Sweeping {
         input: &Input<'_>,
         orders: &mut [Vec<u32>; 3],
         _: &Aabb,
+        rest: &mut Vec<f64>,
     ) -> Option<Split<Prefix>> {
         let count = orders[0].len();
         let mut best: Option<Split<Prefix>> = None;
-        // The cost of the objects from an index on.
-        let mut rest = vec![0.0; count];
+        rest.resize(count.max(rest.len()), 0.0);
         for (axis, order) in orders.iter().enumerate() {
             let ends = [order[0], order[count - 1]].map(|object| input.center(object)[axis]);
             if ends[0] == ends[1] {
@@ -164,10 +167,4 @@ impl Divide for Sweeping {
         let count = orders[0].len() / 2;
         self.divide(input, orders, Prefix { axis, count })
     }
-}
-
-/// Returns the bounds of some objects.
-pub fn bounds_of(input: &Input<'_>, objects: &[u32]) -> Aabb {
-    let bounds = objects.iter().map(|&o| &input.bounds[o as usize]);
-    bounds.fold(Aabb::EMPTY, |all, bounds| all.union(bounds))
 }

@@ -22,9 +22,8 @@ pub trait Divide: Sync {
     type References: Send;
     /// A way to divide them.
     type How;
-
-    /// Returns the references of the root.
-    fn root(&self, input: &Input<'_>) -> Result<Self::References, Cancelled>;
+    /// Memory that is reused for the next node.
+    type Memory: Default + Send;
 
     /// Returns the number of references, at least 1.
     fn count(&self, references: &Self::References) -> usize;
@@ -33,7 +32,7 @@ pub trait Divide: Sync {
     fn bounds(&self, input: &Input<'_>, references: &Self::References) -> Aabb;
 
     /// Returns the objects of all references.
-    fn objects(&self, references: Self::References) -> Vec<u32>;
+    fn objects(&self, references: &Self::References) -> impl Iterator<Item = u32>;
 
     /// Returns the cheapest division; `None` if the centers coincide.
     fn cheapest(
@@ -41,6 +40,7 @@ pub trait Divide: Sync {
         input: &Input<'_>,
         references: &mut Self::References,
         bounds: &Aabb,
+        memory: &mut Self::Memory,
     ) -> Option<Split<Self::How>>;
 
     /// Divides the references.
@@ -56,8 +56,11 @@ pub trait Divide: Sync {
     fn halve(&self, input: &Input<'_>, references: Self::References) -> [Self::References; 2];
 }
 
-/// Nodes with more references are built in tasks of their own.
+/// Subtrees of nodes with more references may be built at the same time.
 const TASK: usize = 1 << 12;
+
+/// Tasks per thread, about. More would balance better, but the results of all are copied.
+const TASKS_PER_THREAD: usize = 16;
 
 /// Nodes with more references always check for cancellation.
 const LARGE: usize = 1 << 8;
@@ -68,21 +71,32 @@ struct Driver<'a, D> {
     costs: Costs,
     /// References in finished leaves.
     done: AtomicU64,
-    all: f64,
+    all: usize,
+    /// Subtrees of nodes with more references are built at the same time.
+    task: usize,
 }
 
-/// Builds a hierarchy from the root downward.
-pub fn build<D: Divide>(divide: &D, costs: Costs, input: &Input<'_>) -> Result<Binary, Cancelled> {
-    let root = divide.root(input)?;
+/// Builds a hierarchy of references from the root downward.
+pub fn build<D: Divide>(
+    divide: &D,
+    root: D::References,
+    costs: Costs,
+    input: &Input<'_>,
+) -> Result<Binary, Cancelled> {
+    let (all, threads) = (divide.count(&root), rayon::current_num_threads());
     let driver = Driver {
         divide,
         input,
         costs,
         done: AtomicU64::new(0),
-        all: divide.count(&root) as f64,
+        all,
+        task: match threads {
+            1 => all,
+            _ => TASK.max(all / (TASKS_PER_THREAD * threads)),
+        },
     };
     let mut built = Binary::default();
-    driver.node(&mut built, root, 0)?;
+    driver.node(&mut built, root, 0, &mut D::Memory::default())?;
     Ok(built)
 }
 
@@ -93,37 +107,39 @@ impl<D: Divide> Driver<'_, D> {
         built: &mut Binary,
         mut references: D::References,
         depth: u32,
+        memory: &mut D::Memory,
     ) -> Result<u32, Cancelled> {
         let count = self.divide.count(&references);
         if count > LARGE || built.nodes.len().is_multiple_of(64) {
             self.input.progress.check()?;
         }
         let bounds = self.divide.bounds(self.input, &references);
-        let split = match self.decide(&mut references, &bounds, depth) {
+        let split = match self.decide(&mut references, &bounds, depth, memory) {
             Ok(split) => split,
             Err(stop) => {
                 let before = self.done.fetch_add(count as u64, Ordering::Relaxed);
-                self.input
-                    .progress
-                    .set((before as f64 + count as f64) / self.all);
-                return Ok(built.leaf(bounds, self.divide.objects(references), stop));
+                let done = (before + count as u64) as f64;
+                self.input.progress.set(done / self.all as f64);
+                return Ok(built.leaf(bounds, self.divide.objects(&references), stop));
             }
         };
         let [left, right] = match split {
             Some(how) => self.divide.divide(self.input, references, how),
             None => self.divide.halve(self.input, references),
         };
-        let children = if count > TASK && rayon::current_num_threads() > 1 {
-            let separately = |references| {
-                let mut part = Binary::default();
-                self.node(&mut part, references, depth + 1).map(|_| part)
+        let children = if count > self.task {
+            let separately = || {
+                let (mut part, mut memory) = (Binary::default(), D::Memory::default());
+                let root = self.node(&mut part, right, depth + 1, &mut memory);
+                root.map(|_| part)
             };
-            let (left, right) = rayon::join(|| separately(left), || separately(right));
-            [built.append(left?), built.append(right?)]
+            let here = || self.node(built, left, depth + 1, memory);
+            let (left, right) = rayon::join(here, separately);
+            [left?, built.append(right?)]
         } else {
             [
-                self.node(built, left, depth + 1)?,
-                self.node(built, right, depth + 1)?,
+                self.node(built, left, depth + 1, memory)?,
+                self.node(built, right, depth + 1, memory)?,
             ]
         };
         Ok(built.inner(children))
@@ -135,6 +151,7 @@ impl<D: Divide> Driver<'_, D> {
         references: &mut D::References,
         bounds: &Aabb,
         depth: u32,
+        memory: &mut D::Memory,
     ) -> Result<Option<D::How>, StopReason> {
         let count = self.divide.count(references);
         let Costs {
@@ -155,7 +172,7 @@ impl<D: Divide> Driver<'_, D> {
         if levels < 64 && count as u128 > (max_leaf as u128) << levels {
             return Ok(None);
         }
-        let split = self.divide.cheapest(self.input, references, bounds);
+        let split = self.divide.cheapest(self.input, references, bounds, memory);
         let leaf_may_do = count <= max_leaf;
         match split {
             None if leaf_may_do => Err(StopReason::CentersCoincide),
