@@ -4,7 +4,7 @@
 
 use bspscope::measure::model::observe;
 use bspscope::measure::paper::SCENES;
-use bspscope::measure::study::structures;
+use bspscope::measure::structures;
 use bspscope::measure::tune::{Goal, Search, Tuning};
 use bspscope::progress::Progress;
 use bspscope::scene::{Scene, SceneRequest, load};
@@ -84,8 +84,8 @@ fn row(name: &str, options: &Options) -> Result<(), Box<dyn Error>> {
         "{:<12} {:>5.1} %   {:<27} {:<27} {:>5}   {}",
         scene.name(),
         regret * 100.0,
-        words(&recommended),
-        words(best),
+        recommended.in_words(),
+        best.in_words(),
         all.len(),
         if regret <= GOAL { "within" } else { "BEYOND" }
     );
@@ -111,15 +111,4 @@ fn search(
     while tuning.turn(progress)?.is_some() {}
     let tuned = tuning.into_result();
     Ok(tuned.recommended().1.setup.build.clone())
-}
-
-fn words(build: &BuildSettings) -> String {
-    let mut words = build.method.name.to_owned();
-    if build.method.has_limits {
-        words += &format!(" {} {}", build.d_max, build.n_oilf);
-    }
-    for (name, value) in &build.constants {
-        words += &format!(" {name}={value}");
-    }
-    words
 }

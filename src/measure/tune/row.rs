@@ -1,9 +1,9 @@
 //! What is measured of one candidate.
 
-use super::phase::Phase;
 use super::ranking::{Score, Spread};
 use crate::measure::Measurement;
 use crate::setup::Setup;
+use crate::structure::MaxDepth;
 use crate::structure::split::Structure;
 use crate::trace::TimedRender;
 
@@ -13,8 +13,8 @@ pub struct Row {
     /// What was asked for, with the structure of this candidate. The size of the picture is the
     /// user's.
     pub setup: Setup,
-    /// The phase in which it was first timed.
-    pub phase: Phase,
+    /// The last rung in which it was timed, from 0.
+    pub rung: usize,
     /// All counts of the small picture, the tree, its build time, and as rendering time the median.
     pub measurement: Measurement,
     /// The rendering of every round, by ascending CPU time; at least one.
@@ -23,24 +23,20 @@ pub struct Row {
 
 impl Row {
     /// Creates the row of a candidate after it was counted and timed once.
-    pub(super) fn new(
-        setup: Setup,
-        phase: Phase,
-        measurement: Measurement,
-        time: TimedRender,
-    ) -> Row {
+    pub(super) fn new(setup: Setup, measurement: Measurement, time: TimedRender) -> Row {
         let mut row = Row {
             setup,
-            phase,
+            rung: 0,
             measurement,
             times: Vec::new(),
         };
-        row.add(time);
+        row.add(0, time);
         row
     }
 
     /// Adds the time of another round.
-    pub(super) fn add(&mut self, time: TimedRender) {
+    pub(super) fn add(&mut self, rung: usize, time: TimedRender) {
+        self.rung = rung;
         let place = self.times.partition_point(|t| t.cpu < time.cpu);
         self.times.insert(place, time);
         self.measurement.rendering = Some(self.times[(self.times.len() - 1) / 2]);
@@ -77,7 +73,14 @@ impl Row {
         Score {
             seconds: rays.map_or_else(|| self.spread(), |rays| self.spread_with_build(rays)),
             bytes: self.bytes(),
+            rung: self.rung,
         }
+    }
+
+    /// Returns whether it has the default settings of its method.
+    pub fn is_default(&self) -> bool {
+        let build = &self.setup.build;
+        build.constants.is_empty() && build.d_max == MaxDepth::Automatic && build.n_oilf == 1
     }
 
     /// Returns the intersection tests per ray, over rays of all kinds.

@@ -1,19 +1,31 @@
 //! What a search recommends, in words.
 
 use crate::gui::document::tuning::Found;
-use crate::measure::tune::{Goal, Phase, Row};
+use crate::measure::tune::{Goal, Row};
 use crate::present::number::{Digits, counted};
+use crate::structure::split::Structure;
 
-/// Returns the settings of a candidate, such as "sah, depth 18, leaf size 4".
+/// Returns a candidate, such as "sah, depth 18, leaf size 4" and "bvh-sweep, width 8".
 pub fn name(row: &Row) -> String {
-    let build = &row.setup.build;
-    if build.method.has_limits {
-        let depth = row.measurement.depth_limit;
-        let size = build.n_oilf;
-        format!("{}, depth {depth}, leaf size {size}", build.method.name)
-    } else {
-        build.method.name.to_owned()
+    let method = row.setup.build.method.name;
+    match settings(row).as_str() {
+        "" => method.to_owned(),
+        settings => format!("{method}, {settings}"),
     }
+}
+
+/// Returns the settings of a candidate: depth and leaf size where they limit cells, and constants that are not at
+/// their defaults.
+pub fn settings(row: &Row) -> String {
+    let build = &row.setup.build;
+    let mut words = Vec::new();
+    if build.method.has_limits && build.method.structure != Structure::Bvh {
+        let depth = row.measurement.depth_limit;
+        words.push(format!("depth {depth}, leaf size {}", build.n_oilf));
+    }
+    let constants = build.constants.iter();
+    words.extend(constants.map(|(name, value)| format!("{name} {value}")));
+    words.join(", ")
 }
 
 /// Compares the candidate that is recommended with the method on view when the search began, or with
@@ -43,7 +55,7 @@ fn other<'a>(found: &'a Found, best: &Row) -> Option<&'a Row> {
 /// The method alone where that tells the candidate from the other one.
 fn short_name(row: &Row, other: &Row) -> String {
     let method = row.setup.build.method;
-    if row.phase == Phase::Methods && method != other.setup.build.method {
+    if row.is_default() && method != other.setup.build.method {
         method.name.to_owned()
     } else {
         name(row)

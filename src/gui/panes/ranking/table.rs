@@ -13,24 +13,24 @@ use egui::{Align, Layout, Rect, Sense, Stroke, pos2, vec2};
 use egui_extras::{Column, TableBuilder};
 
 /// The least width of the bars in points.
-const BAR: f32 = 90.0;
+const BAR: f32 = 70.0;
 
 /// The bars reach up to this multiple of the least time.
 const MOST_TIMES: f64 = 4.0;
 
 /// Titles, widths in points and meanings of the columns; the bar takes what is left.
-const COLUMNS: [(&str, f32, &str); 11] = [
+const COLUMNS: [(&str, f32, &str); 10] = [
     (
         "#",
         34.0,
         "Rank; an equals sign marks candidates that share it",
     ),
-    ("method", 128.0, "Build method"),
-    ("depth", 48.0, "Greatest depth of a leaf, D_MAX"),
+    ("method", 110.0, "Build method"),
     (
-        "leaf size",
-        64.0,
-        "Most objects of a cell that is not split, N_OILF",
+        "settings",
+        184.0,
+        "Of kd-trees and octrees, the greatest depth of a leaf (D_MAX) and the most objects of a cell that is not \
+         split (N_OILF); of others, what differs from the defaults of the method",
     ),
     ("time", 66.0, "Median CPU time of the picture, T_TR"),
     (
@@ -60,7 +60,7 @@ const TALL_ROW: f32 = 36.0;
 const TALL: f32 = 900.0;
 
 /// The place of the bar among the columns.
-const PLACE_OF_BAR: usize = 5;
+const PLACE_OF_BAR: usize = 4;
 
 pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits) {
     let ranking = found.ranking();
@@ -133,7 +133,7 @@ fn scale(found: &Found) -> f64 {
 
 /// How a column is aligned: numbers, so that digits of the same place stand below each other.
 fn alignment(place: usize) -> Layout {
-    let is_number = (2..PLACE_OF_BAR).contains(&place) || (PLACE_OF_BAR + 1..10).contains(&place);
+    let is_number = place == PLACE_OF_BAR - 1 || (PLACE_OF_BAR + 1..9).contains(&place);
     if is_number {
         Layout::right_to_left(Align::Center)
     } else {
@@ -142,19 +142,16 @@ fn alignment(place: usize) -> Layout {
 }
 
 /// The texts of a row; none in the place of the bar.
-fn cells(rank: &Rank, row: &Row) -> [String; 10] {
-    let build = &row.setup.build;
-    let [depth, leaf_size] = if build.method.has_limits {
-        [row.measurement.depth_limit, build.n_oilf].map(|limit| limit.to_string())
-    } else {
-        [NO_VALUE, NO_VALUE].map(str::to_owned)
+fn cells(rank: &Rank, row: &Row) -> [String; 9] {
+    let settings = match sentence::settings(row) {
+        none if none.is_empty() => "defaults".to_owned(),
+        settings => settings,
     };
     let tests = row.tests_per_ray();
     [
         format!("{}{}", rank.rank, if rank.is_tied { "=" } else { "" }),
-        build.method.name.to_owned(),
-        depth,
-        leaf_size,
+        row.setup.build.method.name.to_owned(),
+        settings,
         sentence::time(row),
         String::new(),
         tests.map_or(NO_VALUE.to_owned(), |tests| Digits::Four.number(tests)),

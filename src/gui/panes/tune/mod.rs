@@ -20,7 +20,7 @@ pub struct TunePane;
 impl Pane for TunePane {
     const ID: &'static str = "tune";
     const TITLE: &'static str = "Best tree";
-    const ABOUT: &'static str = "Finds the method, depth and leaf size that suit this scene best.";
+    const ABOUT: &'static str = "Finds the method and the settings that suit this scene best.";
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "tune.find" Here NONE [Enter] "Find the best tree; Esc stops it" => |_, cx| cx.edits.add(Document::tune);
     };
@@ -114,7 +114,8 @@ fn method(ui: &mut egui::Ui, method: Method, fits: bool, doc: &Document, edits: 
 
 fn budget(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
     ui.horizontal(|ui| {
-        let about = "Time for the measurements. Every method is measured at least once.";
+        let about =
+            "Time for the measurements. Every method is measured at least once with its defaults.";
         ui.label("Time limit").on_hover_text(about);
         let mut budget = doc.tuning.budget;
         let edit = egui::DragValue::new(&mut budget)
@@ -137,8 +138,8 @@ fn start(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
     let button = egui::Button::new(text)
         .fill(t.accent)
         .min_size(vec2(0.0, 36.0));
-    let about = "Measure the chosen methods on a small version of your picture, then depths and leaf \
-                 sizes of the best two.";
+    let about = "Measure the chosen methods with many settings on a small version of your picture, the better \
+                 ones more and more often.";
     if ui
         .vertical_centered_justified(|ui| ui.add_enabled(doc.may_tune(), button))
         .inner
