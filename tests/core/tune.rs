@@ -119,6 +119,8 @@ fn all_settings_of_all_methods_are_tried_and_few_are_left() {
             row.setup.build
         );
         assert!(row.seconds().is_sorted() && row.seconds()[0] > 0.0);
+        let is_counted = row.tests_per_ray().is_some();
+        assert_eq!(is_counted, row.rung > 0 || row.is_default());
         let is_same = |other: &Row| {
             other.setup.build.method == row.setup.build.method
                 && other.measurement.tree == row.measurement.tree

@@ -2,7 +2,7 @@
 
 use crate::measure::variations;
 use crate::setup::Setup;
-use crate::structure::{BuildSettings, Method};
+use crate::structure::{BuildSettings, MaxDepth, Method};
 
 /// Most objects for which `none`, which tests every object, is a candidate. In larger scenes it is
 /// never the best and would take most of the time.
@@ -29,10 +29,15 @@ pub(super) fn candidates(setup: &Setup, method: Method, objects: usize) -> Vec<S
     variations(method, objects).into_iter().map(with).collect()
 }
 
+/// Returns whether settings are those with which the search begins with their method.
+pub(super) fn is_default(build: &BuildSettings) -> bool {
+    build.constants.is_empty() && build.d_max == MaxDepth::Automatic && build.n_oilf == 1
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::structure::{MaxDepth, OverlapRule, RootMargin};
+    use crate::structure::{OverlapRule, RootMargin};
 
     #[test]
     fn candidates_keep_what_applies_to_every_method() {
@@ -44,8 +49,8 @@ mod tests {
         for method in Method::all() {
             let all = candidates(&setup, method, 10);
             let first = &all[0].build;
-            assert!(first.constants.is_empty(), "{first:?}");
-            assert_eq!((first.d_max, first.n_oilf), (MaxDepth::Automatic, 1));
+            assert!(is_default(first), "{first:?}");
+            assert!(!all[1..].iter().any(|other| is_default(&other.build)));
             for candidate in all {
                 assert_eq!(candidate.build.method, method);
                 assert_eq!(

@@ -6,14 +6,14 @@
 //!
 //! 1. Every method is timed once with its defaults, then every method with its other settings
 //!    ([`variations`](super::variations)): depths and leaf sizes, widths and leaves of hierarchies, densities of grids.
-//!    Those of the method that was fastest come first. When half of the budget is spent, no more are tried.
+//!    Those of the method that was fastest come first. When two thirds of the budget are spent, no more are tried.
 //! 2. The better half is timed once more, the better half of these twice more, and so on, until one or two are left or
 //!    the budget is spent. A candidate that cannot be told apart from the best stays.
 //!
 //! Every round times every candidate that is left once, so that a machine that slows down or warms up affects all
-//! candidates alike. A candidate is built and counted in its first turn. All candidates share the scene, the camera,
-//! the kernel, the threads and all other settings. A time is `T_TR`, the CPU time of a picture with one sample per
-//! pixel; an untimed picture before it brings the tree into the caches.
+//! candidates alike. All candidates share the scene, the camera, the kernel, the threads and all other settings. A time
+//! is `T_TR`, the CPU time of a picture with one sample per pixel; an untimed picture before it brings the tree into the
+//! caches. Only the defaults of methods and what is timed more than once are counted.
 //!
 //! If the number of rays is known that will be traced, candidates are ranked by the time of building once and
 //! tracing these rays. Trees that need more memory than allowed are left out before they are timed.

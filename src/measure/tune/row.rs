@@ -1,9 +1,9 @@
 //! What is measured of one candidate.
 
+use super::candidates::is_default;
 use super::ranking::{Score, Spread};
 use crate::measure::Measurement;
 use crate::setup::Setup;
-use crate::structure::MaxDepth;
 use crate::structure::split::Structure;
 use crate::trace::TimedRender;
 
@@ -15,7 +15,8 @@ pub struct Row {
     pub setup: Setup,
     /// The last rung in which it was timed, from 0.
     pub rung: usize,
-    /// All counts of the small picture, the tree, its build time, and as rendering time the median.
+    /// The tree, its build time, as rendering time the median, and all counts of the small picture. A candidate that was
+    /// timed only once is not counted, except for the defaults of a method.
     pub measurement: Measurement,
     /// The rendering of every round, by ascending CPU time; at least one.
     times: Vec<TimedRender>,
@@ -79,11 +80,10 @@ impl Row {
 
     /// Returns whether it has the default settings of its method.
     pub fn is_default(&self) -> bool {
-        let build = &self.setup.build;
-        build.constants.is_empty() && build.d_max == MaxDepth::Automatic && build.n_oilf == 1
+        is_default(&self.setup.build)
     }
 
-    /// Returns the intersection tests per ray, over rays of all kinds.
+    /// Returns the intersection tests per ray, over rays of all kinds; `None` if it was not counted.
     pub fn tests_per_ray(&self) -> Option<f64> {
         let tally = self.measurement.all_rays()?;
         (tally.rays > 0).then(|| tally.tests as f64 / tally.rays as f64)

@@ -22,8 +22,8 @@ pub struct Search {
     /// The methods that are measured, as far as the scene is not too large for them.
     pub methods: Vec<Method>,
     /// Time for the measurements. When it is spent, no further turn begins, except that every method
-    /// is timed at least once with its defaults. Half of it is for trying settings, and half for timing the better
-    /// ones again.
+    /// is timed at least once with its defaults. Two thirds of it are for trying settings, and the rest for timing the
+    /// better ones again.
     pub budget: Duration,
 }
 
@@ -38,7 +38,7 @@ pub enum LeftOut {
     Memory { setup: Setup, bytes: u64 },
     /// Settings with which a method builds the same tree as with others that are measured.
     SameTree { setup: Setup },
-    /// Half of the budget was spent before so many settings were tried.
+    /// The time for trying settings was spent before so many were tried.
     Untried { settings: usize },
     /// The budget was spent when so many candidates were left, each of which was timed at least this often.
     Unfinished { candidates: usize, rounds: usize },

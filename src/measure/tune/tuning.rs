@@ -1,6 +1,6 @@
 //! The search for the best tree, turn by turn.
 
-use super::candidates::{candidates, is_tried};
+use super::candidates::{candidates, is_default, is_tried};
 use super::halving::{self, RUNGS, half, rounds_after, rounds_in, survivors};
 use super::ranking::{Score, best};
 use super::row::Row;
@@ -22,7 +22,11 @@ const WIDTH: u32 = 128;
 const MOST_KEPT: usize = 1 << 30;
 
 /// The part of the budget in which settings are tried.
-const FOR_TRYING: f64 = 0.5;
+const FOR_TRYING: f64 = 2.0 / 3.0;
+
+/// In the first rung, the untimed picture is as many times narrower and lower than the timed one: there are many
+/// candidates, and their times need not be exact.
+const SMALLER: u32 = 4;
 
 /// What a turn will do.
 pub struct Upcoming<'a> {
@@ -48,7 +52,7 @@ pub enum Turn {
 }
 
 /// A search that runs turn by turn. A turn times one candidate once; in its first, the candidate is
-/// also built and counted. A cancelled turn can be run again, and continues after what was complete.
+/// also built. The defaults of a method are counted in their first turn, others in their second. A cancelled turn can be run again, and continues after what was complete.
 pub struct Tuning<'a> {
     scene: &'a Scene,
     search: Search,
@@ -76,7 +80,7 @@ struct Candidate {
     /// Index of its row, once it was timed.
     row: Option<usize>,
     tree: Option<Tree>,
-    /// With counts, once they are known.
+    /// With counts, once it was counted.
     known: Option<Measurement>,
 }
 
@@ -338,13 +342,26 @@ impl<'a> Tuning<'a> {
         let (Some(tree), Some(known)) = (&candidate.tree, &mut candidate.known) else {
             unreachable!("both were made above");
         };
-        if known.counted.is_none() {
+        // Most candidates are dropped after their first time. Counting takes longer than that.
+        let is_counted = self.rung > 0 || is_default(&candidate.setup.build);
+        if is_counted && known.counted.is_none() {
             let part = progress.part(0.4, 0.8);
             let counted = render_counted(scene, tree, render, pool, &part, |_| ())?;
+            if let Some(place) = candidate.row {
+                self.rows[place].measurement.counted = Some(counted);
+            }
             known.counted = Some(counted);
         }
+        let warming = match self.rung {
+            0 => RenderSettings {
+                width: (render.width / SMALLER).max(1),
+                height: (render.height / SMALLER).max(1),
+                ..*render
+            },
+            _ => *render,
+        };
         let untimed = progress.part(0.8, 0.9);
-        render_timed(scene, tree, render, 0, pool, &untimed, |_, _| ())?;
+        render_timed(scene, tree, &warming, 0, pool, &untimed, |_, _| ())?;
         let timed = progress.part(0.9, 1.0);
         let time = render_timed(scene, tree, render, 0, pool, &timed, |_, _| ())?;
         let place = match candidate.row {

@@ -151,7 +151,7 @@ pub fn left_out(tuned: &Tuned) -> Vec<String> {
             LeftOut::Untried { settings } => {
                 let verb = if *settings == 1 { "was" } else { "were" };
                 lines.push(format!(
-                    "{} of settings {verb} not tried: half of the {budget} was spent.",
+                    "{} of settings {verb} not tried: their part of the {budget} was spent.",
                     counted(*settings, "combination")
                 ));
             }
