@@ -3,6 +3,7 @@
 use crate::gui::document::tuning::Found;
 use crate::measure::tune::{Goal, Row};
 use crate::present::number::{Digits, counted};
+use crate::present::report::tune::rays_in_words;
 use crate::structure::split::Structure;
 
 /// Returns a candidate, such as "sah, depth 18, leaf size 4" and "bvh-sweep, width 8".
@@ -36,7 +37,7 @@ pub fn recommendation(found: &Found, best: &Row) -> String {
         return name;
     };
     let comparison = match found.search.goal {
-        Goal::Time => faster(best, other),
+        Goal::Time => faster(found, best, other),
         Goal::Memory => smaller(best, other),
     };
     format!("{name}: {comparison}")
@@ -63,8 +64,8 @@ fn short_name(row: &Row, other: &Row) -> String {
 }
 
 /// Times as a ratio, with its range over all rounds.
-fn faster(best: &Row, other: &Row) -> String {
-    let (a, b) = (best.spread(), other.spread());
+fn faster(found: &Found, best: &Row, other: &Row) -> String {
+    let [a, b] = [best, other].map(|row| found.time(row));
     let than = short_name(other, best);
     if b.least <= a.most {
         return format!("as fast as {than} within the spread");
@@ -103,24 +104,28 @@ fn times(ratio: f64) -> String {
 pub fn conditions(found: &Found) -> String {
     let m = &found.rows[0].measurement;
     format!(
-        "{} · {} × {} pixels · {} · {} · {} · median CPU times; ranges that overlap share a rank",
+        "{} · {} × {} pixels · {} · {} · {} · median CPU times{}; ranges that overlap share a rank",
         found.scene,
         m.render.width,
         m.render.height,
         m.render.kernel.description(),
         m.precision.precision.name(),
         counted(m.building.threads, "thread"),
+        match found.search.rays {
+            Some(rays) => format!(" of building and {}", rays_in_words(rays)),
+            None => String::new(),
+        },
     )
 }
 
-/// Returns a time with its range.
-pub fn time(row: &Row) -> String {
-    Digits::Three.seconds(row.spread().median)
+/// Returns the median of the times by which a candidate is ranked.
+pub fn time(found: &Found, row: &Row) -> String {
+    Digits::Three.seconds(found.time(row).median)
 }
 
 /// Returns the least and the greatest time.
-pub fn range(row: &Row) -> String {
-    let spread = row.spread();
+pub fn range(found: &Found, row: &Row) -> String {
+    let spread = found.time(row);
     let [least, most] = [spread.least, spread.most].map(|s| Digits::Three.seconds(s));
     format!("{least} to {most} in {}", counted(row.rounds(), "round"))
 }

@@ -32,7 +32,11 @@ const COLUMNS: [(&str, f32, &str); 10] = [
         "Of kd-trees and octrees, the greatest depth of a leaf (D_MAX) and the most objects of a cell that is not \
          split (N_OILF); of others, what differs from the defaults of the method",
     ),
-    ("time", 66.0, "Median CPU time of the picture, T_TR"),
+    (
+        "time",
+        66.0,
+        "Median CPU time of the picture (T_TR), or of building once and tracing the rays that were asked for",
+    ),
     (
         "",
         BAR,
@@ -41,7 +45,7 @@ const COLUMNS: [(&str, f32, &str); 10] = [
     (
         "tests per ray",
         88.0,
-        "Intersection tests per ray, over rays of all kinds",
+        "Intersection tests per ray, over rays of all kinds; a dash for candidates that were timed only once",
     ),
     ("nodes", 74.0, "Nodes of the tree; of a grid, its voxels"),
     ("build time", 74.0, "CPU time of the build, T_CB"),
@@ -103,10 +107,10 @@ pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits)
                     let rank = &ranking[table_row.index()];
                     let row = &found.rows[rank.place];
                     table_row.set_selected(doc.uses(&row.setup));
-                    for (place, text) in cells(rank, row).into_iter().enumerate() {
+                    for (place, text) in cells(found, rank, row).into_iter().enumerate() {
                         table_row.col(|ui| {
                             if place == PLACE_OF_BAR {
-                                bar(ui, row, most);
+                                bar(ui, found, row, most);
                             } else {
                                 ui.with_layout(alignment(place), |ui| {
                                     ui.add(egui::Label::new(text).selectable(false));
@@ -123,7 +127,7 @@ pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits)
 /// The time that fills the width of the bars. The slowest candidates can be much slower than all that
 /// matter: their bars are cut.
 fn scale(found: &Found) -> f64 {
-    let times = || found.rows.iter().map(Row::spread);
+    let times = || found.rows.iter().map(|row| found.time(row));
     let greatest = times().map(|time| time.most).fold(0.0, f64::max);
     let best = times()
         .map(|time| time.median)
@@ -142,7 +146,7 @@ fn alignment(place: usize) -> Layout {
 }
 
 /// The texts of a row; none in the place of the bar.
-fn cells(rank: &Rank, row: &Row) -> [String; 9] {
+fn cells(found: &Found, rank: &Rank, row: &Row) -> [String; 9] {
     let settings = match sentence::settings(row) {
         none if none.is_empty() => "defaults".to_owned(),
         settings => settings,
@@ -152,7 +156,7 @@ fn cells(rank: &Rank, row: &Row) -> [String; 9] {
         format!("{}{}", rank.rank, if rank.is_tied { "=" } else { "" }),
         row.setup.build.method.name.to_owned(),
         settings,
-        sentence::time(row),
+        sentence::time(found, row),
         String::new(),
         tests.map_or(NO_VALUE.to_owned(), |tests| Digits::Four.number(tests)),
         grouped(row.nodes() as f64),
@@ -162,17 +166,17 @@ fn cells(rank: &Rank, row: &Row) -> [String; 9] {
 }
 
 /// The median time, with a line over all rounds.
-fn bar(ui: &mut egui::Ui, row: &Row, most: f64) {
+fn bar(ui: &mut egui::Ui, found: &Found, row: &Row, most: f64) {
     let (rect, response) =
         ui.allocate_exact_size(vec2(ui.available_width(), ROW - 8.0), Sense::hover());
-    let range = sentence::range(row);
+    let range = sentence::range(found, row);
     let name = format!("Time of {}: {range}", sentence::name(row));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
     let t = tokens(ui);
     let x =
         |seconds: f64| rect.left() + (seconds / most.max(f64::MIN_POSITIVE)) as f32 * rect.width();
     let painter = ui.painter().with_clip_rect(rect);
-    let spread = row.spread();
+    let spread = found.time(row);
     let bar = Rect::from_min_max(rect.min, pos2(x(spread.median), rect.bottom()));
     painter.rect_filled(
         bar.shrink2(vec2(0.0, 4.0)),
