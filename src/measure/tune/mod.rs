@@ -6,7 +6,8 @@
 //!
 //! 1. Every method is timed once with its defaults, then every method with its other settings
 //!    ([`variations`](super::variations)): depths and leaf sizes, widths and leaves of hierarchies, densities of grids.
-//!    Those of the method that was fastest come first. When two thirds of the budget are spent, no more are tried.
+//!    The methods take turns, beginning with the one that was fastest. When two thirds of the budget are spent, no more
+//!    are tried.
 //! 2. The better half is timed once more, the better half of these twice more, and so on, until one or two are left or
 //!    the budget is spent. A candidate that cannot be told apart from the best stays.
 //!

@@ -252,7 +252,8 @@ impl<'a> Tuning<'a> {
         }
     }
 
-    /// Adds the other settings of all methods, those of the best method first.
+    /// Adds the other settings of all methods: the next one of each method, beginning with the best, and so on. What
+    /// suits one method often suits another, so all get their turn before the time is spent.
     fn vary(&mut self) {
         let order = best(&self.scores(), self.search.goal);
         let place = |variations: &Vec<Setup>| {
@@ -262,8 +263,12 @@ impl<'a> Tuning<'a> {
         };
         let mut all = std::mem::take(&mut self.variations);
         all.sort_by_key(|variations| place(variations).unwrap_or(usize::MAX));
-        let all = all.into_iter().flatten();
-        self.candidates.extend(all.map(Candidate::new));
+        let longest = all.iter().map(Vec::len).max().unwrap_or(0);
+        let mut all: Vec<_> = all.into_iter().map(Vec::into_iter).collect();
+        for _ in 0..longest {
+            let next = all.iter_mut().filter_map(Iterator::next);
+            self.candidates.extend(next.map(Candidate::new));
+        }
     }
 
     /// Drops the worse half of the candidates, and begins the next rung.
