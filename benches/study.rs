@@ -2,7 +2,8 @@
 //! `bspscope study measures -o docs/which-measure.md --figures docs/which-measure` does the same and writes the
 //! document. Times depend on the machine; run it on one that rests.
 
-use bspscope::measure::study::{KERNELS, Observing, Outcome, Plan, SCENES, structures};
+use bspscope::measure::structures;
+use bspscope::measure::study::{KERNELS, Observing, Outcome, Plan, SCENES};
 use bspscope::present::report::study::{STUDY_WRITERS, StudyReport};
 use bspscope::present::report::{Machine, now};
 use bspscope::progress::Progress;

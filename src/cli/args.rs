@@ -223,11 +223,11 @@ pub struct SweepArgs {
 
 /// Find the best tree for a scene
 ///
-/// Measures all build methods with automatic depth on a picture 128 pixels wide, with the shape of
-/// the given one; method none only in scenes of at most 5000 objects. Then measures the best two
-/// methods with depths up to 4 above and below the automatic one, in steps of 2, and leaf sizes 1, 2,
-/// 4 and 8. Every candidate is timed once per round, in 3 rounds. Candidates whose ranges of times
-/// overlap share a rank. At the end, prints the recommended settings as a command.
+/// Measures all build methods with their defaults on a picture 128 pixels wide, with the shape of the given one;
+/// method none only in scenes of at most 5000 objects. Then measures them with other depths, leaf sizes, widths and
+/// densities, more than 200 candidates in all. The better half is timed again, the better half of these twice more,
+/// and so on, until one or two are left or the time is spent. Candidates whose ranges of times overlap share a rank.
+/// At the end, prints the recommended settings as a command.
 #[derive(Debug, Args)]
 #[command(after_help = help("bspscope tune balls\n\
     bspscope tune model.obj --kernel stream --resolution 1920x1080\n\
@@ -244,7 +244,7 @@ pub struct TuneArgs {
     /// Leave out trees that need more memory than this many MiB (M_TREE)
     #[arg(long, value_name = "MIB", value_parser = mebibytes)]
     pub max_memory: Option<u64>,
-    /// Time for the measurements in seconds. Every method is measured at least once; what was left
+    /// Time for the measurements in seconds. Every method is measured at least once with its defaults; what was left
     /// out is listed
     #[arg(long, value_name = "SECONDS", value_parser = seconds, default_value = "60", allow_negative_numbers = true)]
     pub budget: Duration,

@@ -3,15 +3,14 @@
 use super::context::{Context, JobError};
 use super::job::Job;
 use super::slot::{Priority, Slot};
-use crate::measure::tune::{LeftOut, Phase, ROUNDS, Row, Search, Tuned, Tuning, Turn, Upcoming};
+use crate::measure::tune::{LeftOut, Row, Search, Tuned, Tuning, Turn, Upcoming, rounds_after};
 use crate::scene::Scene;
-use crate::setup::Setup;
 use std::sync::Arc;
 
 /// Parts into which the bar of the search is divided.
 const PARTS: usize = 1000;
 
-/// Measures all build methods, and depth and leaf size of the best two.
+/// Measures all build methods with many settings, and the better ones more often.
 pub struct FindBestTree {
     /// As the setup of `search` describes it.
     pub scene: Arc<Scene>,
@@ -73,17 +72,19 @@ fn nothing_left(tuned: &Tuned) -> String {
     }
 }
 
+/// Describes the next turn.
 fn stage(upcoming: &Upcoming<'_>) -> String {
-    let Setup { build, .. } = upcoming.candidate;
-    let round = upcoming.round + 1;
-    match upcoming.phase {
-        Phase::Methods => format!(
-            "all methods, round {round} of {ROUNDS}: {}",
-            build.method.name
-        ),
-        Phase::Refinement => format!(
-            "depth and leaf size, round {round} of {ROUNDS}: {}, depth {}, leaf size {}",
-            build.method.name, build.d_max, build.n_oilf
-        ),
-    }
+    let Upcoming {
+        rung,
+        rounds,
+        candidates,
+        candidate,
+        ..
+    } = upcoming;
+    let of = rounds_after(*rung);
+    format!(
+        "{candidates} candidates, round {} of {of}: {}",
+        rounds + 1,
+        candidate.build.in_words()
+    )
 }

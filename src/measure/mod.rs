@@ -16,6 +16,7 @@ pub mod paper;
 mod processor;
 mod random;
 pub mod stability;
+mod structures;
 pub mod study;
 pub mod sweep;
 pub mod tune;
@@ -29,6 +30,7 @@ pub use counter::{
 pub use facts::{SceneFacts, TreeFacts};
 pub use measurement::{MeasureError, Measured, Measurement, Times, measure, measure_pixels};
 pub use processor::processor;
+pub use structures::{structures, variations};
 pub use verify::{
     Answers, RaySample, Verification, answer, ask, compare, sample_rays, unsplit, verify_sample,
 };

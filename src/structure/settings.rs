@@ -376,6 +376,18 @@ impl BuildSettings {
         })
     }
 
+    /// Names the method with the limits of its cells and the constants that are set, such as
+    /// `sah, D_MAX 16, N_OILF 4` and `bvh-sweep, width 8`.
+    pub fn in_words(&self) -> String {
+        let mut words = vec![self.method.name.to_owned()];
+        if self.method.structure != Structure::Bvh && self.method.has_limits {
+            words.push(format!("D_MAX {}, N_OILF {}", self.d_max, self.n_oilf));
+        }
+        let constants = self.constants.iter();
+        words.extend(constants.map(|(name, value)| format!("{name} {value}")));
+        words.join(", ")
+    }
+
     /// Checks ranges and names.
     ///
     /// # Errors

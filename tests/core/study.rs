@@ -2,9 +2,9 @@
 
 use crate::support::scenes::scene;
 use bspscope::measure::study::{
-    KERNELS, Observation, Observing, Plan, Predictor, RayOrigin, RaySet, SCENES, judge, structures,
+    KERNELS, Observation, Observing, Plan, Predictor, RayOrigin, RaySet, SCENES, judge,
 };
-use bspscope::measure::{Measurement, parameter};
+use bspscope::measure::{Measurement, parameter, structures};
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
 use bspscope::structure::Method;

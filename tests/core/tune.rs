@@ -3,13 +3,13 @@
 use crate::support::scenes::scene;
 use bspscope::jobs::{End, FindBestTree, Handle, News, Scheduler};
 use bspscope::measure::tune::{
-    Goal, LeftOut, NAIVE_LIMIT, Phase, ROUNDS, Row, Search, Tuned, Tuning, Turn,
+    Goal, LeftOut, NAIVE_LIMIT, RUNGS, Row, Search, Tuned, Tuning, Turn, rounds_after,
 };
-use bspscope::measure::{measure, parameter};
+use bspscope::measure::{measure, parameter, variations};
 use bspscope::progress::Progress;
 use bspscope::scene::SceneRequest;
 use bspscope::setup::Setup;
-use bspscope::structure::{MaxDepth, Method};
+use bspscope::structure::Method;
 use bspscope::trace::RenderSettings;
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -76,45 +76,51 @@ fn methods(rows: &[Row]) -> Vec<&'static str> {
 }
 
 #[test]
-fn all_methods_are_measured_and_the_best_two_refined() {
+fn all_settings_of_all_methods_are_tried_and_few_are_left() {
     let search = search("balls:2", ENOUGH);
     let tuned = tuned(search.clone());
+    // The first rows are the methods with their defaults.
     let all: Vec<_> = Method::all().map(|m| m.name).collect();
-    let (first, refined): (Vec<_>, Vec<_>) =
-        (tuned.rows.iter().cloned()).partition(|row| row.phase == Phase::Methods);
-    assert_eq!(methods(&first), all);
-    let two: HashSet<_> = methods(&refined).into_iter().collect();
-    assert_eq!(two.len(), 2);
-    let is_base = |row: &&Row| two.contains(row.setup.build.method.name);
-    for row in &first {
-        let expected = if is_base(&row) { 2 * ROUNDS } else { ROUNDS };
-        assert_eq!(row.rounds(), expected, "{:?}", row.setup.build);
-        assert_eq!(row.setup.build.d_max, MaxDepth::Automatic);
-    }
-    // Every combination is measured, or builds the tree of one that is.
+    let (first, _) = tuned.rows.split_at(all.len());
+    assert_eq!(methods(first), all);
+    assert!(first.iter().all(Row::is_default));
+    // Every variation is measured, or builds the tree of one that is.
     let same = tuned.left_out.iter();
-    let same: Vec<_> = same
-        .map(|left_out| match left_out {
-            LeftOut::SameTree { setup } => setup,
-            other => panic!("{other:?}"),
-        })
-        .collect();
-    let setups = refined.iter().map(|row| &row.setup);
-    let bases = first.iter().filter(is_base).map(|row| &row.setup);
-    let mut combinations: Vec<_> = setups
-        .chain(bases)
+    let same = same.map(|left_out| match left_out {
+        LeftOut::SameTree { setup } => setup,
+        other => panic!("{other:?}"),
+    });
+    let mut tried: Vec<_> = (tuned.rows.iter().map(|row| &row.setup))
         .chain(same)
-        .map(|setup| {
-            let build = &setup.build;
-            (build.method.name, build.d_max.to_string(), build.n_oilf)
-        })
+        .map(|setup| setup.build.in_words())
         .collect();
-    combinations.sort();
-    combinations.dedup();
-    assert_eq!(combinations.len(), 2 * 5 * 4);
+    let objects = scene("balls:2").objects().len();
+    let mut expected: Vec<_> = Method::all()
+        .flat_map(|method| variations(method, objects))
+        .map(|build| build.in_words())
+        .collect();
+    tried.sort();
+    expected.sort();
+    assert!(expected.len() > 200);
+    assert_eq!(tried, expected);
+    // Each rung has at least half of the candidates of the one before, timed twice as often in all.
+    let standing = |rung: usize| tuned.rows.iter().filter(move |row| row.rung >= rung);
+    let last = tuned.rows.iter().map(|row| row.rung).max().unwrap();
+    assert!(rounds_after(last) >= 8 && last < RUNGS);
+    for rung in 1..=last {
+        let [before, now] = [rung - 1, rung].map(|rung| standing(rung).count());
+        assert!(now >= before.div_ceil(2) && now <= before, "{before} {now}");
+    }
     for (i, row) in tuned.rows.iter().enumerate() {
-        assert!(row.phase == Phase::Methods || row.rounds() == ROUNDS);
+        assert_eq!(
+            row.rounds(),
+            rounds_after(row.rung),
+            "{:?}",
+            row.setup.build
+        );
         assert!(row.seconds().is_sorted() && row.seconds()[0] > 0.0);
+        let is_counted = row.tests_per_ray().is_some();
+        assert_eq!(is_counted, row.rung > 0 || row.is_default());
         let is_same = |other: &Row| {
             other.setup.build.method == row.setup.build.method
                 && other.measurement.tree == row.measurement.tree
@@ -129,9 +135,20 @@ fn all_methods_are_measured_and_the_best_two_refined() {
     }
     let (place, recommended) = tuned.recommended();
     assert_eq!(&tuned.rows[place], recommended);
-    let least = tuned.rows.iter().map(|row| row.spread().median);
+    assert_eq!(recommended.rung, last);
+    let least = standing(last).map(|row| row.spread().median);
     assert_eq!(recommended.spread().median, least.fold(f64::MAX, f64::min));
     assert_eq!(tuned.ranking()[0].place, place);
+    // A short list has every method, and all that were timed longest.
+    let short = tuned.short_ranking();
+    let rows = || short.iter().map(|rank| &tuned.rows[rank.place]);
+    assert_eq!(
+        rows().filter(|row| row.rung == last).count(),
+        standing(last).count()
+    );
+    let named: HashSet<_> = rows().map(|row| row.setup.build.method.name).collect();
+    assert_eq!(named.len(), all.len());
+    assert!(short.len() < tuned.rows.len());
 }
 
 #[test]
@@ -169,11 +186,14 @@ fn without_a_budget_every_method_is_timed_once_and_the_rest_is_left_out() {
     let all: Vec<_> = Method::all().map(|m| m.name).collect();
     assert_eq!(methods(&tuned.rows), all);
     assert!(tuned.rows.iter().all(|row| row.rounds() == 1));
-    let rounds = LeftOut::Rounds {
-        phase: Phase::Methods,
-        whole: 1,
+    let objects = scene("tetra:3").objects().len();
+    let variations = Method::all().map(|method| variations(method, objects).len() - 1);
+    let settings = variations.sum();
+    let unfinished = LeftOut::Unfinished {
+        candidates: all.len().div_ceil(2),
+        rounds: 1,
     };
-    assert_eq!(tuned.left_out, [rounds, LeftOut::Untried { settings: 38 }]);
+    assert_eq!(tuned.left_out, [LeftOut::Untried { settings }, unfinished]);
 }
 
 #[test]
@@ -229,7 +249,7 @@ fn a_cancelled_search_leaves_nothing_running_and_keeps_its_rows() {
     let jobs = scheduler.jobs();
     assert_eq!(jobs[0].slot, FindBestTree::SLOT);
     let stage = &jobs[0].stage;
-    assert!(stage.starts_with("all methods, round "), "{stage}");
+    assert!(stage.contains(" candidates, round 1 of 1: "), "{stage}");
     job.cancel();
     assert!(scheduler.wait());
     assert_eq!(scheduler.threads(), 0);
@@ -247,7 +267,9 @@ fn a_cancelled_turn_can_be_run_again() {
     let turn = |tuning: &mut Tuning<'_>| tuning.turn(&Progress::new()).unwrap();
     assert_eq!(turn(&mut tuning), Some(Turn::Timed(0)));
     assert_eq!(turn(&mut tuning), Some(Turn::Timed(1)));
-    assert_eq!(tuning.upcoming().map(|next| next.round), Some(0));
+    let next = tuning.upcoming().unwrap();
+    assert_eq!((next.rung, next.rounds), (0, 0));
+    assert!(next.candidates > 200, "{}", next.candidates);
     let mut last = 0.0;
     while let Some(next) = tuning.upcoming() {
         assert!((0.0..1.0).contains(&next.fraction));

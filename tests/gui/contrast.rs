@@ -1,7 +1,7 @@
 //! Whether all text can be read: its contrast with what is painted beneath it, in every task and both
 //! themes.
 
-use crate::harness::{Window, click, finish, open_sized, press, small, wait};
+use crate::harness::{Window, click, finish, has, open_sized, press, small, type_into, wait};
 use bspscope::gui::StartOptions;
 use bspscope::gui::theme::Tokens;
 use bspscope::lesson::LESSONS;
@@ -231,6 +231,21 @@ fn text_of_tune_can_be_read() {
             press(window, Modifiers::COMMAND, Key::Num4);
             click(window, "Find the best tree");
             wait(window, "the end", |w| w.query_by_label("Stop").is_none());
+        },
+    );
+}
+
+#[test]
+fn text_of_the_study_of_measures_can_be_read() {
+    in_both_themes(
+        "Measures and time",
+        || small("tetra:3"),
+        |window| {
+            press(window, Modifiers::COMMAND, Key::Num4);
+            click(window, "Measures and time");
+            type_into(window, "Rays per set", "16");
+            click(window, "Study measures");
+            wait(window, "the end", |w| has(w, "by rank correlation"));
         },
     );
 }

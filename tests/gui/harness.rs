@@ -130,6 +130,16 @@ pub fn press(window: &mut Window<'_>, modifiers: egui::Modifiers, key: egui::Key
     window.run_steps(2);
 }
 
+/// Types into the field with this name, in place of what is there.
+pub fn type_into(window: &mut Window<'_>, name: &str, text: &str) {
+    window.get_by_label(name).focus();
+    window.run_steps(2);
+    press(window, egui::Modifiers::COMMAND, egui::Key::A);
+    window.get_by_label(name).type_text(text);
+    window.run_steps(2);
+    press(window, egui::Modifiers::NONE, egui::Key::Enter);
+}
+
 /// A whole number as people read it, in groups of three digits.
 pub fn grouped(number: impl TryInto<u64>) -> String {
     let digits = number.try_into().ok().expect("a count").to_string();

@@ -18,6 +18,7 @@ mod heat;
 mod judge;
 mod keep;
 mod lesson;
+mod measures;
 mod model;
 mod painted;
 mod paper;

@@ -1,7 +1,9 @@
 //! The sweep in the window: the rows of `bspscope sweep`, as curves and as a map, cancelled and resumed,
 //! loaded and saved.
 
-use crate::harness::{Window, click, finish, has, open_pane, open_sized, press, small, wait};
+use crate::harness::{
+    Window, click, finish, has, open_pane, open_sized, press, small, type_into, wait,
+};
 use bspscope::measure::sweep::{Axis, Form, Plan, answers, read_rows, rule_depth};
 use bspscope::measure::{Class, parameter, parameters};
 use bspscope::progress::Progress;
@@ -22,16 +24,6 @@ fn on_sweep<'a>(scene: &str, size: u32) -> Window<'a> {
     finish(&mut window);
     open_pane(&mut window, "Depth & leaf size");
     window
-}
-
-/// Types into the field with this name, in place of what is there.
-fn type_into(window: &mut Window<'_>, name: &str, text: &str) {
-    window.get_by_label(name).focus();
-    window.run_steps(2);
-    press(window, egui::Modifiers::COMMAND, egui::Key::A);
-    window.get_by_label(name).type_text(text);
-    window.run_steps(2);
-    press(window, egui::Modifiers::NONE, egui::Key::Enter);
 }
 
 /// Waits until a sweep of this number of points is complete.

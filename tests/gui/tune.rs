@@ -1,8 +1,11 @@
 //! The task Tune: the search for the best tree, its ranking, and what can be done with a row.
 
-use crate::harness::{Window, click, finish, has, open_sized, press, small, wait};
+use crate::harness::{
+    Window, click, finish, grouped, has, open_sized, press, small, type_into, wait,
+};
 use crate::painted::{assert_whole, texts_in};
 use bspscope::structure::{MaxDepth, Method};
+use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
@@ -40,7 +43,7 @@ fn is_done(window: &Window<'_>) -> bool {
 }
 
 #[test]
-fn the_best_two_methods_are_refined_and_a_row_becomes_the_tree() {
+fn settings_are_tried_and_a_row_becomes_the_tree() {
     // So high that all rows are in view: which ones are the best differs from run to run.
     let mut window = on_tune("tetra:2", [1600.0, 4800.0]);
     assert!(has(&window, "Which tree renders this scene fastest?"));
@@ -59,7 +62,7 @@ fn the_best_two_methods_are_refined_and_a_row_becomes_the_tree() {
     let wanted = found
         .iter()
         .find(refined)
-        .expect("leaf sizes were refined")
+        .expect("leaf sizes are tried")
         .clone();
     window
         .get_by_label(&format!("Use this: {wanted}"))
@@ -119,6 +122,50 @@ fn a_stopped_search_keeps_its_rows() {
 }
 
 #[test]
+fn building_counts_if_a_number_of_rays_is_given() {
+    let mut window = on_tune("tetra:2", [1600.0, 1000.0]);
+    choose_only(&mut window, &["midpoint", "sah"]);
+    let find = |window: &mut Window<'_>| {
+        click(window, FIND);
+        wait(window, "the end", |w| {
+            is_done(w) && !candidates(w).is_empty()
+        });
+    };
+    find(&mut window);
+    assert!(has(&window, " · median CPU times; "));
+    click(&mut window, "Build once for");
+    type_into(&mut window, "Number of rays", "5000");
+    find(&mut window);
+    let conditions = format!("CPU times of building and {} rays; ", grouped(5_000_u64));
+    assert!(has(&window, &conditions));
+    // It keeps its value while it is off.
+    for is_on in [false, true] {
+        click(&mut window, "Build once for");
+        find(&mut window);
+        assert_eq!(has(&window, &conditions), is_on);
+    }
+}
+
+#[test]
+fn trees_beyond_the_memory_limit_are_left_out() {
+    let mut window = on_tune("tetra:5", [1600.0, 1000.0]);
+    choose_only(&mut window, &["none", "midpoint"]);
+    click(&mut window, "Memory limit");
+    type_into(&mut window, "Most memory", "0.02");
+    click(&mut window, FIND);
+    wait(&mut window, "the end", is_done);
+    assert!(candidates(&window).contains(&"none".to_owned()));
+    assert!(has(&window, " more memory than 20.48"));
+    // If no tree is small enough, the error says so.
+    window.get_by_role_and_label(Role::CheckBox, "none").click();
+    window.run_steps(2);
+    type_into(&mut window, "Most memory", "0.001");
+    click(&mut window, FIND);
+    wait(&mut window, "the end", is_done);
+    assert!(has(&window, "no tree is small enough: the smallest needs "));
+}
+
+#[test]
 fn goal_and_all_methods_are_in_view_and_nothing_is_cut() {
     for (size, left) in [([1600.0, 1000.0], 360.0), ([1280.0, 720.0], 300.0)] {
         let mut window = on_tune("tetra:1", size);
@@ -131,7 +178,8 @@ fn goal_and_all_methods_are_in_view_and_nothing_is_cut() {
             );
         }
         let button = window.get_by_label(FIND).rect();
-        assert!(button.bottom() < size[1] - 32.0, "{button}");
+        // Below it is room for two lines: the progress of the search.
+        assert!(button.bottom() < size[1] - 32.0 - 40.0, "{button}");
         choose_only(&mut window, &["midpoint", "sah"]);
         click(&mut window, "Least memory");
         click(&mut window, FIND);
@@ -147,15 +195,7 @@ fn goal_and_all_methods_are_in_view_and_nothing_is_cut() {
         assert_whole(&window, ranking);
         let texts = texts_in(&window, ranking);
         let has = |text: &str| texts.iter().any(|t| t.rows.concat() == text);
-        for title in [
-            "#",
-            "method",
-            "depth",
-            "leaf size",
-            "time",
-            "nodes",
-            "memory",
-        ] {
+        for title in ["#", "method", "settings", "time", "nodes", "memory"] {
             assert!(has(title), "{title}: {texts:?}");
         }
         // Below it are the studies, as tabs.

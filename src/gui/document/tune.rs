@@ -32,8 +32,8 @@ impl Document {
         let search = Search {
             setup: current.shown.setup.clone(),
             goal: self.tuning.goal,
-            rays: None,
-            most_bytes: None,
+            rays: self.tuning.rays.get(),
+            most_bytes: (self.tuning.memory.get()).map(|mib| (mib * f64::from(1 << 20)) as u64),
             methods: Method::all().filter(chosen).collect(),
             budget: Duration::from_secs(self.tuning.budget),
         };

@@ -2,7 +2,7 @@
 
 use super::study::Study;
 use crate::jobs::{FindBestTree, Tried};
-use crate::measure::tune::{Goal, Rank, Row, Score, Search, Tuned, best, rank};
+use crate::measure::tune::{Goal, Rank, Row, Score, Search, Spread, Tuned, best, rank};
 use crate::structure::Method;
 use std::sync::Arc;
 
@@ -13,7 +13,25 @@ pub struct Tuning {
     pub methods: Vec<Method>,
     /// Time for the measurements in seconds.
     pub budget: u64,
+    /// How many rays are traced after building once, at least 1.
+    pub rays: Switched<u64>,
+    /// The most memory of a tree in MiB, more than 0.
+    pub memory: Switched<f64>,
     pub study: Study<FindBestTree, Found>,
+}
+
+/// A setting that can be switched off, and keeps its value meanwhile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Switched<T> {
+    pub is_on: bool,
+    pub value: T,
+}
+
+impl<T: Copy> Switched<T> {
+    /// Returns the value, if it is on.
+    pub fn get(self) -> Option<T> {
+        self.is_on.then_some(self.value)
+    }
 }
 
 impl Default for Tuning {
@@ -22,6 +40,14 @@ impl Default for Tuning {
             goal: Goal::default(),
             methods: Method::all().collect(),
             budget: 60,
+            rays: Switched {
+                is_on: false,
+                value: 1_000_000,
+            },
+            memory: Switched {
+                is_on: false,
+                value: 64.0,
+            },
             study: Study::default(),
         }
     }
@@ -40,6 +66,12 @@ pub struct Found {
 }
 
 impl Found {
+    /// Returns the time by which a candidate is ranked, in seconds: of the picture, or of building once and tracing
+    /// the rays that were asked for.
+    pub fn time(&self, row: &Row) -> Spread {
+        row.score(self.search.rays).seconds
+    }
+
     fn scores(&self) -> Vec<Score> {
         let rows = self.rows.iter();
         rows.map(|row| row.score(self.search.rays)).collect()

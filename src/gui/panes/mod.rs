@@ -8,6 +8,7 @@ mod figures;
 mod histograms;
 mod icicle;
 mod lesson;
+mod measures;
 mod notes;
 mod outline;
 mod paper;
@@ -43,6 +44,7 @@ pub static PANES: &[Entry] = &[
     Entry::of::<accuracy::AccuracyPane>(),
     Entry::of::<time::TimePane>(),
     Entry::of::<sweep::SweepPane>(),
+    Entry::of::<measures::MeasuresPane>(),
     Entry::of::<tune::TunePane>(),
     Entry::of::<ranking::RankingPane>(),
     Entry::of::<parameters::ParametersPane>(),

@@ -58,7 +58,12 @@ pub static TASKS: [Task; 5] = [
         left: Some(Column::new(&["tune"], [360.0, 300.0])),
         right: None,
         below: None,
-        tiles: || above(("ranking", 396.0), (&["sweep", "time", "accuracy"], 532.0)),
+        tiles: || {
+            above(
+                ("ranking", 396.0),
+                (&["sweep", "time", "accuracy", "measures"], 532.0),
+            )
+        },
     },
     Task {
         id: "lessons",

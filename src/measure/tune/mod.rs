@@ -1,25 +1,32 @@
-//! Finds the best tree for a scene: measures every build method on a small version of the user's
-//! picture, ranks them, and refines depth and leaf size of the best two.
+//! Finds the best tree for a scene: measures every build method with many settings on a small version of the user's
+//! picture, and ranks them.
 //!
-//! The search has two phases of [`ROUNDS`] rounds. Each round times every candidate of the phase
-//! once, so that a machine that slows down or warms up affects all candidates alike.
+//! The search is a successive halving. A *rung* is one of its steps; after each, [`rounds_after`] tells how often the
+//! candidates that are left have been timed:
 //!
-//! 1. All methods with automatic depth, leaf size 1, and the default values of their own settings.
-//! 2. The best two methods with depths around the automatic one and several leaf sizes. The two
-//!    candidates of the first phase are among these and are timed again.
+//! 1. Every method is timed once with its defaults, then every method with its other settings
+//!    ([`variations`](super::variations)): depths and leaf sizes, widths and leaves of hierarchies, densities of grids.
+//!    The methods take turns, beginning with the one that was fastest. When two thirds of the budget are spent, no more
+//!    are tried.
+//! 2. The better half is timed once more, the better half of these twice more, and so on, until one or two are left or
+//!    the budget is spent. A candidate that cannot be told apart from the best stays.
 //!
-//! All candidates share the scene, the camera, the kernel, the threads and all other settings. A
-//! time is `T_TR`, the CPU time of a picture with one sample per pixel; an untimed picture before it
-//! brings the tree into the caches. The first time of a candidate comes with its counts.
+//! Every round times every candidate that is left once, so that a machine that slows down or warms up affects all
+//! candidates alike. All candidates share the scene, the camera, the kernel, the threads and all other settings. A time
+//! is `T_TR`, the CPU time of a picture with one sample per pixel; an untimed picture before it brings the tree into the
+//! caches. Only the defaults of methods and what is timed more than once are counted.
 //!
 //! If the number of rays is known that will be traced, candidates are ranked by the time of building once and
 //! tracing these rays. Trees that need more memory than allowed are left out before they are timed.
+//!
+//! Reports state the last rung of every candidate, from 0. (It replaces `phase`, of a search that refined only the depth
+//! and leaf size of the best two methods.) Candidates of one method differ in `constants`, too.
 //!
 //! [`Tuning`] does the work turn by turn, [`rank`] and [`best`] judge what is measured so far.
 
 mod candidates;
 mod goal;
-mod phase;
+mod halving;
 mod ranking;
 mod row;
 mod search;
@@ -27,8 +34,8 @@ mod tuning;
 
 pub use candidates::{NAIVE_LIMIT, is_tried};
 pub use goal::Goal;
-pub use phase::Phase;
+pub use halving::{RUNGS, rounds_after};
 pub use ranking::{MOST_SLOWDOWN, Rank, Score, Spread, best, rank};
 pub use row::Row;
 pub use search::{LeftOut, Search, Tuned};
-pub use tuning::{ROUNDS, Tuning, Turn, Upcoming};
+pub use tuning::{Tuning, Turn, Upcoming};

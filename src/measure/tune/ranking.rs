@@ -1,13 +1,14 @@
 //! The order of candidates, and which of them tie.
 //!
 //! Candidates are sorted by the median of the figure of the goal; among equal ones by the other
-//! figure, then by the order in which they were given. The first one begins a group. Every next one
-//! joins the group if its range overlaps the range of the *first* of the group, ends included; if
-//! not, it begins the next group. All of a group share the rank of the first: one more than the
-//! number of candidates before it. Comparing with the first only, rather than with any of the
-//! group, keeps chains of overlaps from tying the fastest with the slowest.
+//! figure, then by the order in which they were given. For time, candidates of a later rung come before those that
+//! were dropped earlier: the latter were timed less often, so one lucky time must not put them in front. The first one
+//! begins a group. Every next one of the same rung joins the group if its range overlaps the range of the *first* of
+//! the group, ends included; if not, it begins the next group. All of a group share the rank of the first: one more
+//! than the number of candidates before it. Comparing with the first only, rather than with any of the group, keeps
+//! chains of overlaps from tying the fastest with the slowest.
 //!
-//! Memory is exact: candidates tie for memory only if they need the same number of bytes.
+//! Memory is exact, whatever the rung: candidates tie for memory only if they need the same number of bytes.
 
 use super::goal::Goal;
 
@@ -26,6 +27,8 @@ pub struct Score {
     pub seconds: Spread,
     /// Memory of the tree.
     pub bytes: u64,
+    /// The last rung in which it was timed.
+    pub rung: usize,
 }
 
 /// The rank of one of several candidates.
@@ -71,6 +74,14 @@ impl Goal {
         }
     }
 
+    /// Returns the rung that counts before the figure; always 0 for memory.
+    const fn rung(self, score: &Score) -> usize {
+        match self {
+            Goal::Time => score.rung,
+            Goal::Memory => 0,
+        }
+    }
+
     const fn other(self) -> Goal {
         match self {
             Goal::Time => Goal::Memory,
@@ -85,14 +96,17 @@ pub fn rank(scores: &[Score], goal: Goal) -> Vec<Rank> {
     let mut places: Vec<usize> = (0..scores.len()).collect();
     places.sort_by(|&a, &b| {
         let by = |goal| key(a, goal).total_cmp(&key(b, goal));
-        by(goal).then(by(goal.other()))
+        let rung = |place: usize| goal.rung(&scores[place]);
+        let by_rung = rung(b).cmp(&rung(a));
+        by_rung.then(by(goal)).then(by(goal.other()))
     });
     let mut ranks: Vec<Rank> = Vec::with_capacity(places.len());
     let mut group = 0;
     for (i, &place) in places.iter().enumerate() {
-        let first = goal.spread(&scores[places[group]]);
-        // Its median is not below that of the first, so only one end can lie apart.
-        if goal.spread(&scores[place]).least > first.most {
+        let (score, first) = (&scores[place], &scores[places[group]]);
+        // Within a rung, its median is not below that of the first, so only one end can lie apart.
+        let is_apart = goal.spread(score).least > goal.spread(first).most;
+        if is_apart || goal.rung(score) < goal.rung(first) {
             group = i;
         }
         let is_tied = group < i;
@@ -133,7 +147,11 @@ mod tests {
             median,
             most,
         };
-        Score { seconds, bytes }
+        Score {
+            seconds,
+            bytes,
+            rung: 0,
+        }
     }
 
     fn ranks(scores: &[Score], goal: Goal) -> Vec<(usize, usize, bool)> {
@@ -185,6 +203,25 @@ mod tests {
             ranks(&scores, Goal::Time),
             [(0, 1, false), (1, 2, true), (2, 2, true)]
         );
+    }
+
+    #[test]
+    fn who_was_dropped_ranks_behind_who_stayed() {
+        let mut scores = [
+            score(1.0, 1.0, 1.0, 9),
+            score(2.0, 2.5, 3.0, 5),
+            score(2.0, 2.6, 3.0, 5),
+        ];
+        scores[1].rung = 2;
+        scores[2].rung = 2;
+        assert_eq!(
+            ranks(&scores, Goal::Time),
+            [(1, 1, true), (2, 1, true), (0, 3, false)]
+        );
+        assert_eq!(best(&scores, Goal::Time), [1, 2, 0]);
+        // Memory is the same however often the time is measured.
+        scores[0].bytes = 1;
+        assert_eq!(best(&scores, Goal::Memory), [0]);
     }
 
     #[test]

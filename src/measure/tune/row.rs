@@ -1,6 +1,6 @@
 //! What is measured of one candidate.
 
-use super::phase::Phase;
+use super::candidates::is_default;
 use super::ranking::{Score, Spread};
 use crate::measure::Measurement;
 use crate::setup::Setup;
@@ -13,9 +13,10 @@ pub struct Row {
     /// What was asked for, with the structure of this candidate. The size of the picture is the
     /// user's.
     pub setup: Setup,
-    /// The phase in which it was first timed.
-    pub phase: Phase,
-    /// All counts of the small picture, the tree, its build time, and as rendering time the median.
+    /// The last rung in which it was timed, from 0.
+    pub rung: usize,
+    /// The tree, its build time, as rendering time the median, and all counts of the small picture. A candidate that was
+    /// timed only once is not counted, except for the defaults of a method.
     pub measurement: Measurement,
     /// The rendering of every round, by ascending CPU time; at least one.
     times: Vec<TimedRender>,
@@ -23,24 +24,20 @@ pub struct Row {
 
 impl Row {
     /// Creates the row of a candidate after it was counted and timed once.
-    pub(super) fn new(
-        setup: Setup,
-        phase: Phase,
-        measurement: Measurement,
-        time: TimedRender,
-    ) -> Row {
+    pub(super) fn new(setup: Setup, measurement: Measurement, time: TimedRender) -> Row {
         let mut row = Row {
             setup,
-            phase,
+            rung: 0,
             measurement,
             times: Vec::new(),
         };
-        row.add(time);
+        row.add(0, time);
         row
     }
 
     /// Adds the time of another round.
-    pub(super) fn add(&mut self, time: TimedRender) {
+    pub(super) fn add(&mut self, rung: usize, time: TimedRender) {
+        self.rung = rung;
         let place = self.times.partition_point(|t| t.cpu < time.cpu);
         self.times.insert(place, time);
         self.measurement.rendering = Some(self.times[(self.times.len() - 1) / 2]);
@@ -77,10 +74,16 @@ impl Row {
         Score {
             seconds: rays.map_or_else(|| self.spread(), |rays| self.spread_with_build(rays)),
             bytes: self.bytes(),
+            rung: self.rung,
         }
     }
 
-    /// Returns the intersection tests per ray, over rays of all kinds.
+    /// Returns whether it has the default settings of its method.
+    pub fn is_default(&self) -> bool {
+        is_default(&self.setup.build)
+    }
+
+    /// Returns the intersection tests per ray, over rays of all kinds; `None` if it was not counted.
     pub fn tests_per_ray(&self) -> Option<f64> {
         let tally = self.measurement.all_rays()?;
         (tally.rays > 0).then(|| tally.tests as f64 / tally.rays as f64)

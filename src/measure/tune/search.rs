@@ -1,7 +1,6 @@
 //! What is searched for, and what is found.
 
 use super::goal::Goal;
-use super::phase::Phase;
 use super::ranking::{Rank, Score, best, rank};
 use super::row::Row;
 use crate::setup::Setup;
@@ -23,7 +22,8 @@ pub struct Search {
     /// The methods that are measured, as far as the scene is not too large for them.
     pub methods: Vec<Method>,
     /// Time for the measurements. When it is spent, no further turn begins, except that every method
-    /// is timed at least once.
+    /// is timed at least once with its defaults. Two thirds of it are for trying settings, and the rest for timing the
+    /// better ones again.
     pub budget: Duration,
 }
 
@@ -38,10 +38,10 @@ pub enum LeftOut {
     Memory { setup: Setup, bytes: u64 },
     /// Settings with which a method builds the same tree as with others that are measured.
     SameTree { setup: Setup },
-    /// The budget was spent after so many whole rounds of a phase.
-    Rounds { phase: Phase, whole: usize },
-    /// The budget was spent before so many settings of the refinement were tried.
+    /// The time for trying settings was spent before so many were tried.
     Untried { settings: usize },
+    /// The budget was spent when so many candidates were left, each of which was timed at least this often.
+    Unfinished { candidates: usize, rounds: usize },
 }
 
 /// The result of a search.
@@ -66,6 +66,21 @@ impl Tuned {
     /// Ranks the rows by the goal of the search, the best first.
     pub fn ranking(&self) -> Vec<Rank> {
         rank(&self.scores(), self.search.goal)
+    }
+
+    /// Returns the ranks of the best row of every method, and of all rows that were timed longest.
+    pub fn short_ranking(&self) -> Vec<Rank> {
+        let last = self.rows.iter().map(|row| row.rung).max();
+        let mut methods = Vec::new();
+        let mut ranking = self.ranking();
+        ranking.retain(|rank| {
+            let row = &self.rows[rank.place];
+            let method = row.setup.build.method.name;
+            let is_first = !methods.contains(&method);
+            methods.push(method);
+            is_first || (row.rung > 0 && Some(row.rung) == last)
+        });
+        ranking
     }
 
     /// Returns the index of the row that is recommended, and the row.

@@ -1,8 +1,8 @@
 //! The search for the best tree, turn by turn.
 
-use super::candidates::{MOST_REFINEMENTS, REFINED, all_methods, is_tried, refinements};
-use super::phase::Phase;
-use super::ranking::best;
+use super::candidates::{candidates, is_default, is_tried};
+use super::halving::{self, RUNGS, half, rounds_after, rounds_in, survivors};
+use super::ranking::{Score, best};
 use super::row::Row;
 use super::search::{LeftOut, Search, Tuned};
 use crate::measure::{MeasureError, Measurement, Times};
@@ -14,9 +14,6 @@ use crate::trace::{RenderSettings, render_counted, render_timed, thread_pool};
 use rayon::ThreadPool;
 use std::time::{Duration, Instant};
 
-/// Rounds of each phase.
-pub const ROUNDS: usize = 3;
-
 /// Width of the picture that is timed; narrower pictures are timed as they are.
 const WIDTH: u32 = 128;
 
@@ -24,11 +21,21 @@ const WIDTH: u32 = 128;
 /// every round.
 const MOST_KEPT: usize = 1 << 30;
 
+/// The part of the budget in which settings are tried.
+const FOR_TRYING: f64 = 2.0 / 3.0;
+
+/// In the first rung, the untimed picture is as many times narrower and lower than the timed one: there are many
+/// candidates, and their times need not be exact.
+const SMALLER: u32 = 4;
+
 /// What a turn will do.
 pub struct Upcoming<'a> {
-    pub phase: Phase,
     /// From 0.
-    pub round: usize,
+    pub rung: usize,
+    /// How often each candidate that is left has been timed, not counting this round.
+    pub rounds: usize,
+    /// How many candidates are left; in the first rung, how many there are.
+    pub candidates: usize,
     pub candidate: &'a Setup,
     /// How much of the whole search is done, 0 to 1: of its turns or of its budget, whichever is
     /// more.
@@ -38,25 +45,28 @@ pub struct Upcoming<'a> {
 /// The result of a turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
-    /// The row at this index has another time; in the first round of a phase, it can be new.
+    /// The row at this index has another time; in the first rung, it can be new.
     Timed(usize),
     /// The candidate is not measured; [`Tuned::left_out`] says why.
     LeftOut,
 }
 
 /// A search that runs turn by turn. A turn times one candidate once; in its first, the candidate is
-/// also built and counted. A cancelled turn can be run again, and continues after what was complete.
+/// also built. The defaults of a method are counted in their first turn, others in their second. A cancelled turn can be run again, and continues after what was complete.
 pub struct Tuning<'a> {
     scene: &'a Scene,
     search: Search,
     render: RenderSettings,
     pool: ThreadPool,
-    phase: Phase,
-    /// Completed rounds of the phase.
+    rung: usize,
+    /// Completed rounds of the rung.
     round: usize,
     /// Index of the next candidate of the round.
     next: usize,
+    /// Those that are left.
     candidates: Vec<Candidate>,
+    /// Other settings of every method, before all methods were timed with their defaults.
+    variations: Vec<Vec<Setup>>,
     rows: Vec<Row>,
     left_out: Vec<LeftOut>,
     turns_done: usize,
@@ -64,13 +74,13 @@ pub struct Tuning<'a> {
     has_ended: bool,
 }
 
-/// A candidate of the current phase.
+/// A candidate that is left.
 struct Candidate {
     setup: Setup,
     /// Index of its row, once it was timed.
     row: Option<usize>,
     tree: Option<Tree>,
-    /// With counts, once they are known.
+    /// With counts, once it was counted.
     known: Option<Measurement>,
 }
 
@@ -107,23 +117,29 @@ impl<'a> Tuning<'a> {
         let objects = scene.objects().len();
         let render = small(&search.setup.render);
         search.setup.render.view(scene)?;
-        let candidates = all_methods(&search.setup, &search.methods, objects);
-        for candidate in &candidates {
-            candidate.build.check().map_err(BuildError::from)?;
+        let methods = search.methods.iter().copied();
+        let (tried, untried): (Vec<_>, Vec<_>) =
+            methods.partition(|method| is_tried(*method, objects));
+        let mut defaults = Vec::new();
+        let mut variations = Vec::new();
+        for method in tried {
+            let mut all = candidates(&search.setup, method, objects);
+            for candidate in &all {
+                candidate.build.check().map_err(BuildError::from)?;
+            }
+            variations.push(all.split_off(1));
+            defaults.extend(all.into_iter().map(Candidate::new));
         }
-        let untried = search.methods.iter().copied();
-        let untried: Vec<_> = untried
-            .filter(|method| !is_tried(*method, objects))
-            .collect();
         Ok(Tuning {
             scene,
             pool: thread_pool(render.threads)?,
             search,
             render,
-            phase: Phase::Methods,
+            rung: 0,
             round: 0,
             next: 0,
-            candidates: candidates.into_iter().map(Candidate::new).collect(),
+            candidates: defaults,
+            variations,
             rows: Vec::new(),
             left_out: untried
                 .into_iter()
@@ -157,9 +173,11 @@ impl<'a> Tuning<'a> {
         if self.has_ended {
             return None;
         }
+        let waiting = self.variations.iter().flatten().count();
         Some(Upcoming {
-            phase: self.phase,
-            round: self.round,
+            rung: self.rung,
+            rounds: self.rounds(),
+            candidates: self.candidates.len() + waiting,
             candidate: &self.candidates[self.next].setup,
             fraction: self.fraction(),
         })
@@ -197,88 +215,95 @@ impl<'a> Tuning<'a> {
         }
     }
 
-    /// Goes to the next candidate, round or phase, and ends the search after the last one or when
+    /// Returns how often all candidates that are left have been timed.
+    fn rounds(&self) -> usize {
+        rounds_after(self.rung) - rounds_in(self.rung) + self.round
+    }
+
+    /// Goes to the next candidate, round or rung, and ends the search after the last one or when
     /// the budget is spent.
     fn advance(&mut self) {
+        let budget = self.search.budget;
+        let is_trying = self.rung == 0 && self.variations.is_empty();
+        if is_trying && self.spent >= budget.mul_f64(FOR_TRYING) {
+            let settings = self.candidates.len() - self.next;
+            self.candidates.truncate(self.next);
+            if settings > 0 {
+                self.left_out.push(LeftOut::Untried { settings });
+            }
+        }
         while !self.has_ended && self.next >= self.candidates.len() {
+            if !self.variations.is_empty() {
+                self.vary();
+                return self.advance();
+            }
             self.next = 0;
             self.round += 1;
-            if self.round < ROUNDS && !self.candidates.is_empty() {
-                continue;
-            }
-            match self.phase {
-                Phase::Methods => self.begin_refinement(),
-                Phase::Refinement => self.has_ended = true,
+            if self.round >= rounds_in(self.rung) {
+                self.halve();
             }
         }
-        let is_due = self.phase == Phase::Methods && self.round == 0;
-        if !self.has_ended && !is_due && self.spent >= self.search.budget {
+        if !self.has_ended && self.rung > 0 && self.spent >= budget {
             self.has_ended = true;
-            self.note_what_is_missing();
+            self.left_out.push(LeftOut::Unfinished {
+                candidates: self.candidates.len(),
+                rounds: self.rounds(),
+            });
         }
     }
 
-    fn begin_refinement(&mut self) {
-        let bases = self.to_refine();
-        let before = std::mem::take(&mut self.candidates);
-        self.candidates = refinements(&bases, self.scene.objects().len())
-            .into_iter()
-            .map(Candidate::new)
-            .collect();
-        for old in before {
-            let mut same = self.candidates.iter_mut();
-            if let Some(new) = same.find(|new| new.setup == old.setup) {
-                *new = old;
-            }
+    /// Adds the other settings of all methods: the next one of each method, beginning with the best, and so on. What
+    /// suits one method often suits another, so all get their turn before the time is spent.
+    fn vary(&mut self) {
+        let order = best(&self.scores(), self.search.goal);
+        let place = |variations: &Vec<Setup>| {
+            let method = variations.first()?.build.method;
+            let is_it = |place: &usize| self.rows[*place].setup.build.method == method;
+            order.iter().position(is_it)
+        };
+        let mut all = std::mem::take(&mut self.variations);
+        all.sort_by_key(|variations| place(variations).unwrap_or(usize::MAX));
+        let longest = all.iter().map(Vec::len).max().unwrap_or(0);
+        let mut all: Vec<_> = all.into_iter().map(Vec::into_iter).collect();
+        for _ in 0..longest {
+            let next = all.iter_mut().filter_map(Iterator::next);
+            self.candidates.extend(next.map(Candidate::new));
         }
-        self.phase = Phase::Refinement;
-        self.round = 0;
-        self.has_ended = self.candidates.is_empty();
     }
 
-    /// Returns the setups of the best two methods whose trees depend on depth and leaf size.
-    fn to_refine(&self) -> Vec<Setup> {
+    /// Drops the worse half of the candidates, and begins the next rung.
+    fn halve(&mut self) {
+        let standing: Vec<usize> = self.candidates.iter().filter_map(|c| c.row).collect();
+        let order = survivors(&self.scores(), &standing, self.search.goal);
+        let place =
+            |candidate: &Candidate| order.iter().position(|row| candidate.row == Some(*row));
+        self.candidates
+            .retain(|candidate| place(candidate).is_some());
+        self.candidates.sort_by_key(place);
+        self.has_ended = order.is_empty() || halving::is_last(self.rung, order.len());
+        if !self.has_ended {
+            self.rung += 1;
+            self.round = 0;
+        }
+    }
+
+    fn scores(&self) -> Vec<Score> {
         let rays = self.search.rays;
-        let scores: Vec<_> = self.rows.iter().map(|row| row.score(rays)).collect();
-        let setups = best(&scores, self.search.goal)
-            .into_iter()
-            .map(|place| &self.rows[place].setup);
-        setups
-            .filter(|setup| setup.build.method.has_limits)
-            .take(REFINED)
-            .cloned()
-            .collect()
+        self.rows.iter().map(|row| row.score(rays)).collect()
     }
 
-    fn note_what_is_missing(&mut self) {
-        let whole = self.round;
-        let (untried, has_begun) = match self.phase {
-            Phase::Methods => {
-                let bases = self.to_refine();
-                let all = refinements(&bases, self.scene.objects().len());
-                (all.len() - bases.len(), true)
-            }
-            Phase::Refinement => {
-                let untried = self.candidates.iter().filter(|c| c.row.is_none());
-                (untried.count(), self.round > 0 || self.next > 0)
-            }
-        };
-        if has_begun {
-            let phase = self.phase;
-            self.left_out.push(LeftOut::Rounds { phase, whole });
-        }
-        if untried > 0 {
-            self.left_out.push(LeftOut::Untried { settings: untried });
-        }
-    }
-
+    /// Returns how much of the search is done, if the worse half is dropped after every rung.
     fn fraction(&self) -> f64 {
-        let later = match self.phase {
-            Phase::Methods => ROUNDS * MOST_REFINEMENTS,
-            Phase::Refinement => 0,
-        };
-        let left = (ROUNDS - self.round) * self.candidates.len() - self.next + later;
-        let of_turns = self.turns_done as f64 / (self.turns_done + left) as f64;
+        let mut left = self.candidates.len() + self.variations.iter().flatten().count();
+        let mut turns = (rounds_in(self.rung) - self.round) * left - self.next;
+        for rung in self.rung + 1..RUNGS {
+            left = half(left);
+            if halving::is_last(rung - 1, left) {
+                break;
+            }
+            turns += rounds_in(rung) * left;
+        }
+        let of_turns = self.turns_done as f64 / (self.turns_done + turns) as f64;
         let of_budget = self.spent.as_secs_f64() / self.search.budget.as_secs_f64();
         // Without a budget there is only the round that it does not limit.
         if of_budget.is_finite() {
@@ -322,22 +347,35 @@ impl<'a> Tuning<'a> {
         let (Some(tree), Some(known)) = (&candidate.tree, &mut candidate.known) else {
             unreachable!("both were made above");
         };
-        if known.counted.is_none() {
+        // Most candidates are dropped after their first time. Counting takes longer than that.
+        let is_counted = self.rung > 0 || is_default(&candidate.setup.build);
+        if is_counted && known.counted.is_none() {
             let part = progress.part(0.4, 0.8);
             let counted = render_counted(scene, tree, render, pool, &part, |_| ())?;
+            if let Some(place) = candidate.row {
+                self.rows[place].measurement.counted = Some(counted);
+            }
             known.counted = Some(counted);
         }
+        let warming = match self.rung {
+            0 => RenderSettings {
+                width: (render.width / SMALLER).max(1),
+                height: (render.height / SMALLER).max(1),
+                ..*render
+            },
+            _ => *render,
+        };
         let untimed = progress.part(0.8, 0.9);
-        render_timed(scene, tree, render, 0, pool, &untimed, |_, _| ())?;
+        render_timed(scene, tree, &warming, 0, pool, &untimed, |_, _| ())?;
         let timed = progress.part(0.9, 1.0);
         let time = render_timed(scene, tree, render, 0, pool, &timed, |_, _| ())?;
         let place = match candidate.row {
             Some(place) => {
-                self.rows[place].add(time);
+                self.rows[place].add(self.rung, time);
                 place
             }
             None => {
-                let row = Row::new(candidate.setup.clone(), self.phase, known.clone(), time);
+                let row = Row::new(candidate.setup.clone(), known.clone(), time);
                 self.rows.push(row);
                 self.rows.len() - 1
             }

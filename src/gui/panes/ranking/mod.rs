@@ -32,7 +32,7 @@ impl Pane for RankingPane {
             } else {
                 ui.weak(
                     "Which tree renders this scene fastest? Press \"Find the best tree\": all methods are \
-                     measured, then depth and leaf size of the best two.",
+                     measured with many settings, and the better ones more and more often.",
                 );
             }
             return;

@@ -1,19 +1,32 @@
 //! What a search recommends, in words.
 
 use crate::gui::document::tuning::Found;
-use crate::measure::tune::{Goal, Phase, Row};
+use crate::measure::tune::{Goal, Row};
 use crate::present::number::{Digits, counted};
+use crate::present::report::tune::rays_in_words;
+use crate::structure::split::Structure;
 
-/// Returns the settings of a candidate, such as "sah, depth 18, leaf size 4".
+/// Returns a candidate, such as "sah, depth 18, leaf size 4" and "bvh-sweep, width 8".
 pub fn name(row: &Row) -> String {
-    let build = &row.setup.build;
-    if build.method.has_limits {
-        let depth = row.measurement.depth_limit;
-        let size = build.n_oilf;
-        format!("{}, depth {depth}, leaf size {size}", build.method.name)
-    } else {
-        build.method.name.to_owned()
+    let method = row.setup.build.method.name;
+    match settings(row).as_str() {
+        "" => method.to_owned(),
+        settings => format!("{method}, {settings}"),
     }
+}
+
+/// Returns the settings of a candidate: depth and leaf size where they limit cells, and constants that are not at
+/// their defaults.
+pub fn settings(row: &Row) -> String {
+    let build = &row.setup.build;
+    let mut words = Vec::new();
+    if build.method.has_limits && build.method.structure != Structure::Bvh {
+        let depth = row.measurement.depth_limit;
+        words.push(format!("depth {depth}, leaf size {}", build.n_oilf));
+    }
+    let constants = build.constants.iter();
+    words.extend(constants.map(|(name, value)| format!("{name} {value}")));
+    words.join(", ")
 }
 
 /// Compares the candidate that is recommended with the method on view when the search began, or with
@@ -24,7 +37,7 @@ pub fn recommendation(found: &Found, best: &Row) -> String {
         return name;
     };
     let comparison = match found.search.goal {
-        Goal::Time => faster(best, other),
+        Goal::Time => faster(found, best, other),
         Goal::Memory => smaller(best, other),
     };
     format!("{name}: {comparison}")
@@ -43,7 +56,7 @@ fn other<'a>(found: &'a Found, best: &Row) -> Option<&'a Row> {
 /// The method alone where that tells the candidate from the other one.
 fn short_name(row: &Row, other: &Row) -> String {
     let method = row.setup.build.method;
-    if row.phase == Phase::Methods && method != other.setup.build.method {
+    if row.is_default() && method != other.setup.build.method {
         method.name.to_owned()
     } else {
         name(row)
@@ -51,8 +64,8 @@ fn short_name(row: &Row, other: &Row) -> String {
 }
 
 /// Times as a ratio, with its range over all rounds.
-fn faster(best: &Row, other: &Row) -> String {
-    let (a, b) = (best.spread(), other.spread());
+fn faster(found: &Found, best: &Row, other: &Row) -> String {
+    let [a, b] = [best, other].map(|row| found.time(row));
     let than = short_name(other, best);
     if b.least <= a.most {
         return format!("as fast as {than} within the spread");
@@ -91,24 +104,28 @@ fn times(ratio: f64) -> String {
 pub fn conditions(found: &Found) -> String {
     let m = &found.rows[0].measurement;
     format!(
-        "{} · {} × {} pixels · {} · {} · {} · median CPU times; ranges that overlap share a rank",
+        "{} · {} × {} pixels · {} · {} · {} · median CPU times{}; ranges that overlap share a rank",
         found.scene,
         m.render.width,
         m.render.height,
         m.render.kernel.description(),
         m.precision.precision.name(),
         counted(m.building.threads, "thread"),
+        match found.search.rays {
+            Some(rays) => format!(" of building and {}", rays_in_words(rays)),
+            None => String::new(),
+        },
     )
 }
 
-/// Returns a time with its range.
-pub fn time(row: &Row) -> String {
-    Digits::Three.seconds(row.spread().median)
+/// Returns the median of the times by which a candidate is ranked.
+pub fn time(found: &Found, row: &Row) -> String {
+    Digits::Three.seconds(found.time(row).median)
 }
 
 /// Returns the least and the greatest time.
-pub fn range(row: &Row) -> String {
-    let spread = row.spread();
+pub fn range(found: &Found, row: &Row) -> String {
+    let spread = found.time(row);
     let [least, most] = [spread.least, spread.most].map(|s| Digits::Three.seconds(s));
     format!("{least} to {most} in {}", counted(row.rounds(), "round"))
 }

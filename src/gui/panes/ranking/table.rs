@@ -13,26 +13,30 @@ use egui::{Align, Layout, Rect, Sense, Stroke, pos2, vec2};
 use egui_extras::{Column, TableBuilder};
 
 /// The least width of the bars in points.
-const BAR: f32 = 90.0;
+const BAR: f32 = 70.0;
 
 /// The bars reach up to this multiple of the least time.
 const MOST_TIMES: f64 = 4.0;
 
 /// Titles, widths in points and meanings of the columns; the bar takes what is left.
-const COLUMNS: [(&str, f32, &str); 11] = [
+const COLUMNS: [(&str, f32, &str); 10] = [
     (
         "#",
         34.0,
         "Rank; an equals sign marks candidates that share it",
     ),
-    ("method", 128.0, "Build method"),
-    ("depth", 48.0, "Greatest depth of a leaf, D_MAX"),
+    ("method", 110.0, "Build method"),
     (
-        "leaf size",
-        64.0,
-        "Most objects of a cell that is not split, N_OILF",
+        "settings",
+        184.0,
+        "Of kd-trees and octrees, the greatest depth of a leaf (D_MAX) and the most objects of a cell that is not \
+         split (N_OILF); of others, what differs from the defaults of the method",
     ),
-    ("time", 66.0, "Median CPU time of the picture, T_TR"),
+    (
+        "time",
+        66.0,
+        "Median CPU time of the picture (T_TR), or of building once and tracing the rays that were asked for",
+    ),
     (
         "",
         BAR,
@@ -41,7 +45,7 @@ const COLUMNS: [(&str, f32, &str); 11] = [
     (
         "tests per ray",
         88.0,
-        "Intersection tests per ray, over rays of all kinds",
+        "Intersection tests per ray, over rays of all kinds; a dash for candidates that were timed only once",
     ),
     ("nodes", 74.0, "Nodes of the tree; of a grid, its voxels"),
     ("build time", 74.0, "CPU time of the build, T_CB"),
@@ -60,7 +64,7 @@ const TALL_ROW: f32 = 36.0;
 const TALL: f32 = 900.0;
 
 /// The place of the bar among the columns.
-const PLACE_OF_BAR: usize = 5;
+const PLACE_OF_BAR: usize = 4;
 
 pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits) {
     let ranking = found.ranking();
@@ -103,10 +107,10 @@ pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits)
                     let rank = &ranking[table_row.index()];
                     let row = &found.rows[rank.place];
                     table_row.set_selected(doc.uses(&row.setup));
-                    for (place, text) in cells(rank, row).into_iter().enumerate() {
+                    for (place, text) in cells(found, rank, row).into_iter().enumerate() {
                         table_row.col(|ui| {
                             if place == PLACE_OF_BAR {
-                                bar(ui, row, most);
+                                bar(ui, found, row, most);
                             } else {
                                 ui.with_layout(alignment(place), |ui| {
                                     ui.add(egui::Label::new(text).selectable(false));
@@ -123,7 +127,7 @@ pub fn show(ui: &mut egui::Ui, doc: &Document, found: &Found, edits: &mut Edits)
 /// The time that fills the width of the bars. The slowest candidates can be much slower than all that
 /// matter: their bars are cut.
 fn scale(found: &Found) -> f64 {
-    let times = || found.rows.iter().map(Row::spread);
+    let times = || found.rows.iter().map(|row| found.time(row));
     let greatest = times().map(|time| time.most).fold(0.0, f64::max);
     let best = times()
         .map(|time| time.median)
@@ -133,7 +137,7 @@ fn scale(found: &Found) -> f64 {
 
 /// How a column is aligned: numbers, so that digits of the same place stand below each other.
 fn alignment(place: usize) -> Layout {
-    let is_number = (2..PLACE_OF_BAR).contains(&place) || (PLACE_OF_BAR + 1..10).contains(&place);
+    let is_number = place == PLACE_OF_BAR - 1 || (PLACE_OF_BAR + 1..9).contains(&place);
     if is_number {
         Layout::right_to_left(Align::Center)
     } else {
@@ -142,20 +146,17 @@ fn alignment(place: usize) -> Layout {
 }
 
 /// The texts of a row; none in the place of the bar.
-fn cells(rank: &Rank, row: &Row) -> [String; 10] {
-    let build = &row.setup.build;
-    let [depth, leaf_size] = if build.method.has_limits {
-        [row.measurement.depth_limit, build.n_oilf].map(|limit| limit.to_string())
-    } else {
-        [NO_VALUE, NO_VALUE].map(str::to_owned)
+fn cells(found: &Found, rank: &Rank, row: &Row) -> [String; 9] {
+    let settings = match sentence::settings(row) {
+        none if none.is_empty() => "defaults".to_owned(),
+        settings => settings,
     };
     let tests = row.tests_per_ray();
     [
         format!("{}{}", rank.rank, if rank.is_tied { "=" } else { "" }),
-        build.method.name.to_owned(),
-        depth,
-        leaf_size,
-        sentence::time(row),
+        row.setup.build.method.name.to_owned(),
+        settings,
+        sentence::time(found, row),
         String::new(),
         tests.map_or(NO_VALUE.to_owned(), |tests| Digits::Four.number(tests)),
         grouped(row.nodes() as f64),
@@ -165,17 +166,17 @@ fn cells(rank: &Rank, row: &Row) -> [String; 10] {
 }
 
 /// The median time, with a line over all rounds.
-fn bar(ui: &mut egui::Ui, row: &Row, most: f64) {
+fn bar(ui: &mut egui::Ui, found: &Found, row: &Row, most: f64) {
     let (rect, response) =
         ui.allocate_exact_size(vec2(ui.available_width(), ROW - 8.0), Sense::hover());
-    let range = sentence::range(row);
+    let range = sentence::range(found, row);
     let name = format!("Time of {}: {range}", sentence::name(row));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &name));
     let t = tokens(ui);
     let x =
         |seconds: f64| rect.left() + (seconds / most.max(f64::MIN_POSITIVE)) as f32 * rect.width();
     let painter = ui.painter().with_clip_rect(rect);
-    let spread = row.spread();
+    let spread = found.time(row);
     let bar = Rect::from_min_max(rect.min, pos2(x(spread.median), rect.bottom()));
     painter.rect_filled(
         bar.shrink2(vec2(0.0, 4.0)),

@@ -2,6 +2,7 @@
 
 use crate::gui::action::{actions, tip};
 use crate::gui::document::Document;
+use crate::gui::document::tuning::Switched;
 use crate::gui::edits::Edits;
 use crate::gui::pane::{Cx, Pane, PaneAction};
 use crate::gui::theme::{ROW, heading, hint, strong, tokens};
@@ -12,7 +13,7 @@ use crate::measure::tune::{Goal, MOST_SLOWDOWN, NAIVE_LIMIT, is_tried};
 use crate::present::number::{Digits, grouped};
 use crate::present::report::tune::left_out;
 use crate::structure::Method;
-use egui::vec2;
+use egui::{Align, Layout, vec2};
 
 #[derive(Default)]
 pub struct TunePane;
@@ -20,7 +21,7 @@ pub struct TunePane;
 impl Pane for TunePane {
     const ID: &'static str = "tune";
     const TITLE: &'static str = "Best tree";
-    const ABOUT: &'static str = "Finds the method, depth and leaf size that suit this scene best.";
+    const ABOUT: &'static str = "Finds the method and the settings that suit this scene best.";
     const ACTIONS: &'static [PaneAction<Self>] = actions! {
         "tune.find" Here NONE [Enter] "Find the best tree; Esc stops it" => |_, cx| cx.edits.add(Document::tune);
     };
@@ -36,6 +37,8 @@ impl Pane for TunePane {
             methods(ui, doc, cx.edits);
             ui.add_space(12.0);
             budget(ui, doc, cx.edits);
+            rays(ui, doc, cx.edits);
+            memory(ui, doc, cx.edits);
         });
         ui.add_space(12.0);
         if is_running {
@@ -48,25 +51,26 @@ impl Pane for TunePane {
 }
 
 fn goal(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
-    for goal in Goal::ALL {
-        let (name, about) = match goal {
-            Goal::Time => (
-                "Fastest rendering",
-                "The least median rendering time, T_TR.".into(),
-            ),
-            Goal::Memory => (
-                "Least memory",
-                format!(
-                    "The smallest tree that renders in at most {MOST_SLOWDOWN} times the time of the \
-                     fastest."
+    ui.horizontal_wrapped(|ui| {
+        for goal in Goal::ALL {
+            let (name, about) = match goal {
+                Goal::Time => (
+                    "Fastest rendering",
+                    "The least median rendering time, T_TR.".into(),
                 ),
-            ),
-        };
-        let choice = ui.radio(doc.tuning.goal == goal, name);
-        if choice.on_hover_text(about).clicked() {
-            edits.add(move |doc| doc.tuning.goal = goal);
+                Goal::Memory => (
+                    "Least memory",
+                    format!(
+                        "The smallest tree that renders in at most {MOST_SLOWDOWN} times the time of the fastest."
+                    ),
+                ),
+            };
+            let choice = ui.radio(doc.tuning.goal == goal, name);
+            if choice.on_hover_text(about).clicked() {
+                edits.add(move |doc| doc.tuning.goal = goal);
+            }
         }
-    }
+    });
 }
 
 /// A box per method by family, in two columns so that all are in view.
@@ -80,7 +84,7 @@ fn methods(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
                 ui.spacing_mut().item_spacing.x = 0.0;
                 for method in pair {
                     let fits = objects.is_none_or(|objects| is_tried(*method, objects));
-                    let left = egui::Layout::left_to_right(egui::Align::Center);
+                    let left = Layout::left_to_right(Align::Center);
                     ui.allocate_ui_with_layout(vec2(width, ROW), left, |ui| {
                         ui.set_min_size(vec2(width, ROW));
                         self::method(ui, *method, fits, doc, edits);
@@ -114,7 +118,8 @@ fn method(ui: &mut egui::Ui, method: Method, fits: bool, doc: &Document, edits: 
 
 fn budget(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
     ui.horizontal(|ui| {
-        let about = "Time for the measurements. Every method is measured at least once.";
+        let about =
+            "Time for the measurements. Every method is measured at least once with its defaults.";
         ui.label("Time limit").on_hover_text(about);
         let mut budget = doc.tuning.budget;
         let edit = egui::DragValue::new(&mut budget)
@@ -127,6 +132,64 @@ fn budget(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
     });
 }
 
+/// The number of rays, if the time of building counts.
+fn rays(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
+    let about = "Rank by the time of building the tree once and tracing this many rays like those of the picture, without \
+                 shading. Off: rank by the time of the picture.";
+    let rays = doc.tuning.rays;
+    let names = ["Build once for", "Number of rays"];
+    let rays = switched(ui, names, about, rays, |value| {
+        egui::DragValue::new(value)
+            .range(1..=1_000_000_000_000_u64)
+            .speed(10_000.0)
+            .custom_formatter(|value, _| grouped(value))
+            .custom_parser(|text| {
+                let digits = text.chars().filter(|c| !c.is_whitespace());
+                digits.collect::<String>().parse().ok()
+            })
+            .suffix(" rays")
+    });
+    if let Some(rays) = rays {
+        edits.add(move |doc| doc.tuning.rays = rays);
+    }
+}
+
+/// The most memory of a tree.
+fn memory(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
+    let about = "Leave out trees whose nodes and references need more memory, M_TREE. They are built, but not timed.";
+    let memory = doc.tuning.memory;
+    let names = ["Memory limit", "Most memory"];
+    let memory = switched(ui, names, about, memory, |value| {
+        egui::DragValue::new(value)
+            .range(0.001..=1_048_576.0)
+            .speed(0.5)
+            .max_decimals(3)
+            .suffix(" MiB")
+    });
+    if let Some(memory) = memory {
+        edits.add(move |doc| doc.tuning.memory = memory);
+    }
+}
+
+/// A number that can be switched off. Returns the new setting if it was changed.
+fn switched<T: Copy + PartialEq>(
+    ui: &mut egui::Ui,
+    [label, name]: [&str; 2],
+    about: &str,
+    before: Switched<T>,
+    edit: impl for<'a> Fn(&'a mut T) -> egui::DragValue<'a>,
+) -> Option<Switched<T>> {
+    let mut after = before;
+    ui.horizontal(|ui| {
+        ui.checkbox(&mut after.is_on, label).on_hover_text(about);
+        let edit = edit(&mut after.value);
+        ui.add_enabled(before.is_on, edit)
+            .accessible_name(name)
+            .on_hover_text(about);
+    });
+    (after != before).then_some(after)
+}
+
 fn start(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
     if doc.current.is_none() {
         no_picture(ui, doc);
@@ -137,8 +200,8 @@ fn start(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
     let button = egui::Button::new(text)
         .fill(t.accent)
         .min_size(vec2(0.0, 36.0));
-    let about = "Measure the chosen methods on a small version of your picture, then depths and leaf \
-                 sizes of the best two.";
+    let about = "Measure the chosen methods with many settings on a small version of your picture, the better \
+                 ones more and more often.";
     if ui
         .vertical_centered_justified(|ui| ui.add_enabled(doc.may_tune(), button))
         .inner
@@ -151,11 +214,27 @@ fn start(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
 }
 
 fn progress(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
-    if let Some(status) = doc.tuning.study.status() {
-        let bar = egui::ProgressBar::new(status.fraction as f32)
-            .desired_height(ROW)
-            .text(Digits::Three.percent(status.fraction));
-        ui.add(bar);
+    let status = doc.tuning.study.status();
+    ui.allocate_ui_with_layout(
+        vec2(ui.available_width(), 36.0),
+        Layout::right_to_left(Align::Center),
+        |ui| {
+            let stop = ui.button("Stop").on_hover_text(tip(
+                "Stop the search; what was measured stays.",
+                "window.cancel",
+            ));
+            if stop.clicked() {
+                edits.add(|doc| doc.tuning.study.cancel());
+            }
+            let fraction = status.as_ref().map_or(0.0, |status| status.fraction);
+            let bar = egui::ProgressBar::new(fraction as f32)
+                .desired_height(ROW)
+                .desired_width(ui.available_width())
+                .text(Digits::Three.percent(fraction));
+            ui.add(bar);
+        },
+    );
+    if let Some(status) = status {
         let stage = match status.standing {
             Standing::Running => status.stage,
             Standing::Waiting | Standing::Paused => "waiting for the picture".to_owned(),
@@ -167,13 +246,6 @@ fn progress(ui: &mut egui::Ui, doc: &Document, edits: &mut Edits) {
             ui.add(egui::Label::new(hint(stage)).wrap());
         });
         ui.ctx().request_repaint_after_secs(0.1);
-    }
-    let stop = ui.button("Stop").on_hover_text(tip(
-        "Stop the search; what was measured stays.",
-        "window.cancel",
-    ));
-    if stop.clicked() {
-        edits.add(|doc| doc.tuning.study.cancel());
     }
 }
 

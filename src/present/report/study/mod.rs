@@ -10,3 +10,4 @@ mod words;
 
 pub use content::StudyReport;
 pub use registry::STUDY_WRITERS;
+pub use words::{estimate, paragraph};

@@ -5,8 +5,6 @@ use crate::measure::study::{
     Errors, Estimate, Judged, Misfit, Outcome, Predictor, RayOrigin, over_scenes,
 };
 use crate::present::number::{Digits, counted, grouped};
-use crate::structure::BuildSettings;
-use crate::structure::split::Structure;
 use crate::trace::KernelChoice;
 
 /// The largest error of equation (1) that needs no explanation.
@@ -209,7 +207,7 @@ fn explanation(judged: &Judged, misfit: &Misfit) -> String {
     let how = if *error > 0.0 { "high" } else { "low" };
     let mut text = format!(
         " It is off most for {} with {} rays, {} too {how}.",
-        structure(build),
+        build.in_words(),
         judged.origin.name(),
         percent(error.abs())
     );
@@ -221,17 +219,6 @@ fn explanation(judged: &Judged, misfit: &Misfit) -> String {
         );
     }
     text
-}
-
-/// Returns a structure with the settings that vary.
-fn structure(build: &BuildSettings) -> String {
-    let mut words = vec![build.method.name.to_owned()];
-    if build.method.structure != Structure::Bvh && build.method.has_limits {
-        words.push(format!("D_MAX {}, N_OILF {}", build.d_max, build.n_oilf));
-    }
-    let constants = build.constants.iter();
-    words.extend(constants.map(|(name, value)| format!("{name} {value}")));
-    words.join(", ")
 }
 
 /// Returns the same for a further kernel in one sentence.

@@ -4,7 +4,8 @@ use super::content::TuneReport;
 use std::io::{Result, Write};
 
 /// Writes one line per candidate. `T_BUILD_AND_RAYS` is the time of building once and
-/// tracing the rays that were asked for, else empty. `rounds` tells how often each was timed.
+/// tracing the rays that were asked for, else empty. `rounds` tells how often each was timed. `constants` are the
+/// settings of the method that are not at their defaults, as `--set` takes them, separated by spaces.
 pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
     let tuned = &report.tuned;
     let mut csv = csv::Writer::from_writer(out);
@@ -26,6 +27,7 @@ pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
         "T_CB",
         "M_TREE",
         "T_BUILD_AND_RAYS",
+        "constants",
     ])?;
     let (recommended, _) = tuned.recommended();
     for rank in tuned.ranking() {
@@ -58,6 +60,10 @@ pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
             (tuned.search.rays).map_or(String::new(), |rays| {
                 row.spread_with_build(rays).median.to_string()
             }),
+            (build.constants.iter())
+                .map(|(name, value)| format!("{name}={value}"))
+                .collect::<Vec<_>>()
+                .join(" "),
         ])?;
     }
     csv.flush()

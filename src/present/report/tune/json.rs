@@ -3,7 +3,7 @@
 use super::content::TuneReport;
 use super::words::{command, left_out, recommendation};
 use crate::measure::parameter;
-use crate::measure::tune::{Phase, Rank, Row};
+use crate::measure::tune::{Rank, Row};
 use crate::present::report::exact::exact_value;
 use serde_json::{Map, Value, json};
 use std::io::{Result, Write};
@@ -25,6 +25,7 @@ const PARAMETERS: [&str; 9] = [
 pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
     let tuned = &report.tuned;
     let (place, recommended) = tuned.recommended();
+    let applies = recommended.setup.build.method.has_limits;
     let ranking = tuned.ranking();
     let candidates: Vec<_> = ranking
         .iter()
@@ -54,8 +55,9 @@ pub fn write(report: &TuneReport, out: &mut dyn Write) -> Result<()> {
         "candidates": candidates,
         "recommended": {
             "method": recommended.setup.build.method.name,
-            "d_max": recommended.setup.build.d_max,
-            "n_oilf": recommended.setup.build.n_oilf,
+            "d_max": applies.then_some(recommended.setup.build.d_max),
+            "n_oilf": applies.then_some(recommended.setup.build.n_oilf),
+            "constants": recommended.setup.build.constants,
             "reason": recommendation(tuned),
             "command": command(recommended),
         },
@@ -79,14 +81,12 @@ fn candidate(rank: &Rank, row: &Row, is_recommended: bool, rays: Option<u64>) ->
         "rank": rank.rank,
         "tied": rank.is_tied,
         "recommended": is_recommended,
-        "phase": match row.phase {
-            Phase::Methods => "methods",
-            Phase::Refinement => "refinement",
-        },
+        "rung": row.rung,
         "method": build.method.name,
         "d_max": applies.then_some(build.d_max),
         "depth_limit": applies.then_some(row.measurement.depth_limit),
         "n_oilf": applies.then_some(build.n_oilf),
+        "constants": build.constants,
         "seconds": row.seconds(),
         "time": {"least": spread.least, "median": spread.median, "most": spread.most},
         "build_and_rays": rays.map(|rays| {

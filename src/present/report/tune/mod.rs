@@ -9,4 +9,4 @@ mod words;
 
 pub use content::TuneReport;
 pub use registry::TUNE_WRITERS;
-pub use words::{left_out, recommendation};
+pub use words::{left_out, rays_in_words, recommendation};

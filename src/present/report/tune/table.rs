@@ -1,8 +1,8 @@
-//! The search as a table for people.
+//! The search as a table for people: the best candidate of every method, and those that were timed longest.
 
 use super::content::TuneReport;
 use super::words::{
-    command, conditions, left_out, limits, memory, rays_in_words, recommendation, time,
+    command, conditions, left_out, limits, memory, not_listed, rays_in_words, recommendation, time,
 };
 use crate::measure::tune::{Rank, Row};
 use crate::present::number::{Digits, NO_VALUE, grouped};
@@ -25,7 +25,7 @@ const TITLES: [&str; 10] = [
 
 fn grid(report: &TuneReport) -> Grid {
     let tuned = &report.tuned;
-    let ranking = tuned.ranking();
+    let ranking = tuned.short_ranking();
     let rays = tuned.search.rays;
     let mut header = TITLES.map(String::from).to_vec();
     header.extend(rays.map(|rays| format!("build and {}", rays_in_words(rays))));
@@ -43,6 +43,14 @@ fn grid(report: &TuneReport) -> Grid {
     }
 }
 
+/// Returns the method with the constants that are not at their defaults.
+fn method(row: &Row) -> String {
+    let build = &row.setup.build;
+    let constants = build.constants.iter();
+    let constants = constants.map(|(name, value)| format!(", {name} {value}"));
+    format!("{}{}", build.method.name, constants.collect::<String>())
+}
+
 fn cells(rank: &Rank, row: &Row) -> Vec<String> {
     let [depth, leaf_size] = limits(row);
     let spread = row.spread();
@@ -53,7 +61,7 @@ fn cells(rank: &Rank, row: &Row) -> Vec<String> {
     let tie = if rank.is_tied { "=" } else { "" };
     vec![
         format!("{}{tie}", rank.rank),
-        row.setup.build.method.name.into(),
+        method(row),
         depth,
         leaf_size,
         time(spread.median),
@@ -70,6 +78,7 @@ fn cells(rank: &Rank, row: &Row) -> Vec<String> {
 fn conclusion(report: &TuneReport) -> Vec<String> {
     let tuned = &report.tuned;
     let mut lines = left_out(tuned);
+    lines.extend(not_listed(tuned));
     lines.push(recommendation(tuned));
     lines
 }

@@ -1,9 +1,7 @@
 //! The sentences of a search for the best tree.
 
 use crate::measure::BreakEven;
-use crate::measure::tune::{
-    Goal, LeftOut, MOST_SLOWDOWN, NAIVE_LIMIT, Phase, ROUNDS, Row, Spread, Tuned,
-};
+use crate::measure::tune::{Goal, LeftOut, MOST_SLOWDOWN, NAIVE_LIMIT, Row, Spread, Tuned};
 use crate::present::number::{Digits, NO_VALUE, counted, grouped};
 use crate::setup::measure_command;
 
@@ -27,24 +25,14 @@ pub fn limits(row: &Row) -> [String; 2] {
     }
 }
 
-/// Returns a method with its depth and leaf size, such as `sah, D_MAX 16, N_OILF 2`.
-fn candidate(row: &Row) -> String {
-    let [depth, leaf_size] = limits(row);
-    let method = row.setup.build.method;
-    if method.has_limits {
-        format!("{}, D_MAX {depth}, N_OILF {leaf_size}", method.name)
-    } else {
-        method.name.into()
-    }
-}
-
 /// Returns the conditions under which all candidates were measured.
 pub fn conditions(scene: &str, tuned: &Tuned) -> String {
     let render = &tuned.render;
     let threads = tuned.rows[0].measurement.building.threads;
     format!(
         "Scene {scene}. All candidates: {} × {} pixels, D_AREC {}, {}, kernel {}, {}. Times are CPU \
-         times, the median of interleaved rounds. Candidates whose ranges overlap share a rank.",
+         times, the median of interleaved rounds. Candidates whose ranges overlap share a rank; slow ones were timed less \
+         often and rank behind.",
         render.width,
         render.height,
         render.d_arec,
@@ -61,7 +49,7 @@ pub fn recommendation(tuned: &Tuned) -> String {
     let mut text = format!(
         "Best for {}: {}. The picture takes {}",
         tuned.search.goal.name(),
-        candidate(row),
+        row.setup.build.in_words(),
         time(spread.median)
     );
     if row.rounds() > 1 {
@@ -129,7 +117,7 @@ fn break_even(tuned: &Tuned, place: usize) -> String {
         None => String::new(),
         Some(rays) => format!(
             " Compared with {}, which is built fastest, it pays off after {} (N_BE).",
-            candidate(first),
+            first.setup.build.in_words(),
             rays_in_words(rays.ceil() as u64)
         ),
     }
@@ -155,29 +143,25 @@ pub fn left_out(tuned: &Tuned) -> Vec<String> {
                 grouped(NAIVE_LIMIT as f64)
             )),
             LeftOut::Refused { setup, why } => {
-                let build = &setup.build;
-                lines.push(format!(
-                    "Method {} with D_MAX {} and N_OILF {} was left out: {why}.",
-                    build.method.name, build.d_max, build.n_oilf
-                ));
+                let settings = setup.build.in_words();
+                lines.push(format!("The tree of {settings} was left out: {why}."));
             }
             LeftOut::SameTree { .. } => same += 1,
             LeftOut::Memory { .. } => too_large += 1,
-            LeftOut::Rounds { phase, whole } => {
-                let of = match phase {
-                    Phase::Methods => "all methods",
-                    Phase::Refinement => "depths and leaf sizes",
-                };
-                let round = whole + 1;
-                lines.push(format!(
-                    "The {budget} was spent before the end of round {round} of {ROUNDS} of {of}."
-                ));
-            }
             LeftOut::Untried { settings } => {
                 let verb = if *settings == 1 { "was" } else { "were" };
                 lines.push(format!(
-                    "{} of depth and leaf size {verb} not tried: the {budget} was spent.",
+                    "{} of settings {verb} not tried: their part of the {budget} was spent.",
                     counted(*settings, "combination")
+                ));
+            }
+            LeftOut::Unfinished { candidates, rounds } => {
+                let each = if *candidates == 1 { "it" } else { "each of them" };
+                let verb = if *candidates == 1 { "was" } else { "were" };
+                let times = counted(*rounds, "time");
+                lines.push(format!(
+                    "The {budget} was spent when {} {verb} left; {each} was timed at least {times}.",
+                    counted(*candidates, "candidate")
                 ));
             }
         }
@@ -198,9 +182,21 @@ pub fn left_out(tuned: &Tuned) -> Vec<String> {
             ("build", "They are")
         };
         lines.push(format!(
-            "{} of depth and leaf size {verb} the same tree as another one. {article} not listed.",
+            "{} of settings {verb} the same tree as another one. {article} not listed.",
             counted(same, "combination")
         ));
     }
     lines
+}
+
+/// Says how many candidates a short list does not have; `None` if it has all.
+pub fn not_listed(tuned: &Tuned) -> Option<String> {
+    let others = tuned.rows.len() - tuned.short_ranking().len();
+    (others > 0).then(|| {
+        let verb = if others == 1 { "was" } else { "were" };
+        format!(
+            "{} {verb} dropped earlier; JSON and CSV reports list them.",
+            counted(others, "candidate")
+        )
+    })
 }
