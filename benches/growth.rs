@@ -16,6 +16,7 @@ use bspscope::primitive::Precision;
 use bspscope::progress::Progress;
 use bspscope::scene::Scene;
 use bspscope::scene::builtin::generate;
+use bspscope::structure::split::Structure;
 use bspscope::structure::{BuildSettings, MaxDepth, Method, Tree, build};
 use clap::Parser;
 use cpu_time::ProcessTime;
@@ -32,7 +33,7 @@ struct Options {
     )]
     sizes: Vec<usize>,
     /// Build methods
-    #[arg(long, value_delimiter = ',', default_value = "sah")]
+    #[arg(long, value_delimiter = ',', default_value = "sah,bvh-binned")]
     methods: Vec<String>,
     /// Numbers of threads to build with
     #[arg(long, value_delimiter = ',', default_value = "1,2")]
@@ -106,11 +107,17 @@ fn measure(scene: &Scene, options: &Options) {
                 Some(_) => MaxDepth::Automatic,
                 None => MaxDepth::Fixed(MaxDepth::LIMIT),
             };
-            BuildSettings {
+            let mut settings = BuildSettings {
                 d_max,
                 memory_limit: 16 << 30,
                 ..BuildSettings::for_method(method)
+            };
+            // As the SIMD kernel for hierarchies is measured.
+            if method.structure == Structure::Bvh {
+                let eight = ["width", "block"].map(|name| (name.to_owned(), 8.0));
+                settings.constants.extend(eight);
             }
+            settings
         })
         .collect();
     for &threads in &options.threads {
