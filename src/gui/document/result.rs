@@ -41,6 +41,11 @@ pub struct OnView {
 }
 
 impl Current {
+    /// Whether the picture is finished, of a scene with objects: what most studies need.
+    pub fn is_of_objects(&self) -> bool {
+        self.done && !self.shown.scene.objects().is_empty()
+    }
+
     /// A new picture in the place of the one before: what was picked and selected stays so where
     /// it means the same.
     pub fn new(number: u64, shown: Shown, before: Option<&Current>) -> Self {

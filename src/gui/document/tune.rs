@@ -12,14 +12,13 @@ use std::time::Duration;
 impl Document {
     /// Whether a search can start: in a finished picture of a scene with objects, with a method.
     pub fn may_tune(&self) -> bool {
-        let Some(current) = self.current.as_ref().filter(|current| current.done) else {
+        let current = self.current.as_ref();
+        let Some(current) = current.filter(|current| current.is_of_objects()) else {
             return false;
         };
         let objects = current.shown.scene.objects().len();
         let mut methods = self.tuning.methods.iter();
-        objects > 0
-            && methods.any(|method| is_tried(*method, objects))
-            && !self.tuning.study.is_running()
+        methods.any(|method| is_tried(*method, objects)) && !self.tuning.study.is_running()
     }
 
     /// Starts a search in the scene and picture on view, in place of the last one.

@@ -15,6 +15,7 @@ pub mod scale_bar;
 pub mod setting_widget;
 pub mod sparkline;
 pub mod step_text;
+pub mod study_bar;
 pub mod symbol;
 pub mod transport;
 pub mod tree_rows;

@@ -52,7 +52,8 @@ pub enum Turn {
 }
 
 /// A search that runs turn by turn. A turn times one candidate once; in its first, the candidate is
-/// also built. The defaults of a method are counted in their first turn, others in their second. A cancelled turn can be run again, and continues after what was complete.
+/// also built. The defaults of a method are counted in their first turn, others in their second. A cancelled turn can be
+/// run again, and continues after what was complete.
 pub struct Tuning<'a> {
     scene: &'a Scene,
     search: Search,

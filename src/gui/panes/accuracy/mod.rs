@@ -12,9 +12,9 @@ use crate::gui::document::Document;
 use crate::gui::edits::Edits;
 use crate::gui::pane::{Cx, Pane, PaneAction};
 use crate::gui::widgets::common::{busy, no_picture};
-use crate::jobs::{End, Standing};
+use crate::gui::widgets::study_bar;
 use crate::measure::accuracy::ERROR_MEASURES;
-use crate::present::number::{Digits, counted, significant};
+use crate::present::number::{counted, significant};
 use egui::vec2;
 use study::{Found, Trading};
 
@@ -138,24 +138,12 @@ impl AccuracyPane {
     }
 
     fn toolbar(&mut self, ui: &mut egui::Ui, doc: &Document) {
-        if let Some(status) = self.trading.study.status() {
-            if ui
-                .button("Cancel")
-                .on_hover_text(tip(
-                    "Cancel the measurement; what was measured stays.",
-                    "window.cancel",
-                ))
-                .clicked()
-            {
-                self.trading.study.cancel();
-            }
-            ui.label(Digits::Three.percent(status.fraction));
-            ui.weak(match status.standing {
-                Standing::Running => "measuring…",
-                Standing::Waiting | Standing::Paused => "waiting for the picture",
-            });
-            ui.ctx().request_repaint_after_secs(0.2);
-        } else {
+        let words = [
+            "Cancel",
+            "Cancel the measurement; what was measured stays.",
+            "waiting for the picture",
+        ];
+        if !study_bar::running(ui, &mut self.trading.study, words) {
             let run = egui::Button::new("Measure speed and error");
             let run = ui.add_enabled(self.trading.may_start(doc), run);
             let about = "Render the scene on view with every setting that gives up accuracy for speed, \
@@ -188,15 +176,8 @@ impl AccuracyPane {
                     .accessible_name(name)
                     .on_hover_text(about);
             }
-            match self.trading.study.end() {
-                Some(End::Cancelled) => {
-                    ui.label("cancelled: what was measured stays");
-                }
-                Some(End::Failed(why)) => {
-                    ui.label(format!("failed: {why}"));
-                }
-                Some(End::Done(()) | End::Replaced) | None => {}
-            }
+            let cancelled = "cancelled: what was measured stays";
+            study_bar::ended(ui, &self.trading.study, cancelled);
         }
         egui::ComboBox::from_id_salt("error measure")
             .selected_text(format!("Error: {}", ERROR_MEASURES[self.error].name))

@@ -9,7 +9,7 @@ use crate::gui::document::Document;
 use crate::gui::pane::{Cx, Pane, PaneAction};
 use crate::gui::theme::hint;
 use crate::gui::widgets::common::{busy, no_picture};
-use crate::jobs::{End, Standing};
+use crate::gui::widgets::study_bar;
 use crate::measure::study::{Judged, KERNELS, Outcome, RayOrigin};
 use crate::present::number::{Digits, counted, grouped};
 use crate::present::report::study::paragraph;
@@ -76,18 +76,12 @@ impl Pane for MeasuresPane {
 
 impl MeasuresPane {
     fn toolbar(&mut self, ui: &mut egui::Ui, doc: &Document) {
-        if let Some(status) = self.studying.study.status() {
-            let cancel = ui.button("Cancel study");
-            let about = "Cancel the study; it has no result before its end.";
-            if cancel.on_hover_text(tip(about, "window.cancel")).clicked() {
-                self.studying.study.cancel();
-            }
-            ui.label(Digits::Three.percent(status.fraction));
-            ui.weak(match status.standing {
-                Standing::Running => "measuring…",
-                Standing::Waiting | Standing::Paused => "waiting for the picture",
-            });
-            ui.ctx().request_repaint_after_secs(0.2);
+        let words = [
+            "Cancel study",
+            "Cancel the study; it has no result before its end.",
+            "waiting for the picture",
+        ];
+        if study_bar::running(ui, &mut self.studying.study, words) {
             return;
         }
         let run = egui::Button::new("Study measures");
@@ -122,15 +116,7 @@ impl MeasuresPane {
                 .accessible_name(name)
                 .on_hover_text(about);
         }
-        match self.studying.study.end() {
-            Some(End::Cancelled) => {
-                ui.label("cancelled");
-            }
-            Some(End::Failed(why)) => {
-                ui.label(format!("failed: {why}"));
-            }
-            Some(End::Done(()) | End::Replaced) | None => {}
-        }
+        study_bar::ended(ui, &self.studying.study, "cancelled");
     }
 
     /// What is shown of the outcome.

@@ -42,9 +42,7 @@ impl Studying {
 
     /// Whether a study can be started: of a finished picture of a scene that has objects.
     pub fn may_start(&self, doc: &Document) -> bool {
-        let is_ready =
-            |current: &Current| current.done && !current.shown.scene.objects().is_empty();
-        !self.study.is_running() && doc.current.as_ref().is_some_and(is_ready)
+        !self.study.is_running() && doc.current.as_ref().is_some_and(Current::is_of_objects)
     }
 
     /// Starts the study of the scene on view, in place of the last one.

@@ -9,8 +9,9 @@ use crate::gui::document::picture_job::{PictureJob, Progress};
 use crate::gui::document::{Current, Document};
 use crate::gui::pane::{Cx, Fact, Pane, PaneAction};
 use crate::gui::widgets::common::no_picture;
+use crate::gui::widgets::study_bar;
 use crate::gui::widgets::symbol::grouped;
-use crate::jobs::{CountTerms, End, Scheduler, Standing};
+use crate::jobs::{CountTerms, Scheduler};
 use crate::measure::heat::PIXEL_COUNTS_LIMIT;
 use crate::measure::model::{Part, PictureTerms, Region, TermTimes};
 use crate::present::number::Digits;
@@ -155,19 +156,12 @@ impl Pane for TimePane {
 
 impl TimePane {
     fn toolbar(&mut self, ui: &mut egui::Ui, doc: &Document) {
-        if let Some(status) = self.modelling.study.status() {
-            let cancel = ui.button("Cancel timing");
-            let about = "Cancel the measurement; what was measured stays.";
-            if cancel.on_hover_text(tip(about, "window.cancel")).clicked() {
-                self.modelling.study.cancel();
-            }
-            ui.label(Digits::Three.percent(status.fraction));
-            ui.weak(match status.standing {
-                Standing::Running => "measuring…",
-                Standing::Waiting | Standing::Paused => "waiting",
-            });
-            ui.ctx().request_repaint_after_secs(0.2);
-        } else {
+        let words = [
+            "Cancel timing",
+            "Cancel the measurement; what was measured stays.",
+            "waiting",
+        ];
+        if !study_bar::running(ui, &mut self.modelling.study, words) {
             let measure = ui.add_enabled(
                 self.modelling.may_start(doc),
                 egui::Button::new("Measure times"),
@@ -181,15 +175,8 @@ impl TimePane {
             {
                 self.modelling.start(doc);
             }
-            match self.modelling.study.end() {
-                Some(End::Cancelled) => {
-                    ui.label("cancelled: what was measured stays");
-                }
-                Some(End::Failed(why)) => {
-                    ui.label(format!("failed: {why}"));
-                }
-                Some(End::Done(()) | End::Replaced) | None => {}
-            }
+            let cancelled = "cancelled: what was measured stays";
+            study_bar::ended(ui, &self.modelling.study, cancelled);
         }
         ui.separator();
         for extent in Extent::ALL {

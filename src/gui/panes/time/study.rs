@@ -78,9 +78,7 @@ impl Modelling {
 impl Modelling {
     /// Whether the times can be measured: of a finished picture of a scene that has objects.
     pub fn may_start(&self, doc: &Document) -> bool {
-        let is_ready =
-            |current: &Current| current.done && !current.shown.scene.objects().is_empty();
-        !self.study.is_running() && doc.current.as_ref().is_some_and(is_ready)
+        !self.study.is_running() && doc.current.as_ref().is_some_and(Current::is_of_objects)
     }
 
     /// Measures the times of the scene on view, in place of those before.
